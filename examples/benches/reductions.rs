@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use branched_pendulum::Transverse;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneOde, TransverseOde};
-use branched_pendulum_examples::solvers::scenes::Ideal;
+use branched_pendulum_examples::scenes::BranchedDouble;
 
 /// 2²⁰ − 1 rods in phase.
 #[branched_pendulum(
@@ -126,7 +126,7 @@ impl Setting {
                 let system = TransverseOde::new(InPhase::new(), 0).expect("one pair of copies");
                 self.ends(&system, &starts)
             }
-            Some(_) => self.ends(&AbsoluteAngles(Ideal::new()), &starts),
+            Some(_) => self.ends(&AbsoluteAngles(BranchedDouble::new()), &starts),
         };
         let growth = |(start, end): (&State<f64>, &Option<State<f64>>)| match end {
             Some(end) => 0.5 * (energy(end) / energy(start)).ln(),

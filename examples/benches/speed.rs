@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use branched_pendulum::batch::Batch;
 use branched_pendulum::prelude::*;
 use branched_pendulum_examples::integration_speed::ensemble::{ORDER, near_threshold};
-use branched_pendulum_examples::solvers::scenes::{Ideal, Rods, ThirtyOneRods};
+use branched_pendulum_examples::scenes::{BranchedDouble, Rods, ThirtyOneRods};
 
 /// Rounds of turns.
 const ROUNDS: usize = 40;
@@ -69,18 +69,28 @@ fn main() {
     let from = start.clone();
     let dop853 = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
-        let _ = black_box(method.integrate(&AbsoluteAngles(&Ideal::new()), &from, 10.0, run_on));
+        let _ = black_box(method.integrate(
+            &AbsoluteAngles(&BranchedDouble::new()),
+            &from,
+            10.0,
+            run_on,
+        ));
     };
     let taylor = move || {
         let method = Taylor::new(Options::with_tolerance(1e-9)).with_order(ORDER);
-        let _ = black_box(method.integrate(&AbsoluteAngles(&Ideal::new()), &start, 10.0, run_on));
+        let _ = black_box(method.integrate(
+            &AbsoluteAngles(&BranchedDouble::new()),
+            &start,
+            10.0,
+            run_on,
+        ));
     };
     let lanes = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
         let ensemble = Ensemble::new().threads(std::num::NonZeroUsize::MIN);
         black_box(ensemble.integrate_in_lanes(
             &method,
-            &AbsoluteAngles(Ideal::new()),
+            &AbsoluteAngles(BranchedDouble::new()),
             &starts,
             10.0,
         ));
@@ -93,11 +103,11 @@ fn main() {
     });
     let mut alpha: [Vec<f64>; 3] = std::array::from_fn(|_| vec![0.0; STATES]);
     let batch = move || {
-        let model = Ideal::new();
+        let model = BranchedDouble::new();
         let _ = black_box(Batch::new(&model).accelerations(0.0, &angles, &angles, &mut alpha));
     };
     let mut cases = [
-        one_by_one::<3>("accelerations, paper", Ideal::new()),
+        one_by_one::<3>("accelerations, paper", BranchedDouble::new()),
         one_by_one::<7>("accelerations, 7 rods", Rods::new()),
         one_by_one::<31>("accelerations, 31 rods", ThirtyOneRods::new()),
         case(

@@ -1,6 +1,5 @@
 //! Types that emitted functions return.
 
-use core::fmt;
 use core::ops::Add;
 
 /// Energy transfer W into one mode, in watts, by the part of the rest of the
@@ -22,7 +21,8 @@ impl<T: Add<Output = T>> Transfer<T> {
 }
 
 /// A parameter that no pendulum can have.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{what} is {value}, must be {requirement}")]
 #[non_exhaustive]
 pub struct ParameterError {
     /// The quantity, as in "mass of `child`".
@@ -32,16 +32,3 @@ pub struct ParameterError {
     /// The condition on it, as in "positive".
     pub requirement: &'static str,
 }
-
-impl fmt::Display for ParameterError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            what,
-            value,
-            requirement,
-        } = self;
-        write!(f, "{what} is {value}, must be {requirement}")
-    }
-}
-
-impl core::error::Error for ParameterError {}

@@ -25,8 +25,9 @@ pub(crate) struct Arguments {
     /// shows a stage in place of code
     #[arg(long)]
     pub(crate) stage: Option<Stage>,
-    /// writes the functions in another language in place of Rust, or the formulas
-    #[arg(long, value_name = "LANGUAGE", conflicts_with = "stage")]
+    /// writes something else in place of the model: functions in another language, the
+    /// formulas, a part of the code
+    #[arg(long, value_name = "OUTPUT", conflicts_with = "stage")]
     pub(crate) emit: Option<Output>,
     /// leaves out a pass over programs, to compare
     #[arg(long, value_name = "PASS", value_parser = pass())]
@@ -48,7 +49,7 @@ pub(crate) enum Stage {
     Passes,
 }
 
-/// A language beside Rust.
+/// Output beside the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Output {
     /// C99
@@ -59,6 +60,8 @@ pub(crate) enum Output {
     Julia,
     /// the formulas, as a LaTeX document
     Latex,
+    /// the equations of one link alone, in Rust, where the code is loops
+    Equations,
 }
 
 fn pass() -> impl TypedValueParser<Value = Pass> {

@@ -13,6 +13,7 @@ use branched_pendulum_codegen::{
     Language, Stages, emit, layout, program, stages_without, translate,
 };
 use clap::Parser;
+use proc_macro2::TokenStream;
 use source::{Finder, replace};
 use std::io::{self, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
@@ -50,19 +51,39 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
         let stages = stages.map_err(|(report, _)| {
             diagnostics::all(&path, &source, &found.range, &report, is_styled())
         })?;
+        let Stages {
+            description,
+            scene,
+            mechanics,
+            program,
+            tokens,
+        } = &stages;
+        let item = &description.item;
+        let refuse = |title: &str, code: &str| {
+            error(found.range.clone(), title) + "\nhelp: write `code = " + code + "`"
+        };
+        let written_in = |language: Language| {
+            let title = "loops have no functions in other languages";
+            translate(language, scene, program).ok_or_else(|| refuse(title, "unrolled"))
+        };
         match (arguments.stage, arguments.emit) {
-            (Some(stage), _) => shown.push_str(&show(&stages, stage)),
-            (None, Some(output)) => {
-                let written = translated(&stages, output);
-                shown.push_str(&written.ok_or_else(|| {
-                    let title = "loops have no functions in other languages";
-                    error(found.range, title) + "\nhelp: write `code = unrolled`"
-                })?);
+            (Some(stage), _) => shown += &show(&stages, stage),
+            (None, Some(Output::C)) => shown += &written_in(Language::C)?,
+            (None, Some(Output::Numpy)) => shown += &written_in(Language::Numpy)?,
+            (None, Some(Output::Julia)) => shown += &written_in(Language::Julia)?,
+            (None, Some(Output::Latex)) => {
+                shown += &emit::latex_document(item, scene, mechanics, program);
             }
-            (None, None) => replacements.push((found.range, format_tokens(&stages)?)),
+            (None, Some(Output::Equations)) => {
+                let title = "code that is written out has no equations of one link";
+                let equations = emit::link_equations(item, scene, mechanics, program);
+                let equations = equations.ok_or_else(|| refuse(title, "loops"))?;
+                replacements.push((found.range, format_tokens(equations)?));
+            }
+            (None, None) => replacements.push((found.range, format_tokens(tokens.clone())?)),
         }
     }
-    if arguments.stage.is_none() && arguments.emit.is_none() {
+    if arguments.stage.is_none() && matches!(arguments.emit, None | Some(Output::Equations)) {
         shown = replace(&source, replacements, &arguments.source);
     }
     deliver(arguments, &shown)
@@ -132,29 +153,8 @@ fn show(stages: &Stages, stage: Stage) -> String {
     }
 }
 
-/// The functions in another language; `None` where they are loops.
-fn translated(stages: &Stages, output: Output) -> Option<String> {
-    let Stages {
-        description,
-        scene,
-        mechanics,
-        program,
-        ..
-    } = stages;
-    let language = match output {
-        Output::C => Language::C,
-        Output::Numpy => Language::Numpy,
-        Output::Julia => Language::Julia,
-        Output::Latex => {
-            let item = &description.item;
-            return Some(emit::latex_document(item, scene, mechanics, program));
-        }
-    };
-    translate(language, scene, program)
-}
-
-fn format_tokens(stages: &Stages) -> Result<String, String> {
-    layout(stages.tokens.clone())
+fn format_tokens(tokens: TokenStream) -> Result<String, String> {
+    layout(tokens)
         .map(|text| text.trim_end().to_owned())
         .map_err(|error| {
             format!("error: the emitted code is no Rust (a bug of this tool): {error}")

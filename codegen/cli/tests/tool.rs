@@ -29,15 +29,20 @@ fn temporary(name: &str, contents: &str) -> PathBuf {
 
 #[test]
 fn committed_expansions_are_fresh() {
-    let trees = fixture("../../runtime/trees");
-    let equations = ["general.rs", "rough.rs", "straight.rs"].map(|name| {
-        let expanded = trees.join("src/equations").join(name);
-        (expanded, trees.join("equations").join(name))
-    });
-    let paper = (fixture("expanded/paper.rs"), fixture("scenes/paper.rs"));
-    for (expanded, source) in equations.into_iter().chain([paper]) {
-        let output = expand(&["--check".as_ref(), expanded.as_ref(), source.as_ref()]);
+    let check = |[expanded, source]: [PathBuf; 2], more: &[&std::ffi::OsStr]| {
+        let all: [&std::ffi::OsStr; 3] = ["--check".as_ref(), expanded.as_ref(), source.as_ref()];
+        let output = expand(&[&all, more].concat());
         assert!(output.status.success(), "{}", text(&output.stderr));
+    };
+    check(
+        [fixture("expanded/paper.rs"), fixture("scenes/paper.rs")],
+        &[],
+    );
+    let trees = fixture("../../runtime/trees");
+    for name in ["general.rs", "rough.rs", "straight.rs"] {
+        let folders = ["src/equations", "equations"];
+        let equations = folders.map(|folder| trees.join(folder).join(name));
+        check(equations, &["--emit".as_ref(), "equations".as_ref()]);
     }
 }
 
@@ -205,9 +210,15 @@ fn functions_are_written_in_other_languages() {
             "{language}"
         );
     }
-    let loops = emit("c", "scenes/driven_loops.rs");
-    assert_eq!(loops.status.code(), Some(1));
-    assert!(text(&loops.stderr).contains("help: write `code = unrolled`"));
+    for (output, scene, code) in [
+        ("c", "scenes/driven_loops.rs", "unrolled"),
+        ("equations", "scenes/simple.rs", "loops"),
+    ] {
+        let refused = emit(output, scene);
+        assert_eq!(refused.status.code(), Some(1));
+        let help = format!("help: write `code = {code}`");
+        assert!(text(&refused.stderr).contains(&help));
+    }
 }
 
 #[test]

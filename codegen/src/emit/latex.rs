@@ -2,12 +2,23 @@
 
 use super::Emission;
 use crate::description::StructItem;
+use crate::mechanics::expression::Expr;
 use crate::mechanics::{Mechanics, latex};
 use crate::program::Program;
 use crate::scene::Scene;
 
 /// Terms of a sum on one line.
 const TERMS_A_LINE: usize = 4;
+
+/// Letters in the equations of one link.
+const LETTERS: &str = "\
+Link $i$ has mass $m$, moment of inertia $I$ about its centre of mass $(d, e)$, and the torque
+$Q$ on it. Subtrees on its pivot $(\\ell, w)$ answer the acceleration $a$ of that pivot with the
+force $\\sigma a + \\gamma - N a$; the mass $\\sigma$ is that of subtrees of one link. $J$ is the moment
+of inertia that the joint feels, $b$ the first moment, $\\kappa$ the bias torque, $f$ the force
+with the joint held. Primed are $N$ and $\\gamma$ of the subtree that the link carries, and the
+acceleration of its children's pivot.
+";
 
 /// Writes the constants and the formulas of each function as a LaTeX document.
 pub fn latex_document(
@@ -23,34 +34,41 @@ pub fn latex_document(
         program,
     };
     let symbols = &mechanics.symbols;
+    let line = |left: &str, right: &Expr| aligned(left, &latex(right, symbols));
     let constants = mechanics.constants.iter();
-    let constants: Vec<String> = constants
-        .map(|constant| {
-            let left = &symbols.get(constant.symbol).latex;
-            aligned(left, &latex(&constant.value, symbols))
-        })
-        .collect();
-    let mut sections = vec![("constants".to_owned(), constants)];
-    for entry in &program.entries {
-        let formulas = emission.formulas(entry.purpose).into_iter();
-        let lines =
-            formulas.map(|formula| aligned(&formula.left_latex, &latex(&formula.right, symbols)));
-        sections.push((entry.name.clone(), lines.collect()));
-    }
+    let constants = constants.map(|constant| {
+        let left = &symbols.get(constant.symbol).latex;
+        line(left, &constant.value)
+    });
     let mut document = format!(
         "\\documentclass{{article}}\n\\usepackage{{amsmath}}\n\\allowdisplaybreaks\n\
          \\begin{{document}}\n\\section*{{{}}}\n",
         escaped(&scene.name)
     );
-    for (name, lines) in sections.iter().filter(|(_, lines)| !lines.is_empty()) {
-        let name = escaped(&name.replace('_', " "));
-        let lines = lines.join(" \\\\\n");
-        document.push_str(&format!(
-            "\n\\subsection*{{{name}}}\n\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
-        ));
+    document += &section("constants", "", constants.collect());
+    if let Some(link) = &mechanics.link {
+        let formulas = link.formulas(symbols).into_iter();
+        let lines = formulas.map(|formula| line(&formula.left_latex, &formula.right));
+        document += &section("equations of one link", LETTERS, lines.collect());
+    }
+    for entry in &program.entries {
+        let formulas = emission.formulas(entry.purpose).into_iter();
+        let lines = formulas.map(|formula| line(&formula.left_latex, &formula.right));
+        document += &section(&entry.name, "", lines.collect());
     }
     document.push_str("\n\\end{document}\n");
     document
+}
+
+/// A section, empty without equations.
+fn section(name: &str, introduction: &str, lines: Vec<String>) -> String {
+    if lines.is_empty() {
+        return String::new();
+    }
+    let (name, lines) = (escaped(&name.replace('_', " ")), lines.join(" \\\\\n"));
+    format!(
+        "\n\\subsection*{{{name}}}\n{introduction}\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
+    )
 }
 
 /// An equation, broken before terms of its sum where there are many.

@@ -112,6 +112,24 @@ pub fn emit(
     }
 }
 
+/// Returns the equations of one link alone, for trees that other code holds; `None` where
+/// the code is no loop.
+pub fn link_equations(
+    item: &StructItem,
+    scene: &Scene,
+    mechanics: &Mechanics,
+    program: &Program,
+) -> Option<TokenStream> {
+    let emission = Emission {
+        item,
+        scene,
+        mechanics,
+        program,
+    };
+    let strips = program.strips.as_ref()?;
+    Some(emission.link_equations(strips))
+}
+
 impl Emission<'_> {
     /// The path of the runtime crate.
     fn runtime(&self) -> TokenStream {

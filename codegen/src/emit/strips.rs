@@ -66,7 +66,7 @@ impl Emission<'_> {
     }
 
     /// The equations of one link: a type without values, and its trait.
-    fn link_equations(&self, strips: &LoopTree) -> TokenStream {
+    pub(super) fn link_equations(&self, strips: &LoopTree) -> TokenStream {
         let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
         let docs = doc_lines(&self.equations_docs());
         let length = |argument| Literal::usize_unsuffixed(strips.length(argument));

@@ -4,7 +4,6 @@ use branched_pendulum::analysis::advice::TimeLimit;
 use clap::Parser;
 
 use super::asked::{OutputName, Question, SceneName};
-use crate::program::Results;
 use crate::program::command_line::number;
 
 /// Which model, method, tolerance or step and scalar is the cheapest that is right, on
@@ -46,14 +45,11 @@ pub struct Arguments {
     #[arg(long, value_name = "LIMIT", value_parser = read_limit)]
     pub limit: Option<Limit>,
     /// draws accuracy against cost of three scenes instead; needs --output
-    #[arg(long)]
+    #[arg(long, requires = "output")]
     pub chart: bool,
     /// asks twelve questions instead, and measures what else might be cheaper
     #[arg(long, conflicts_with = "chart")]
     pub audit: bool,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Outputs with their tolerances.
@@ -81,14 +77,7 @@ impl Arguments {
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
 
-    fn results(&self) -> &Results {
-        &self.results
-    }
-
     fn check(&self) -> Result<(), String> {
-        if self.chart && self.results.output.is_none() {
-            return Err("`--chart` needs a folder: `--output FOLDER`".to_owned());
-        }
         let of_paper = |(output, _): &(OutputName, f64)| *output == OutputName::Transfer;
         if self.scene != SceneName::Paper && self.right.0.iter().any(of_paper) {
             return Err("`transfer` is an output of `--scene paper` alone".to_owned());
@@ -149,7 +138,7 @@ mod tests {
             ),
             ("--right angles:0", "must be from"),
             ("--limit 5", "must be `step:` or `sample:`"),
-            ("--chart", "needs a folder"),
+            ("--chart", "not provided:\n  --output <FOLDER>"),
             (
                 "--scene branch --right transfer:1e-3",
                 "of `--scene paper` alone",

@@ -8,10 +8,10 @@ use branched_pendulum::prelude::*;
 use clap::ValueEnum;
 
 use super::scenes::{
-    Branch, BranchInPhase, BranchLoops, Cascade, CascadeInPhase, CascadeWrittenOut, Paper,
-    PaperInPhase,
+    Branch, BranchInPhase, BranchLoops, Cascade, CascadeInPhase, CascadeWrittenOut, PaperInPhase,
 };
 use crate::failure::Failure;
+use crate::scenes::BranchedDouble;
 
 /// A scene by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -141,7 +141,7 @@ fn paper<R>(
     question: &Question,
     ask: impl FnOnce(&Advisor<'_>, &Candidates<'_>) -> Result<R, AdviceError>,
 ) -> Result<R, AdviceError> {
-    let (model, chain) = (Paper::new(), PaperInPhase::new());
+    let (model, chain) = (BranchedDouble::new(), PaperInPhase::new());
     let ode = AbsoluteAngles(&model);
     let release = |more: f64| vec![47.8_f64.to_radians() + more, 1e-3, -1e-3];
     let mut advisor = asked(Advisor::new(&ode), question, &model, release)

@@ -94,7 +94,7 @@ fn table(surveyed: &Surveyed) -> String {
             }
             None => "nothing".to_owned(),
         };
-        text.push_str(&format!("  {tolerance:>6e} rad  {line}\n"));
+        text += &format!("  {tolerance:>6e} rad  {line}\n");
     }
     text + "\n"
 }

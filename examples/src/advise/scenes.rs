@@ -3,17 +3,6 @@
 
 use branched_pendulum::branched_pendulum;
 
-/// The paper's apparatus. Its numbers are those of
-/// [`branched_double::scenes`](crate::branched_double::scenes).
-#[branched_pendulum(
-    gravity = 9.80665,
-    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-    ],
-    emit(energies, symmetric, taylor, positions, transfer(exact)),
-)]
-pub struct Paper;
-
 /// The paper's apparatus, its children in phase.
 #[branched_pendulum(
     gravity = 9.80665,
@@ -72,15 +61,10 @@ branch! {
     /// A branch of 31 links.
     Branch: emit(energies, positions, taylor),
 }
-/// The same, in loops.
-#[branched_pendulum(
-    gravity = 9.80665,
-    limb: generations(count = 5, branching = 2, shape = rod, mass = 0.4, length = 0.5,
-        mass_ratio = 0.4, length_ratio = 0.7, spring = 4, spring_ratio = 0.25,
-        friction = 0.02, friction_ratio = 0.25),
-    code = loops,
-)]
-pub struct BranchLoops;
+branch! {
+    /// The same, in loops.
+    BranchLoops: code = loops,
+}
 branch! {
     /// The same with all copies in phase: five links.
     BranchInPhase: in_phase(all), emit(taylor),

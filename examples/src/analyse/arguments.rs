@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use branched_pendulum_data::{AngleUnit, AngleZero, Clock};
 use clap::{Parser, ValueEnum};
 
 use crate::branched_double::Friction;
-use crate::program::Results;
-use crate::program::command_line::number;
+use crate::measured_file::MeasuredFile;
+use crate::program::command_line::{number, parts};
 
 /// From measured angles of a pendulum to its energy and power with their errors: of the
 /// paper's pendulum H_d and W, of a chain of two links H and the power of friction. The
@@ -17,37 +16,26 @@ use crate::program::command_line::number;
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "analyse", version, verbatim_doc_comment)]
 pub struct Arguments {
-    /// file of measurements; without it a camera is simulated
-    #[arg(value_name = "FILE")]
-    pub file: Option<PathBuf>,
+    /// The file.
+    #[command(flatten)]
+    pub measured: MeasuredFile,
     /// what the angles are those of
     #[arg(long, value_enum, value_name = "TREE", default_value = "branched")]
     pub pendulum: Tree,
-    /// constants of the chain, a table of names and values (JSON); without it those that the
-    /// authors of its measurements fitted
+    /// constants of the chain with all laws of friction, a table of names and values (JSON),
+    /// as `identify` writes it; without it those that the authors of its measurements fitted
     #[arg(verbatim_doc_comment, long, value_name = "FILE")]
     pub parameters: Option<PathBuf>,
     /// takes every Nth row of the file
     #[arg(long, value_name = "N", default_value = "1", value_parser = rows)]
     pub every: usize,
-    /// columns of the angles of the links; all but the time without it
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
-    pub columns: Vec<String>,
     /// dots of the links, UPPER:LOWER for each, in place of angles
-    #[arg(long, value_name = "U:L", value_delimiter = ',', conflicts_with = "columns", value_parser = pair)]
-    pub dots: Vec<(String, String)>,
+    #[arg(long, value_name = "U:L,...", value_parser = pairs, default_value = "")]
+    // By its full path, clap takes it for one value.
+    pub dots: ::std::vec::Vec<(String, String)>,
     /// y of dots grows downwards, as rows of a picture
     #[arg(long)]
     pub y_down: bool,
-    /// pictures a second, 1 to 1e5; needed for files that number them
-    #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
-    pub frame_rate: Option<f64>,
-    /// unit of angles whose columns do not name it
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub unit: Option<Unit>,
-    /// direction of angle 0
-    #[arg(long, value_enum, value_name = "WAY")]
-    pub zero: Option<Zero>,
     /// use the equations of motion: smaller errors if they hold
     #[arg(long)]
     pub model: bool,
@@ -87,9 +75,6 @@ pub struct Arguments {
     /// seed of all random numbers
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Trees that can be analysed.
@@ -101,48 +86,7 @@ pub enum Tree {
     Chain,
 }
 
-/// Unit of angles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Unit {
-    /// Radians.
-    Rad,
-    /// Degrees.
-    Deg,
-}
-
-impl From<Unit> for AngleUnit {
-    fn from(unit: Unit) -> Self {
-        match unit {
-            Unit::Rad => Self::Radians,
-            Unit::Deg => Self::Degrees,
-        }
-    }
-}
-
-/// Direction of angle 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Zero {
-    /// Hanging.
-    Down,
-    /// Standing.
-    Up,
-}
-
-impl From<Zero> for AngleZero {
-    fn from(zero: Zero) -> Self {
-        match zero {
-            Zero::Down => Self::Down,
-            Zero::Up => Self::Up,
-        }
-    }
-}
-
 impl Arguments {
-    /// Where the times of the file come from.
-    pub fn clock(&self) -> Clock {
-        self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
-    }
-
     /// Friction of the simulated apparatus.
     pub fn real_friction(&self) -> Friction {
         Friction {
@@ -161,15 +105,14 @@ impl Default for Arguments {
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
 
-    fn results(&self) -> &Results {
-        &self.results
-    }
-
     fn check(&self) -> Result<(), String> {
-        if self.pendulum == Tree::Chain && self.file.is_none() {
+        if self.pendulum == Tree::Chain && self.measured.file.is_none() {
             return Err("a camera is simulated before the branched pendulum alone: \
                  --pendulum chain needs a file"
                 .to_owned());
+        }
+        if !self.dots.is_empty() && !self.measured.columns.is_empty() {
+            return Err("--dots take the place of --columns".to_owned());
         }
         if self.pendulum == Tree::Chain && !self.friction.is_zero() {
             return Err("friction of the chain stands among its --parameters".to_owned());
@@ -188,13 +131,14 @@ fn rows(text: &str) -> Result<usize, String> {
     }
 }
 
-fn pair(text: &str) -> Result<(String, String), String> {
-    match text.split_once(':') {
+fn pairs(text: &str) -> Result<Vec<(String, String)>, String> {
+    let pair = |part: &str| match part.split_once(':') {
         Some((upper, lower)) if !upper.is_empty() && !lower.is_empty() => {
             Ok((upper.to_owned(), lower.to_owned()))
         }
-        _ => Err("two names with a colon between: UPPER:LOWER".to_owned()),
-    }
+        _ => Err("two names with a colon between for each link: UPPER:LOWER".to_owned()),
+    };
+    parts(text).map(pair).collect()
 }
 
 #[cfg(test)]
@@ -202,16 +146,15 @@ mod tests {
     use clap::Parser;
 
     use super::Arguments;
+    use crate::program::command_line as program;
 
     #[test]
     fn links_are_named_between_commas() {
         let parse = |option: &str, value: &str| {
             Arguments::try_parse_from(["analyse", "swing.csv", option, value])
         };
-        assert_eq!(
-            parse("--columns", "a,b,c").unwrap().columns,
-            ["a", "b", "c"]
-        );
+        let named = parse("--columns", "a,b,c").unwrap();
+        assert_eq!(named.measured.columns, ["a", "b", "c"]);
         let dots = parse("--dots", "top:mid,left:end,right:tip").unwrap().dots;
         let pair = |upper: &str, lower: &str| (upper.to_owned(), lower.to_owned());
         assert_eq!(
@@ -224,5 +167,9 @@ mod tests {
         );
         assert!(parse("--dots", "top,mid").is_err());
         assert!(parse("--every", "0").is_err());
+        // All of a list stands in the record of a run.
+        let words = ["analyse", "swing.csv", "--columns", "a,b,c"].map(Into::into);
+        let read = program::parse::<Arguments>(words).unwrap();
+        assert_eq!(read.values["columns"], "a,b,c");
     }
 }

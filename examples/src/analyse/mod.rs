@@ -23,7 +23,7 @@ mod tests;
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
-pub use subject::{Chain, Subject};
+pub use subject::{Subject, TwoLinks};
 
 use crate::branched_double::Apparatus;
 use crate::failure::Failure;
@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     match arguments.pendulum {
         Tree::Branched => {
             let apparatus = Apparatus::new(arguments.friction)?;
-            let source = match &arguments.file {
+            let source = match &arguments.measured.file {
                 Some(file) => Source::open(file, arguments)?,
                 None => Source::simulate(arguments)?,
             };
@@ -48,8 +48,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
         Tree::Chain => {
             let read = arguments.parameters.as_deref().map(parameters::read);
-            let chain = Chain::new(read.transpose()?.unwrap_or(parameters::FITTED))?;
-            let file = arguments.file.as_deref().unwrap_or("".as_ref());
+            let chain = TwoLinks::new(&read.transpose()?.unwrap_or_else(parameters::fitted))?;
+            let file = arguments.measured.file.as_deref().unwrap_or("".as_ref());
             analyse(arguments, job, &chain, &Source::open(file, arguments)?)
         }
     }

@@ -103,7 +103,7 @@ pub fn report<const N: usize>(
     let mut line = |words: String| {
         let _ = writeln!(text, "{words}");
     };
-    match &arguments.file {
+    match &arguments.measured.file {
         Some(file) => line(format!("{}: {} times", file.display(), source.times.len())),
         None => line(format!(
             "Simulated camera: {} pictures of a release from {}°, θ_d(0) = {} rad",

@@ -1,4 +1,4 @@
-//! Pendulums whose constants are measured with doubt, or on other apparatus.
+//! The paper's apparatus as it may really be.
 
 use branched_pendulum::branched_pendulum;
 
@@ -11,13 +11,3 @@ use branched_pendulum::branched_pendulum;
     emit(energies, momenta, symmetric, transfer(exact)),
 )]
 pub struct RealApparatus;
-
-/// A chain of two links.
-#[branched_pendulum(
-    gravity = gravity,
-    upper(mass = upper_mass, com = upper_com, inertia = upper_inertia, joint = upper_joint, friction = upper_friction) [
-        lower(mass = lower_mass, com = lower_com, inertia = lower_inertia, friction = lower_friction)
-    ],
-    emit(energies),
-)]
-pub struct DoublePendulum;

@@ -1,11 +1,12 @@
 //! The angles to be analysed: out of a file, or of a simulated camera.
 
-use branched_pendulum_data::{AngleColumns, Finding, LinkMarkers, Markers, Table, TableOptions};
+use branched_pendulum_data::{Finding, LinkMarkers, Markers, Table, TableOptions};
 
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
 use super::subject::Record;
 use crate::failure::Failure;
+use crate::measured_file::check_links;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;
@@ -29,19 +30,13 @@ impl<const N: usize> Source<N> {
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
     pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
+        let measured = &arguments.measured;
         let recording = if arguments.dots.is_empty() && table.tracks().is_empty() {
-            let columns = AngleColumns {
-                clock: arguments.clock(),
-                columns: arguments.columns.clone(),
-                unit: arguments.unit.map(Into::into),
-                zero: arguments.zero.map(Into::into),
-                ..AngleColumns::default()
-            };
-            columns.read(table)?
+            measured.angle_columns().read(table)?
         } else {
             let links = arguments.dots.iter().cloned();
             let markers = Markers {
-                clock: arguments.clock(),
+                clock: measured.clock(),
                 links: links
                     .map(|(upper, lower)| LinkMarkers { upper, lower })
                     .collect(),
@@ -50,15 +45,7 @@ impl<const N: usize> Source<N> {
             };
             markers.read(table)?
         };
-        let found = recording.links.len();
-        if found != N {
-            let path = table.path().to_path_buf();
-            return Err(Failure::Links {
-                path,
-                found,
-                needed: N,
-            });
-        }
+        check_links(table, &recording, N)?;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
         let rows = (0..recording.times.len()).step_by(arguments.every);

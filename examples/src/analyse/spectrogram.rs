@@ -70,8 +70,10 @@ impl Spectrogram {
             smallest: SMALLEST,
             ..LineSearch::default()
         };
-        let mut spectra = passages.spectra(&samples, RATE, &grid, SpectrumOptions::default())?;
-        let mut lines = passages.lines(&samples, RATE, &search)?;
+        let mut spectra = passages.each(&samples, RATE, |part| {
+            Spectrum::at_frequencies(part, RATE, &grid, SpectrumOptions::default())
+        })?;
+        let mut lines = passages.each(&samples, RATE, |part| search.find(part, RATE))?;
         for passage in &mut spectra {
             passage.middle += start;
         }

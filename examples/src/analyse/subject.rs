@@ -3,10 +3,12 @@
 use branched_pendulum::analysis::variational::{Linearised, linearised};
 use branched_pendulum::analysis::{ModelSmoother, SmoothedMotion, SmoothingError};
 use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
+use branched_pendulum::scalar::Dual;
+use branched_pendulum::{Cast, ParameterError, Parametric};
 
-use super::scenes::{DoublePendulum, DoublePendulumParameters};
 use crate::branched_double::Apparatus;
 use crate::branched_double::apparatus::EXACT;
+use crate::identify::scene::Chain;
 
 /// Coordinates and their rates.
 pub type Motion<const N: usize> = [[f64; N]; 2];
@@ -157,7 +159,7 @@ impl Subject<3> for Apparatus {
         }
     }
 
-    /// What the model lacks acts on the parent, on the children together and against each
+    /// Forces that the model lacks act on the parent, on the children together and against each
     /// other: friction on the last is far smaller.
     fn by_model(
         &self,
@@ -178,28 +180,28 @@ impl Subject<3> for Apparatus {
     }
 }
 
-/// A chain of two links with viscous friction.
+/// A chain of two links with viscous and Coulomb's friction and quadratic drag.
 #[derive(Clone, Copy, Debug)]
-pub struct Chain {
-    model: DoublePendulum,
-    friction: [f64; 2],
+pub struct TwoLinks {
+    model: Chain,
+    /// The model in numbers with a derivative.
+    dual: Chain<Dual<f64, 1>>,
 }
 
-impl Chain {
-    /// The chain with these parameters.
+impl TwoLinks {
+    /// The chain with these values of its parameters, in the order of the [`Chain`].
     ///
     /// # Errors
     /// Parameters that no pendulum has.
-    pub fn new(
-        parameters: DoublePendulumParameters<f64>,
-    ) -> Result<Self, branched_pendulum::ParameterError> {
-        let friction = [parameters.upper_friction, parameters.lower_friction];
-        let model = DoublePendulum::new(parameters)?;
-        Ok(Self { model, friction })
+    pub fn new(values: &[f64]) -> Result<Self, ParameterError> {
+        Chain::<f64>::check_parameters(|index| values[index])?;
+        let model = Chain::<f64>::with_parameters(|index| values[index]);
+        let dual = model.cast(Dual::constant);
+        Ok(Self { model, dual })
     }
 }
 
-impl Subject<2> for Chain {
+impl Subject<2> for TwoLinks {
     fn names(&self) -> Names<2> {
         Names {
             coordinates: ["theta_1", "theta_2"],
@@ -224,10 +226,19 @@ impl Subject<2> for Chain {
         self.model.kinetic_energy(angles, rates) + self.model.potential_energy(angles)
     }
 
-    /// The power of friction is all that changes the energy.
-    fn powers(&self, [_, [upper, lower]]: &Motion<2>) -> Powers {
-        let [at_root, between] = self.friction;
-        let whole = -at_root * upper * upper - between * (lower - upper).powi(2);
+    /// Friction is all that changes the energy: its power is the derivative of the energy
+    /// along the motion, whatever the law.
+    fn powers(&self, [angles, rates]: &Motion<2>) -> Powers {
+        let accelerations = self.model.accelerations(angles, rates);
+        let along = |values: &[f64; 2], rates: &[f64; 2]| {
+            std::array::from_fn(|link| Dual {
+                value: values[link],
+                tangents: [rates[link]],
+            })
+        };
+        let (theta, omega) = (along(angles, rates), along(rates, &accelerations));
+        let energy = self.dual.kinetic_energy(&theta, &omega) + self.dual.potential_energy(&theta);
+        let [whole] = energy.tangents;
         Powers { told: whole, whole }
     }
 

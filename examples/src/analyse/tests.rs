@@ -1,15 +1,17 @@
 //! Estimates from a simulated camera against the truth.
 
+use branched_pendulum::Parametric;
 use clap::Parser;
 
 use super::arguments::Arguments;
 use super::estimate::{Draws, Estimate, Measured, quantity};
-use super::parameters::FITTED;
+use super::parameters::fitted;
 use super::report::{Trust, power_error};
 use super::source::Source;
 use super::spectrogram::Spectrogram;
-use super::subject::{Chain, Subject};
+use super::subject::{Subject, TwoLinks};
 use crate::branched_double::{Apparatus, Friction};
+use crate::identify::scene::Chain;
 
 const DRAWS: Draws = Draws { count: 50, seed: 7 };
 
@@ -185,18 +187,21 @@ fn bars_of_energy_and_transfer_hold_what_they_say_200_cameras() {
     assert_coverage(Way::Smoothness, 200, 100);
 }
 
-/// The measured double pendulum, 16 s of it, every 8 ms: encoders of some 0.1 mrad, and an
+/// The measured double pendulum, 16 s of it, every 10 ms: encoders of some 0.1 mrad, and an
 /// energy that falls by friction. That is not viscous alone, as is assumed, and the closure
 /// says so.
 #[test]
 fn a_measured_chain_is_read_and_its_energy_falls() {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../runtime/data/tests/files/double-pendulum.csv"
+        "/../runtime/tests/identification/double-pendulum.csv"
     );
-    let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain", "--every", "4"]);
-    let chain = Chain::new(FITTED).unwrap();
-    let source: Source<2> = Source::open(file.as_ref(), &arguments).unwrap();
+    let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain"]);
+    let chain = TwoLinks::new(&fitted()).unwrap();
+    let mut source: Source<2> = Source::open(file.as_ref(), &arguments).unwrap();
+    let count = source.times.partition_point(|time| *time < 16.0);
+    source.times.truncate(count);
+    source.angles.truncate(count);
     let findings = source.findings.iter().map(ToString::to_string);
     let findings: Vec<String> = findings.collect();
     assert!(
@@ -226,6 +231,43 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
             .to_string()
             .contains("angles of 2 links where the pendulum has 3")
     );
+}
+
+/// Power as the derivative of the energy along the motion, and by the laws of friction
+/// (physics §17).
+#[test]
+fn friction_of_the_chain_by_all_laws() {
+    let mut values = fitted();
+    let names = <Chain as Parametric<f64>>::PARAMETERS;
+    let laws = [
+        ("coulomb_1", 3e-4),
+        ("coulomb_2", 1e-4),
+        ("quadratic_1", 2e-5),
+        ("quadratic_2", 4e-5),
+    ];
+    for (name, value) in laws {
+        let place = names.iter().position(|own| *own == name).unwrap();
+        values[place] = value;
+    }
+    let of = |name: &str| values[names.iter().position(|own| *own == name).unwrap()];
+    let chain = TwoLinks::new(&values).unwrap();
+    let lost = |[viscous, coulomb, quadratic]: [f64; 3], rate: f64| {
+        let size = rate.hypot(0.05);
+        viscous * rate * rate + (coulomb / size + quadratic * size) * rate * rate
+    };
+    for (angles, rates) in [
+        ([0.3, -0.8], [2.0, -5.0]),
+        ([2.0, 1.0], [-0.03, 0.01]),
+        ([1.0, 4.0], [9.0, 12.0]),
+    ] {
+        let [upper, lower] = rates;
+        let expected = -lost([of("viscous_1"), of("coulomb_1"), 0.0], upper)
+            - lost([of("viscous_2"), of("coulomb_2"), 0.0], lower - upper)
+            - lost([0.0, 0.0, of("quadratic_1")], upper)
+            - lost([0.0, 0.0, of("quadratic_2")], lower);
+        let found = chain.powers(&[angles, rates]).whole;
+        assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+    }
 }
 
 /// Errors of W in per cent: medians of three cameras.

@@ -13,8 +13,8 @@ use branched_pendulum_examples::integration_speed::ensemble::{
     Speed, friction_scan, near_threshold, scan_speeds, speeds,
 };
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
-use branched_pendulum_examples::program::{self, Job, Progress, Results};
-use branched_pendulum_examples::solvers::scenes::{FifteenRods, Ideal, Rods, ThirtyOneRods};
+use branched_pendulum_examples::program::{self, Job, Progress};
+use branched_pendulum_examples::scenes::{BranchedDouble, FifteenRods, Rods, ThirtyOneRods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
 use clap::{Parser, ValueEnum};
 
@@ -28,8 +28,6 @@ struct Arguments {
     /// what is measured
     #[arg(value_name = "PART", default_value = "motions")]
     part: Part,
-    #[command(flatten)]
-    results: Results,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -44,10 +42,6 @@ enum Part {
 
 impl program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 /// Runs of each tolerance.
@@ -176,13 +170,12 @@ fn heading(output: &Output) -> Result<(), Failure> {
 
 fn motions(output: &Output) -> Result<(), Failure> {
     heading(output)?;
-    let mut problems = problems()?;
-    problems.retain(|problem| problem.end == END);
+    let problems = problems(&[END])?;
     let progress = output.job.progress(problems.len());
     for problem in &problems {
         match problem.tree {
             Tree::Paper => {
-                let model = Ideal::new();
+                let model = BranchedDouble::new();
                 rows(output, &AbsoluteAngles(&model), problem, REPEATS, &progress)?;
             }
             Tree::Rods => {

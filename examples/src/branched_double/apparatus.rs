@@ -6,8 +6,8 @@ use std::fmt;
 use branched_pendulum::{ParameterError, Transfer};
 use clap::Args;
 
-use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::program::command_line::{number, plain};
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 
 /// Viscous friction in the joints, N m s each: the torque is minus the
 /// coefficient times the angular velocity relative to the parent link (for the

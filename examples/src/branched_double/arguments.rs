@@ -3,7 +3,6 @@
 use clap::{Parser, ValueEnum};
 
 use super::apparatus::Friction;
-use crate::program::Results;
 use crate::program::command_line::{must_be, number, numbers, plain};
 
 /// The numbers in which trajectories are integrated.
@@ -109,9 +108,6 @@ pub struct Arguments {
     /// writes a film of all releases as well, as SVG and as animated PNG
     #[arg(long)]
     pub animate: bool,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 impl Default for Arguments {
@@ -122,10 +118,6 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("branched-double-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 
     fn check(&self) -> Result<(), String> {
         let tolerances = self.precision.least_tolerance()..=1e-2;
@@ -181,7 +173,7 @@ const ANGLES: std::ops::RangeInclusive<f64> = -180.0..=180.0;
 #[cfg(test)]
 mod tests {
     use super::{Arguments, Precision};
-    use crate::program::command_line::parse_line;
+    use crate::program::command_line::{parse, parse_line};
 
     fn run(line: &str) -> Arguments {
         parse_line(line).unwrap()
@@ -191,7 +183,7 @@ mod tests {
     fn every_option_is_read() {
         let arguments = run("--angles 50,-30.5 --disturbance=-1e-3 --duration 5 \
              --friction-root 1e-4 --friction-children 3e-5 --rate 50 \
-             --precision f32 --tolerance 1e-5 --output elsewhere");
+             --precision f32 --tolerance 1e-5");
         assert_eq!(arguments.angles_deg, [-30.5, 50.0]);
         let range = run("--angles 40:40.3:0.1,39.5");
         assert_eq!(range.angles_deg, [39.5, 40.0, 40.1, 40.2, 40.3]);
@@ -203,15 +195,18 @@ mod tests {
         assert_eq!(arguments.rate, 50.0);
         assert_eq!(arguments.precision, Precision::Single);
         assert_eq!(arguments.tolerance, 1e-5);
-        assert_eq!(arguments.results.output, Some("elsewhere".into()));
         assert_eq!(arguments.intervals(), 250);
     }
 
     #[test]
     fn defaults_hold_where_nothing_is_said() {
-        let mut defaults = Arguments::default();
-        defaults.results.output = Some("branched-double-output".into());
-        assert_eq!(run(""), defaults);
+        assert_eq!(run(""), Arguments::default());
+        let folder = |words: &[&str]| {
+            let words = ["branched-double"].iter().chain(words).map(Into::into);
+            parse::<Arguments>(words).unwrap().output
+        };
+        assert_eq!(folder(&[]), Some("branched-double-output".into()));
+        assert_eq!(folder(&["--output", "elsewhere"]), Some("elsewhere".into()));
         assert_eq!(run("--precision f32").tolerance, 1e-5);
     }
 

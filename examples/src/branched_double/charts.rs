@@ -319,11 +319,7 @@ mod tests {
             angle_deg,
             samples: Vec::new(),
             intervals: Vec::new(),
-            work: Work {
-                steps: 0,
-                rejected: 0,
-                evaluations: 0,
-            },
+            work: Work::default(),
         };
         angles.iter().map(run).collect()
     }

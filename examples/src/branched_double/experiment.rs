@@ -9,12 +9,12 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::failure::Failure;
 use crate::quadrature::GAUSS;
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 
-/// The integrator's work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The integrator's work, in whatever numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
     /// Steps accepted.
     pub steps: u64,

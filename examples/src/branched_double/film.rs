@@ -2,10 +2,10 @@
 
 use branched_pendulum_charts::{Film, FilmLink};
 
-use super::scenes::BranchedDouble;
 use super::{Arguments, Run};
 use crate::failure::Failure;
 use crate::program::Job;
+use crate::scenes::BranchedDouble;
 
 /// Pictures in a second, between which browsers interpolate.
 const RATE: f64 = 20.0;

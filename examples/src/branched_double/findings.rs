@@ -6,7 +6,7 @@ use branched_pendulum::analysis::{Modes, ModesError};
 
 use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample, folded};
 use super::experiment::Run;
-use super::scenes::BranchedDouble;
+use crate::scenes::BranchedDouble;
 
 /// A maximum counts as the first peak of H_d if H_d does not exceed it within
 /// this time before and after, s. H_d grows in pulses, about two seconds apart;
@@ -270,11 +270,7 @@ mod tests {
             angle_deg: 0.0,
             samples: samples(&[0.0; 50]),
             intervals: vec![Default::default(); 49],
-            work: Work {
-                steps: 0,
-                rejected: 0,
-                evaluations: 0,
-            },
+            work: Work::default(),
         };
         let findings = Findings::new(&run);
         assert_eq!(findings.growth, None);

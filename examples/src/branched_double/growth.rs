@@ -1,11 +1,9 @@
 //! Growth of θ_d against the angle of release: at which angles it was looked at,
 //! and what was found there. Nothing is said about angles between them.
 
-use std::f64::consts::FRAC_PI_2;
-use std::fmt::Write;
-
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
+use std::f64::consts::FRAC_PI_2;
 
 use super::apparatus::DIFFERENCE;
 use super::arguments::Arguments;
@@ -131,10 +129,8 @@ pub fn report(runs: &[Run], findings: &[Findings]) -> String {
             _ if count == 1 => format!(": {most:.1}"),
             _ => format!(": {least:.1} to {most:.1}"),
         };
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "  {angles:18} {count:>4} angle{plural}   {}{growth}",
+        text += &format!(
+            "  {angles:18} {count:>4} angle{plural}   {}{growth}\n",
             fate.name()
         );
     }

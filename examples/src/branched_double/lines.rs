@@ -1,7 +1,5 @@
 //! The lines of θ_m that a record as long as the paper's tells apart.
 
-use std::fmt::Write as _;
-
 use branched_pendulum::analysis::{LineSearch, Lines, SpectrumError};
 
 use super::apparatus::MEAN;
@@ -71,7 +69,7 @@ pub fn report(angle_deg: f64, lines: &Lines) -> String {
             "  {:<9.7} ± {:<8.1e} {:>16.6}  {name}",
             line.frequency_hz, line.deviation_hz, line.amplitude
         );
-        let _ = writeln!(text, "{}", row.trim_end());
+        text += &format!("{}\n", row.trim_end());
     }
     text
 }

@@ -23,7 +23,6 @@ pub mod growth;
 pub mod lines;
 pub mod run;
 pub mod samples;
-pub mod scenes;
 pub mod table;
 pub mod terms;
 

@@ -4,10 +4,11 @@ use serde_json::json;
 
 use super::table;
 use super::{
-    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples, scenes,
+    Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples,
 };
 use crate::failure::Failure;
 use crate::program::Job;
+use crate::scenes::BranchedDouble;
 
 /// Runs the experiment from every angle. The samples of an angle are written as
 /// soon as they are there.
@@ -15,7 +16,7 @@ use crate::program::Job;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    let frequencies = Frequencies::of(&scenes::BranchedDouble::new())?;
+    let frequencies = Frequencies::of(&BranchedDouble::new())?;
     let apparatus = Apparatus::new(arguments.friction)?;
     let progress = job.progress(arguments.angles_deg.len());
     let mut runs = Vec::new();

@@ -107,7 +107,6 @@ fn conditions(arguments: &Arguments) -> String {
         precision,
         tolerance,
         animate: _,
-        results: _,
     } = arguments;
     format!(
         "Branched double pendulum, released from rest with the children vertical\n\
@@ -129,7 +128,7 @@ fn frequency_table(computed: Frequencies) -> String {
             measured.antiphase,
         ),
     ] {
-        let _ = writeln!(text, "  {name} {computed:.7}   {measured:.2}");
+        text += &format!("  {name} {computed:.7}   {measured:.2}\n");
     }
     text
 }

@@ -3,9 +3,9 @@
 use clap::Parser;
 
 use super::scene::{Shape, TREES};
+use crate::program::Sharding;
 use crate::program::command_line::number;
 use crate::program::sweep::Shard;
-use crate::program::{Results, Sharding};
 
 /// A motor turns the root of a tree of rods, friction brakes the youngest. Does the
 /// energy go down the generations, and what is there of it at each scale?
@@ -77,9 +77,6 @@ pub struct Arguments {
     /// Which part of the starts.
     #[command(flatten)]
     pub sharding: Sharding,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 impl Arguments {
@@ -109,18 +106,8 @@ impl Arguments {
     }
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["cascade"])
-    }
-}
-
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("cascade-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 
     fn shard(&self) -> Option<Shard> {
         self.sharding.shard

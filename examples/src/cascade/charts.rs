@@ -36,58 +36,35 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
 /// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
 pub fn scales(arguments: &Arguments, findings: &Findings) -> Option<Chart> {
     let shape = arguments.shape();
-    let (mut places, mut energies) = (Vec::new(), Vec::new());
-    for (scale, state) in findings.scales.iter().enumerate() {
-        if let Scale::Awake(average) = state {
-            let freedoms = shape.degrees_of_freedom(scale) as f64;
-            places.push(scale as f64);
-            energies.push(
-                [
-                    average.mean - average.error,
-                    average.mean,
-                    average.mean + average.error,
-                ]
-                .map(|energy| energy / freedoms),
-            );
-        }
-    }
-    let mut energy = Panel::new(Axis::log("energy per degree of freedom (J)"));
-    if !places.is_empty() {
-        let [low, middle, high] = columns(&energies);
-        energy = energy
-            .band("", &places, &low, &high)
-            .series(Series::line("energy per degree of freedom", &places, &middle).with_symbols());
-    }
-    let mut flux = Panel::new(Axis::linear("power (mW)")).zero_line();
-    let known: Vec<(f64, [f64; 3], [f64; 3])> = findings
-        .fluxes
-        .iter()
-        .enumerate()
-        .filter_map(|(index, flux)| {
-            let flux = flux.as_ref().ok()?;
-            let bar =
-                |a: &Average| [a.mean - a.error, a.mean, a.mean + a.error].map(|power| 1e3 * power);
-            Some((
-                index as f64 + 1.0,
-                bar(&flux.transferred),
-                bar(&flux.dissipated),
-            ))
+    let energies = (0..).zip(&findings.scales).filter_map(|(scale, state)| {
+        let Scale::Awake(average) = state else {
+            return None;
+        };
+        let freedoms = shape.degrees_of_freedom(scale) as f64;
+        Some([
+            scale as f64,
+            average.mean / freedoms,
+            average.error / freedoms,
+        ])
+    });
+    let energies: Vec<[f64; 3]> = energies.collect();
+    let fluxes = (1..).zip(&findings.fluxes);
+    let fluxes = fluxes.filter_map(|(scale, flux)| Some((f64::from(scale), flux.as_ref().ok()?)));
+    let milliwatts = |scale: f64, power: &Average| [scale, 1e3 * power.mean, 1e3 * power.error];
+    let (given, lost): (Vec<_>, Vec<_>) = fluxes
+        .map(|(scale, flux)| {
+            let given = milliwatts(scale, &flux.transferred);
+            (given, milliwatts(scale, &flux.dissipated))
         })
-        .collect();
-    let x: Vec<f64> = known.iter().map(|(x, ..)| *x).collect();
-    if !x.is_empty() {
-        let [low, middle, high] = columns(&known.iter().map(|(_, w, _)| *w).collect::<Vec<_>>());
-        flux = flux
-            .band("", &x, &low, &high)
-            .series(Series::line("flux into the scale by W", &x, &middle).with_symbols());
-        let [low, middle, high] = columns(&known.iter().map(|(.., d)| *d).collect::<Vec<_>>());
-        flux = flux
-            .band("", &x, &low, &high)
-            .series(Series::line("dissipated there and below", &x, &middle).with_symbols());
-    }
-    if places.is_empty() || x.is_empty() {
+        .unzip();
+    if energies.is_empty() || given.is_empty() {
         return None;
     }
+    let energy = Panel::new(Axis::log("energy per degree of freedom (J)"));
+    let energy = averages(energy, "energy", &energies);
+    let flux = Panel::new(Axis::linear("power (mW)")).zero_line();
+    let flux = averages(flux, "flux into the scale by W", &given);
+    let mut flux = averages(flux, "dissipated there and below", &lost);
     if let Ok(input) = &findings.input {
         flux = flux.points("motor", &[0.0], &[1e3 * input.mean]);
     }
@@ -95,14 +72,19 @@ pub fn scales(arguments: &Arguments, findings: &Findings) -> Option<Chart> {
         "The steady state by scale; bands: one standard error",
         Axis::linear("generation in which the branches differ (0: means)"),
     )
-    .size(900.0, 760.0)
-    .panel(energy)
-    .panel(flux);
-    Some(chart)
+    .columns(2)
+    .size(1100.0, 480.0);
+    Some(chart.panel(energy).panel(flux))
 }
 
-fn columns(rows: &[[f64; 3]]) -> [Vec<f64>; 3] {
-    [0, 1, 2].map(|column| rows.iter().map(|row| row[column]).collect())
+/// Adds averages, each with its place before it and its error behind.
+fn averages(panel: Panel, label: &str, rows: &[[f64; 3]]) -> Panel {
+    let column = |value: fn(&[f64; 3]) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
+    let (x, mean) = (column(|row| row[0]), column(|row| row[1]));
+    let (low, high) = (column(|row| row[1] - row[2]), column(|row| row[1] + row[2]));
+    panel
+        .band(label, &x, &low, &high)
+        .series(Series::line(label, &x, &mean).with_symbols())
 }
 
 /// Densities of the fluxes, of zero mean and unit variance.

@@ -77,47 +77,15 @@ pub fn follow<P: RodTree>(
     let ensemble = NonZeroUsize::new(arguments.threads)
         .map_or_else(Ensemble::new, |threads| Ensemble::new().threads(threads));
     while reached.windows < windows {
-        let window = reached.windows;
-        let counts = 2 * window >= windows;
-        let groups: Vec<_> = reached
-            .starts
-            .chunks(TOGETHER)
-            .zip(motors.chunks(TOGETHER))
-            .collect();
-        let moved = ensemble.map(&groups, |_, (starts, motors)| {
-            let starts: Vec<_> = starts
-                .iter()
-                .map(|start| &start.state[..])
-                .zip(*motors)
-                .collect();
-            let mut together = Together::new(&tree, &starts);
-            let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
-            let mut torques = vec![0.0; P::LINKS];
-            let mut means = vec![Window::new(shape.generations); starts.len()];
-            for step in 0..arguments.steps {
-                let place = u64::from(arguments.steps) * window as u64 + u64::from(step);
-                together.step(arguments.time(place), arguments.step());
-                if (step + 1).is_multiple_of(arguments.steps / arguments.samples) {
-                    for (start, (means, motor)) in means.iter_mut().zip(*motors).enumerate() {
-                        let time = arguments.time(place + 1);
-                        let state = together.state(start);
-                        let (theta, omega) = state.split_at(P::LINKS);
-                        torques[0] = motor.torque(time);
-                        tree.budget_by_scale_under(
-                            &mut workspace,
-                            time,
-                            theta,
-                            omega,
-                            &torques,
-                            &mut budget,
-                        );
-                        means.add(&budget, counts);
-                    }
-                }
-            }
-            let ends = (0..starts.len()).map(|start| together.state(start));
-            ends.zip(means).collect::<Vec<_>>()
-        });
+        let motion = WindowMotion {
+            arguments,
+            tree: &tree,
+            window: reached.windows,
+            counts: 2 * reached.windows >= windows,
+        };
+        let groups = reached.starts.chunks(TOGETHER);
+        let groups: Vec<_> = groups.zip(motors.chunks(TOGETHER)).collect();
+        let moved = ensemble.map(&groups, |_, (starts, motors)| motion.follow(starts, motors));
         for (number, (start, (state, window))) in reached
             .starts
             .iter_mut()
@@ -145,6 +113,53 @@ pub fn follow<P: RodTree>(
         checkpoint.save(&reached)?;
     }
     Ok(reached.starts)
+}
+
+/// One window of the motion.
+struct WindowMotion<'a, P> {
+    arguments: &'a Arguments,
+    tree: &'a P,
+    /// Its number.
+    window: usize,
+    /// True if values of the fluxes are counted.
+    counts: bool,
+}
+
+impl<P: RodTree> WindowMotion<'_, P> {
+    /// Moves starts through the window: their states at its end, and sums over it.
+    fn follow(&self, starts: &[Followed], motors: &[Motor]) -> Vec<(Vec<f64>, Window)> {
+        let Arguments { steps, samples, .. } = *self.arguments;
+        let states = starts.iter().map(|start| &start.state[..]);
+        let states: Vec<_> = states.zip(motors).collect();
+        let mut together = Together::new(self.tree, &states);
+        let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
+        let mut torques = vec![0.0; P::LINKS];
+        let mut sums = vec![Window::new(self.arguments.shape().generations); starts.len()];
+        for step in 0..steps {
+            let place = u64::from(steps) * self.window as u64 + u64::from(step);
+            together.step(self.arguments.time(place), self.arguments.step());
+            if !(step + 1).is_multiple_of(steps / samples) {
+                continue;
+            }
+            let time = self.arguments.time(place + 1);
+            for (start, (sums, motor)) in sums.iter_mut().zip(motors).enumerate() {
+                let state = together.state(start);
+                let (theta, omega) = state.split_at(P::LINKS);
+                torques[0] = motor.torque(time);
+                self.tree.budget_by_scale_under(
+                    &mut workspace,
+                    time,
+                    theta,
+                    omega,
+                    &torques,
+                    &mut budget,
+                );
+                sums.add(&budget, self.counts);
+            }
+        }
+        let ends = (0..starts.len()).map(|start| together.state(start));
+        ends.zip(sums).collect()
+    }
 }
 
 impl Followed {

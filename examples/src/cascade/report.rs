@@ -1,7 +1,5 @@
 //! Words and tables.
 
-use std::fmt::Write as _;
-
 use branched_pendulum::analysis::statistics::{Average, StatisticsError};
 use branched_pendulum_data::Column;
 
@@ -38,11 +36,6 @@ pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -
     text
 }
 
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
-}
-
 /// Says if averages mean anything.
 fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
     let second = 1.0 / arguments.frequency;
@@ -59,15 +52,12 @@ fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
             } else {
                 "NOT steady"
             };
-            push(
-                &mut text,
-                format_args!(
-                    "; from its first to its second half the energy changes by {:.2e} ± {:.1e} J: {verdict}.\n\n",
-                    drift.change, drift.error
-                ),
+            text += &format!(
+                "; from its first to its second half the energy changes by {:.2e} ± {:.1e} J: {verdict}.\n\n",
+                drift.change, drift.error
             );
         }
-        Err(error) => push(&mut text, format_args!("; NOT steady: {error}.\n\n")),
+        Err(error) => text += &format!("; NOT steady: {error}.\n\n"),
     }
     text
 }
@@ -81,30 +71,28 @@ fn energies(arguments: &Arguments, findings: &Findings) -> String {
             .to_owned();
     for (scale, state) in findings.scales.iter().enumerate() {
         let freedoms = shape.degrees_of_freedom(scale);
-        push(&mut text, format_args!("| {} | {freedoms} |", name(scale)));
+        text += &format!("| {} | {freedoms} |", name(scale));
         match state {
-            Scale::Awake(energy) => push(
-                &mut text,
-                format_args!(
+            Scale::Awake(energy) => {
+                text += &format!(
                     " {:.4e} | {:.1} % | {:.4e} | {:.2} |\n",
                     energy.mean,
                     100.0 * energy.error / energy.mean,
                     energy.mean / freedoms as f64,
                     energy.correlation_time / arguments.frequency
-                ),
-            ),
+                )
+            }
             Scale::Asleep(energy) => {
-                push(&mut text, format_args!(" asleep ({energy:.0e}) | | | |\n"));
+                text += &format!(" asleep ({energy:.0e}) | | | |\n");
             }
             Scale::Unsettled(error) => {
-                push(&mut text, format_args!(" not settled: {error} | | | |\n"));
+                text += &format!(" not settled: {error} | | | |\n");
             }
         }
     }
     match findings.law {
-        Some(law) => push(
-            &mut text,
-            format_args!(
+        Some(law) => {
+            text += &format!(
                 "\nEnergy per degree of freedom of the differences against the length of the oldest \
                  rods that differ: exponent {:.3} ± {:.3}, χ² per point left over {:.1}: {}.\n\n",
                 law.exponent.value,
@@ -115,8 +103,8 @@ fn energies(arguments: &Arguments, findings: &Findings) -> String {
                 } else {
                     "no power law"
                 }
-            ),
-        ),
+            )
+        }
         None => text.push_str("\nToo few scales are awake for a power law.\n\n"),
     }
     text
@@ -150,11 +138,10 @@ fn balance(findings: &Findings) -> String {
         },
     );
     for (index, flux) in findings.fluxes.iter().enumerate() {
-        push(&mut text, format_args!("| {} |", index + 1));
+        text += &format!("| {} |", index + 1);
         match flux {
-            Ok(flux) => push(
-                &mut text,
-                format_args!(
+            Ok(flux) => {
+                text += &format!(
                     " {} | {} | {} | {} |\n",
                     milli(&flux.transferred),
                     milli(&flux.dissipated),
@@ -164,9 +151,9 @@ fn balance(findings: &Findings) -> String {
                         skewness.value, skewness.error
                     )
                     .replace('-', "−"))
-                ),
-            ),
-            Err(error) => push(&mut text, format_args!(" {error} | | | |\n")),
+                )
+            }
+            Err(error) => text += &format!(" {error} | | | |\n"),
         }
     }
     text

@@ -60,60 +60,55 @@ pub trait RodTree: Forced<f64> + Scales<f64> + Sync + std::fmt::Debug {
     fn of(shape: &Shape, friction: f64, ratio: f64) -> Result<Self, ParameterError>;
 }
 
-/// Number of children and of generations of all trees that there are.
-pub const TREES: [(usize, usize); 9] = [
-    (2, 3),
-    (2, 4),
-    (2, 5),
-    (2, 6),
-    (2, 7),
-    (2, 8),
-    (3, 3),
-    (3, 4),
-    (3, 5),
-];
+/// The trees, by number of children and of generations: a module for each.
+macro_rules! trees {
+    ($($module:ident $branching:tt $generations:tt)*) => {
+        /// Number of children and of generations of all trees that there are.
+        pub const TREES: &[(usize, usize)] = &[$(($branching, $generations)),*];
 
-macro_rules! tree {
-    ($module:ident, $branching:tt, $generations:tt) => {
-        /// Rods by rule.
-        pub mod $module {
-            use branched_pendulum::prelude::*;
-
+        $(
             /// Rods by rule.
-            #[branched_pendulum(
-                        gravity = 9.80665,
-                        parameters(mass_ratio, length_ratio, friction, friction_ratio),
-                        arm: generations(count = $generations, branching = $branching, shape = rod,
-                            mass = 0.12, length = 0.3, mass_ratio = mass_ratio,
-                            length_ratio = length_ratio, friction = friction,
-                            friction_ratio = friction_ratio, code = loops),
-                        emit(energies, forces, budget(parseval, scales)),
-                    )]
-            pub struct Tree;
-        }
+            pub mod $module {
+                use branched_pendulum::prelude::*;
 
-        impl RodTree for $module::Tree {
-            fn of(shape: &Shape, friction: f64, ratio: f64) -> Result<Self, ParameterError> {
-                Self::new($module::TreeParameters {
-                    mass_ratio: shape.mass_ratio,
-                    length_ratio: shape.length_ratio,
-                    friction: friction * ratio.powi(1 - $generations),
-                    friction_ratio: ratio,
-                })
+                /// Rods by rule.
+                #[branched_pendulum(
+                    gravity = 9.80665,
+                    parameters(mass_ratio, length_ratio, friction, friction_ratio),
+                    arm: generations(count = $generations, branching = $branching, shape = rod,
+                        mass = 0.12, length = 0.3, mass_ratio = mass_ratio,
+                        length_ratio = length_ratio, friction = friction,
+                        friction_ratio = friction_ratio, code = loops),
+                    emit(energies, forces, budget(parseval, scales)),
+                )]
+                pub struct Tree;
             }
-        }
+
+            impl RodTree for $module::Tree {
+                fn of(shape: &Shape, friction: f64, ratio: f64) -> Result<Self, ParameterError> {
+                    Self::new($module::TreeParameters {
+                        mass_ratio: shape.mass_ratio,
+                        length_ratio: shape.length_ratio,
+                        friction: friction * ratio.powi(1 - $generations),
+                        friction_ratio: ratio,
+                    })
+                }
+            }
+        )*
     };
 }
 
-tree!(binary_3, 2, 3);
-tree!(binary_4, 2, 4);
-tree!(binary_5, 2, 5);
-tree!(binary_6, 2, 6);
-tree!(binary_7, 2, 7);
-tree!(binary_8, 2, 8);
-tree!(ternary_3, 3, 3);
-tree!(ternary_4, 3, 4);
-tree!(ternary_5, 3, 5);
+trees! {
+    binary_3 2 3
+    binary_4 2 4
+    binary_5 2 5
+    binary_6 2 6
+    binary_7 2 7
+    binary_8 2 8
+    ternary_3 3 3
+    ternary_4 3 4
+    ternary_5 3 5
+}
 
 /// Calls a function of a tree with the one of this shape: `of_shape!(shape, f(…))` is
 /// `f::<Tree>(…)`.

@@ -2,7 +2,6 @@
 
 use clap::Parser;
 
-use crate::program::Results;
 use crate::program::command_line::{number, numbers};
 
 /// From which release on does the antiphase mode of the paper's pendulum grow? The
@@ -69,21 +68,8 @@ pub struct Arguments {
         value_parser = number(1e-12..=1e-3, "")
     )]
     pub tolerance: f64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
-}
-
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["critical-angle"])
-    }
 }
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("critical-angle-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }

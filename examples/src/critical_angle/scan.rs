@@ -4,10 +4,9 @@ use std::fmt;
 
 use branched_pendulum::analysis::growth::{Grown, Growth, frequency_at_rest};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::TransverseOde;
 
 use super::arguments::Arguments;
-use super::scene::{InPhase, InPhaseParameters};
+use super::scene::{InPhase, InPhaseParameters, at_rest, first_sector};
 use crate::failure::Failure;
 
 /// Angles of the paper, degrees: growth is not seen at the first and is at the second.
@@ -53,9 +52,7 @@ impl Friction {
             return Ok(0.0);
         };
         let model = InPhase::new(InPhaseParameters { friction: TRIAL })?;
-        let Some(ode) = TransverseOde::new(&model, 0) else {
-            return Ok(f64::NAN);
-        };
+        let ode = first_sector(&model)?;
         let mut rates = [0.0; 6];
         // The rate of the difference alone.
         ode.rates(0.0, &[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], &mut rates);
@@ -83,7 +80,7 @@ impl Scan {
     /// Computes the growth at every angle, and tells `progress` which part is done.
     ///
     /// # Errors
-    /// [`Failure::Growth`].
+    /// [`Failure::Parameter`] or [`Failure::Growth`].
     pub fn new(
         arguments: &Arguments,
         friction: Friction,
@@ -92,15 +89,13 @@ impl Scan {
         let constant = friction.constant()?;
         let model = InPhase::new(InPhaseParameters { friction: constant })?;
         let angles_deg = arguments.angles_deg.clone();
-        let releases = angles_deg.iter().chain(&PAPER).filter_map(|degrees| {
-            let angles = [degrees.to_radians(), 0.0, 1.0];
-            Some((TransverseOde::new(&model, 0)?, State::at_rest(0.0, &angles)))
-        });
-        let releases: Vec<_> = releases.collect();
+        let ode = first_sector(&model)?;
+        let releases = angles_deg.iter().chain(&PAPER);
+        let releases: Vec<_> = releases
+            .map(|degrees| (ode, at_rest::<InPhase>(*degrees, 0.0)))
+            .collect();
         let growth = Growth {
-            frequency_hz: releases
-                .first()
-                .map_or(f64::NAN, |(ode, _)| frequency_at_rest(ode)),
+            frequency_hz: frequency_at_rest(&ode),
             horizons: arguments.horizons.clone(),
             tolerance: arguments.tolerance,
         };

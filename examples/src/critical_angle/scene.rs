@@ -1,6 +1,10 @@
-//! The paper's pendulum with its children in phase.
+//! The paper's pendulum with its children in phase, and releases of trees in phase.
 
-use branched_pendulum::branched_pendulum;
+use branched_pendulum::Transverse;
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::TransverseOde;
+
+use crate::failure::Failure;
 
 /// The apparatus of the paper, whose children move alike, with the equations of small
 /// differences between them.
@@ -13,3 +17,21 @@ use branched_pendulum::branched_pendulum;
     emit(transverse, modes),
 )]
 pub struct InPhase;
+
+/// The equations of the first pair.
+///
+/// # Errors
+/// [`Failure::NoPair`].
+pub fn first_sector<P: Transverse<f64>>(model: P) -> Result<TransverseOde<P>, Failure> {
+    TransverseOde::new(model, 0).ok_or(Failure::NoPair)
+}
+
+/// A release from rest, all links but the parent at one angle, with a difference of one of all
+/// its links alike; angles in degrees.
+pub fn at_rest<P: Transverse<f64>>(parent: f64, children: f64) -> State<f64> {
+    let mut angles = vec![children.to_radians(); P::LINKS];
+    angles[0] = parent.to_radians();
+    let links = P::TRANSVERSE.first().map_or(0, |sector| sector.links);
+    angles.resize(P::LINKS + links, 1.0);
+    State::at_rest(0.0, &angles)
+}

@@ -3,13 +3,13 @@
 
 use std::fmt::Write;
 
+use branched_pendulum::Transverse;
 use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::TransverseOde;
-use branched_pendulum::{ParameterError, Transverse};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
+use super::scene::{at_rest, first_sector};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -36,7 +36,7 @@ macro_rules! trees {
             match rule.generations {
                 $($count => {
                     let parameters = $parameters { mass_ratio, length_ratio: rule.length_ratio };
-                    along(|| $name::new(parameters), arguments)
+                    along(&$name::new(parameters)?, arguments)
                 })*
                 _ => Ok(Vec::new()),
             }
@@ -102,21 +102,15 @@ const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 /// Releases from rest, the root at every angle and all others vertical, by ascending
 /// angle and not far beyond the threshold: above it motions are chaotic, and dear.
 fn along<P: Transverse<f64> + Sync>(
-    model: impl Fn() -> Result<P, ParameterError>,
+    model: &P,
     arguments: &Arguments,
 ) -> Result<Vec<Factor>, Failure> {
-    let model = model()?;
-    let releases = arguments.angles_deg.iter().map(|degrees| {
-        let ode = TransverseOde::new(&model, 0).ok_or(Failure::NoPair)?;
-        let mut angles = vec![0.0; P::LINKS];
-        angles[0] = degrees.to_radians();
-        angles.resize(P::LINKS + ode.sector().links, 1.0);
-        Ok((ode, State::at_rest(0.0, &angles)))
-    });
-    let releases = releases.collect::<Result<Vec<_>, Failure>>()?;
-    let frequency_hz = releases
-        .first()
-        .map_or(f64::NAN, |(ode, _)| frequency_at_rest(ode));
+    let ode = first_sector(model)?;
+    let releases = arguments.angles_deg.iter();
+    let releases: Vec<_> = releases
+        .map(|degrees| (ode, at_rest::<P>(*degrees, 0.0)))
+        .collect();
+    let frequency_hz = frequency_at_rest(&ode);
     let growth = Growth {
         frequency_hz,
         horizons: vec![PERIODS / frequency_hz],

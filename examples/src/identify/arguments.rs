@@ -1,13 +1,9 @@
 //! The command line.
 
-use std::path::PathBuf;
-
-use branched_pendulum_data::Clock;
 use clap::{Parser, ValueEnum};
 
-use crate::analyse::arguments::{Unit, Zero};
-use crate::program::Results;
-use crate::program::command_line::number;
+use crate::measured_file::MeasuredFile;
+use crate::program::command_line::{number, parts};
 
 /// Masses, lengths, inertias and friction of a pendulum from its measured motion: a chain of
 /// two links, or the paper's pendulum. Prints how well viscous friction, Coulomb friction and
@@ -17,31 +13,19 @@ use crate::program::command_line::number;
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "identify", version, verbatim_doc_comment)]
 pub struct Arguments {
-    /// file of angles against time; without it they are simulated
-    #[arg(value_name = "FILE")]
-    pub file: Option<PathBuf>,
+    /// The file.
+    #[command(flatten)]
+    pub measured: MeasuredFile,
     /// tree that was measured
     #[arg(long, value_enum, value_name = "TREE", default_value = "chain")]
     pub tree: Tree,
-    /// columns of the angles, parent first; all but the time without it
-    #[arg(long, value_name = "A,B,...", value_parser = names, default_value = "")]
-    // By its full path, clap takes it for one value.
-    pub columns: ::std::vec::Vec<String>,
-    /// unit of angles whose columns do not name it
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub unit: Option<Unit>,
-    /// direction of angle 0; detected without it
-    #[arg(long, value_enum, value_name = "WAY")]
-    pub zero: Option<Zero>,
-    /// pictures a second, 1 to 1e5; needed for files that number them
-    #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
-    pub frame_rate: Option<f64>,
     /// length of the part that is fitted, s from 1 to 1e4; what follows is predicted. Three
     /// quarters of the record without it
     #[arg(long, value_name = "S", value_parser = number(1.0..=1e4, "s"))]
     pub fit: Option<f64>,
     /// laws of friction, one after the other
     #[arg(long, value_name = "LAW,...", value_parser = laws, default_value = "viscous,coulomb,all")]
+    // By its full path, clap takes it for one value.
     pub laws: ::std::vec::Vec<Law>,
     /// parameters that are known, in SI units
     #[arg(long, value_name = "NAME=VALUE,...", value_parser = settings, default_value = "")]
@@ -58,9 +42,6 @@ pub struct Arguments {
     /// simulated: seed of the noise
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 /// Trees that can be measured.
@@ -94,13 +75,6 @@ impl Law {
     }
 }
 
-impl Arguments {
-    /// Where the times of the file come from.
-    pub fn clock(&self) -> Clock {
-        self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
-    }
-}
-
 impl Default for Arguments {
     fn default() -> Self {
         Self::parse_from(["identify"])
@@ -109,20 +83,6 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
-}
-
-fn parts(text: &str) -> impl Iterator<Item = &str> {
-    text.split(',')
-        .map(str::trim)
-        .filter(|part| !part.is_empty())
-}
-
-fn names(text: &str) -> Result<Vec<String>, String> {
-    Ok(parts(text).map(str::to_owned).collect())
 }
 
 fn laws(text: &str) -> Result<Vec<Law>, String> {
@@ -154,7 +114,7 @@ mod tests {
     fn lists_are_read() {
         let line = "swing.csv --columns a,b --laws all --known gravity=9.81,mass_1=0.1";
         let arguments: Arguments = parse_line(line).unwrap();
-        assert_eq!(arguments.columns, ["a", "b"]);
+        assert_eq!(arguments.measured.columns, ["a", "b"]);
         assert_eq!(arguments.laws, [Law::All]);
         let known = [("gravity".to_owned(), 9.81), ("mass_1".to_owned(), 0.1)];
         assert_eq!(arguments.known, known);

@@ -58,7 +58,7 @@ fn of_tree<M: Described>(arguments: &Arguments, job: &Job) -> Result<(), Failure
         &outcomes,
         &energies,
     ))?;
-    report::write(job, &measurement, last, &energies)?;
+    report::write::<M>(job, &measurement, last, &energies)?;
     job.chart(
         "identified",
         &charts::chart(&measurement, &outcomes, &energies),

@@ -4,13 +4,17 @@ use std::fmt::Write;
 
 use branched_pendulum::analysis::identification::ParameterEstimate;
 use branched_pendulum_data::Column;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use super::arguments::Arguments;
+use super::scene::Described;
 use super::source::Measurement;
-use super::study::{Energies, Outcome, WINDOW};
+use super::study::{Energies, Mismatch, Outcome, WINDOW};
 use crate::failure::Failure;
 use crate::program::Job;
+
+/// Time next to the ends of the record in which smoothness has data on one side only, s.
+const MARGIN: f64 = 0.1;
 
 /// The report.
 pub fn report(
@@ -24,7 +28,7 @@ pub fn report(
         let _ = writeln!(text, "{words}");
     };
     let times = measurement.record.times();
-    match &arguments.file {
+    match &arguments.measured.file {
         Some(file) => line(format!("{}: {} times", file.display(), times.len())),
         None => line(format!(
             "Simulated: {} times, noise of {} rad",
@@ -106,11 +110,22 @@ pub fn report(
              the real one; the motion is the same all the same."
         ));
     }
-    line(format!(
-        "Energy of the fitted motion and of the measured one differ by {:.2} % of that at the \
-         start, at most.",
-        100.0 * energies.mismatch()
-    ));
+    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    for (where_from, margin) in [("all", 0.0), ("those 0.1 s from the ends", MARGIN)] {
+        let Mismatch {
+            rms,
+            largest: [largest, time],
+            deviation,
+        } = energies.mismatch(margin);
+        line(format!(
+            "Energies of the fitted motion and of the measured one, at {where_from}: they differ by \
+             {} of that\n  at the start (rms), by {} at most: at {time:.2} s, where smoothness \
+             knows the measured\n  one to {}.",
+            percent(rms),
+            percent(largest),
+            percent(deviation)
+        ));
+    }
     text
 }
 
@@ -130,22 +145,29 @@ fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [f64; 2] {
     ]
 }
 
-/// Writes what is left over of each angle, and the energies.
+/// Writes the parameters of the tree, what is left over of each angle, and the energies.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write(
+pub fn write<M: Described>(
     job: &Job,
     measurement: &Measurement,
     outcome: &Outcome,
     energies: &Energies,
 ) -> Result<(), Failure> {
+    let values = M::PARAMETERS.iter().zip(outcome.fit.parameters());
+    let values: Map<String, Value> = values
+        .map(|(name, value)| ((*name).to_owned(), json!(value)))
+        .collect();
+    let table = format!("{:#}\n", Value::Object(values));
+    job.write("parameters.json", table.as_bytes())?;
     let mut columns = vec![Column::new("time", "s")];
     for kind in ["window", "one_motion"] {
         let links = measurement.links.iter();
         columns.extend(links.map(|link| Column::new(format!("{kind}_{link}"), "rad")));
     }
     columns.push(Column::new("measured_energy", "J"));
+    columns.push(Column::new("measured_energy_error", "J"));
     columns.push(Column::new("fitted_energy", "J"));
     let [fitted, later] = &outcome.windows;
     let windows = fitted.rows.iter().chain(&later.rows);
@@ -159,7 +181,11 @@ pub fn write(
                     .chain(one)
                     .map(|error| error.unwrap_or(f64::NAN)),
             );
-            row.extend([energies.measured[index], energies.fitted[index]]);
+            row.extend([
+                energies.measured[index],
+                energies.deviations[index],
+                energies.fitted[index],
+            ]);
             file.row(row)?;
         }
         Ok(())
@@ -187,5 +213,13 @@ pub fn record(job: &Job, measurement: &Measurement, outcomes: &[Outcome], energi
     }
     let findings = measurement.findings.iter().map(ToString::to_string);
     job.report("findings", findings.collect::<Vec<_>>());
-    job.report("energy_mismatch", energies.mismatch());
+    for (name, margin) in [("energy_mismatch", 0.0), ("energy_mismatch_inside", MARGIN)] {
+        let Mismatch {
+            rms,
+            largest,
+            deviation,
+        } = energies.mismatch(margin);
+        let found = json!({"rms": rms, "largest": largest, "deviation": deviation});
+        job.report(name, found);
+    }
 }

@@ -8,7 +8,7 @@ use branched_pendulum::ParameterError;
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
 
-use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 
 /// How fast a way to integrate is, on one thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub fn near_threshold(count: u32) -> Vec<State<f64>> {
 }
 
 /// A model of its own, and where it starts.
-type Release = (AbsoluteAngles<Damped>, State<f64>);
+type Release = (AbsoluteAngles<DampedBranchedDouble>, State<f64>);
 
 /// Paper's pendulums with friction from zero to 1e-3 N m s in every pivot, released
 /// from 50°.
@@ -48,14 +48,13 @@ type Release = (AbsoluteAngles<Damped>, State<f64>);
 pub fn friction_scan(count: u32) -> Result<Vec<Release>, ParameterError> {
     let step = FRICTION / f64::from(count.max(2) - 1);
     (0..count)
-        .map(|i| DampedParameters {
-            friction: step * f64::from(i),
-        })
-        .map(|parameters| {
-            Ok((
-                AbsoluteAngles(Damped::new(parameters)?),
-                released(50_f64.to_radians()),
-            ))
+        .map(|i| {
+            let friction = step * f64::from(i);
+            let model = DampedBranchedDouble::new(DampedBranchedDoubleParameters {
+                friction_root: friction,
+                friction_children: friction,
+            })?;
+            Ok((AbsoluteAngles(model), released(50_f64.to_radians())))
         })
         .collect()
 }
@@ -65,10 +64,17 @@ fn released(angle: f64) -> State<f64> {
 }
 
 type Ends = Vec<Result<Solution<f64>, IntegrationError<f64>>>;
-type Way<'a> = (&'static str, &'a dyn Fn() -> Ends);
+
+/// The ways that are compared; the first is one by one.
+const WAYS: [&str; 4] = [
+    "Dop853, one by one",
+    "Dop853 in lanes",
+    "Verner98 in lanes",
+    "Taylor in lanes",
+];
 
 /// One model from every start to the time `end`, in the ways in turn: the best of
-/// several runs of each. The first way is one by one.
+/// several runs of each.
 ///
 /// # Errors
 /// Those of the integration.
@@ -78,23 +84,16 @@ pub fn speeds(
     tolerance: f64,
     repeats: usize,
 ) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let system = AbsoluteAngles(Ideal::new());
-    let Methods {
-        ensemble,
-        dop853,
-        verner98,
-        taylor,
-    } = Methods::new(tolerance);
-    let plain = || ensemble.integrate(&dop853, &system, black_box(starts), end);
-    let lanes = || ensemble.integrate_in_lanes(&dop853, &system, black_box(starts), end);
-    let ninth = || ensemble.integrate_in_lanes(&verner98, &system, black_box(starts), end);
-    let series = || ensemble.integrate_in_lanes(&taylor, &system, black_box(starts), end);
+    let system = AbsoluteAngles(BranchedDouble::new());
+    let methods = Methods::new(tolerance);
+    let Methods { ensemble, .. } = &methods;
+    let starts = || black_box(starts);
     best(
-        &[
-            ("Dop853, one by one", &plain),
-            ("Dop853 in lanes", &lanes),
-            ("Verner98 in lanes", &ninth),
-            ("Taylor in lanes", &series),
+        [
+            &|| ensemble.integrate(&methods.dop853, &system, starts(), end),
+            &|| ensemble.integrate_in_lanes(&methods.dop853, &system, starts(), end),
+            &|| ensemble.integrate_in_lanes(&methods.verner98, &system, starts(), end),
+            &|| ensemble.integrate_in_lanes(&methods.taylor, &system, starts(), end),
         ],
         repeats,
     )
@@ -105,32 +104,25 @@ pub fn speeds(
 /// # Errors
 /// Those of the integration.
 pub fn scan_speeds(
-    releases: &[(AbsoluteAngles<Damped>, State<f64>)],
+    releases: &[Release],
     end: f64,
     tolerance: f64,
     repeats: usize,
 ) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let Methods {
-        ensemble,
-        dop853,
-        verner98,
-        taylor,
-    } = Methods::new(tolerance);
-    let plain = || {
-        ensemble.map(black_box(releases), |_, (system, start)| {
-            let run_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
-            dop853.integrate(system, start, end, run_on)
-        })
-    };
-    let lanes = || ensemble.integrate_models_in_lanes(&dop853, black_box(releases), end);
-    let ninth = || ensemble.integrate_models_in_lanes(&verner98, black_box(releases), end);
-    let series = || ensemble.integrate_models_in_lanes(&taylor, black_box(releases), end);
+    let methods = Methods::new(tolerance);
+    let Methods { ensemble, .. } = &methods;
+    let releases = || black_box(releases);
+    let run_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
     best(
-        &[
-            ("Dop853, one by one", &plain),
-            ("Dop853 in lanes", &lanes),
-            ("Verner98 in lanes", &ninth),
-            ("Taylor in lanes", &series),
+        [
+            &|| {
+                ensemble.map(releases(), |_, (system, start)| {
+                    methods.dop853.integrate(system, start, end, run_on)
+                })
+            },
+            &|| ensemble.integrate_models_in_lanes(&methods.dop853, releases(), end),
+            &|| ensemble.integrate_models_in_lanes(&methods.verner98, releases(), end),
+            &|| ensemble.integrate_models_in_lanes(&methods.taylor, releases(), end),
         ],
         repeats,
     )
@@ -155,16 +147,16 @@ impl Methods {
     }
 }
 
-fn best(ways: &[Way<'_>], repeats: usize) -> Result<Vec<Speed>, IntegrationError<f64>> {
-    let mut best: Vec<Speed> = ways
-        .iter()
-        .map(|&(way, _)| Speed {
-            way,
-            per_second: 0.0,
-        })
-        .collect();
+fn best(
+    ways: [&dyn Fn() -> Ends; WAYS.len()],
+    repeats: usize,
+) -> Result<Vec<Speed>, IntegrationError<f64>> {
+    let mut best = WAYS.map(|way| Speed {
+        way,
+        per_second: 0.0,
+    });
     for _ in 0..repeats {
-        for (best, (_, run)) in best.iter_mut().zip(ways) {
+        for (best, run) in best.iter_mut().zip(ways) {
             let clock = Instant::now();
             let ends = run();
             let per_second = ends.len() as f64 / clock.elapsed().as_secs_f64();
@@ -172,5 +164,5 @@ fn best(ways: &[Way<'_>], repeats: usize) -> Result<Vec<Speed>, IntegrationError
             ends.into_iter().collect::<Result<Vec<_>, _>>()?;
         }
     }
-    Ok(best)
+    Ok(best.to_vec())
 }

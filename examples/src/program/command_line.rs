@@ -6,19 +6,16 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, Command, Parser};
+use clap::{Arg, ArgMatches, Command, Parser, value_parser};
 use serde_json::{Map, Value};
 
 use super::sweep::Shard;
 
-/// The command line of a program.
+/// The options of a program, beside those that all have.
 pub trait Arguments: Parser {
     /// Folder of results where none is given; none for a program that writes
     /// files only where it is asked to.
     const FOLDER: Option<&'static str>;
-
-    /// The options that all programs have.
-    fn results(&self) -> &Results;
 
     /// The shard of the run that is computed, if it is not all of it.
     fn shard(&self) -> Option<Shard> {
@@ -34,30 +31,28 @@ pub trait Arguments: Parser {
     }
 }
 
-/// The options that all programs have.
-#[derive(Args, Clone, Debug, Default, PartialEq)]
-pub struct Results {
-    /// where tables, charts and run.json go; files of the same name there
-    /// are replaced
-    #[arg(long, value_name = "FOLDER", verbatim_doc_comment)]
-    pub output: Option<PathBuf>,
-    /// repeats the run that a run.json records; no other option but --output
-    #[arg(long, value_name = "FILE")]
-    pub repeat: Option<PathBuf>,
-}
-
-/// Names of [`Results`] among all options.
+/// The options that all programs have: the folder of results, and a run to repeat.
 const OUTPUT: &str = "output";
 const REPEAT: &str = "repeat";
 
-/// Reads the command line, the program's name included. Returns the arguments,
-/// and all values as text, those by default included, for `run.json`.
+/// A command line that was read.
+#[derive(Debug)]
+pub struct CommandLine<A> {
+    /// The options of the program.
+    pub arguments: A,
+    /// The folder of results, if there is one.
+    pub output: Option<PathBuf>,
+    /// All values as text, those by default included, for `run.json`.
+    pub values: Map<String, Value>,
+}
+
+/// Reads the command line, the program's name included.
 ///
 /// # Errors
 /// The text to be printed instead of a run: the help, or a mistake.
 pub fn parse<A: Arguments>(
     words: impl IntoIterator<Item = OsString>,
-) -> Result<(A, Map<String, Value>), clap::Error> {
+) -> Result<CommandLine<A>, clap::Error> {
     let mut command = command::<A>();
     let given: Vec<OsString> = words.into_iter().collect();
     let mut matches = command.try_get_matches_from_mut(&given)?;
@@ -71,14 +66,27 @@ pub fn parse<A: Arguments>(
     arguments
         .check()
         .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
-    Ok((arguments, values(&command, &matches)))
+    Ok(CommandLine {
+        arguments,
+        output: matches.get_one(OUTPUT).cloned(),
+        values: values(&command, &matches),
+    })
 }
 
 fn command<A: Arguments>() -> Command {
-    match A::FOLDER {
-        Some(folder) => A::command().mut_arg(OUTPUT, |output| output.default_value(folder)),
-        None => A::command(),
-    }
+    let path = |name| {
+        Arg::new(name)
+            .long(name)
+            .value_parser(value_parser!(PathBuf))
+    };
+    let output = path(OUTPUT)
+        .value_name("FOLDER")
+        .help("where tables, charts and run.json go; files of the same name there\nare replaced")
+        .default_values(A::FOLDER);
+    let repeat = path(REPEAT)
+        .value_name("FILE")
+        .help("repeats the run that a run.json records; no other option but --output");
+    A::command().args([output, repeat])
 }
 
 /// The words of the run that `file` records, with the output folder of this one.
@@ -125,7 +133,7 @@ fn repeated(
     Ok(words)
 }
 
-/// All values but those of [`Results`], as they would be written.
+/// All values of the program's own options, as they would be written.
 fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
     let mut values = Map::new();
     for argument in command.get_arguments() {
@@ -140,6 +148,12 @@ fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
         }
     }
     values
+}
+
+/// The parts of a list that stand between commas.
+pub fn parts(text: &str) -> impl Iterator<Item = &str> {
+    let parts = text.split(',').map(str::trim);
+    parts.filter(|part| !part.is_empty())
 }
 
 /// Reads a number within a range, in the unit that messages name.
@@ -241,6 +255,6 @@ pub fn parse_line<A: Arguments>(line: &str) -> Result<A, String> {
     let words = std::iter::once(name.as_str()).chain(line.split_whitespace());
     let parsed = parse(words.map(OsString::from));
     parsed
-        .map(|(arguments, _)| arguments)
+        .map(|line| line.arguments)
         .map_err(|error| error.to_string())
 }

@@ -106,17 +106,6 @@ impl Record {
     }
 }
 
-fn write(folder: &Path, name: &str, bytes: &[u8], ledger: &SharedLedger) -> Result<(), Failure> {
-    let written = Part::create(folder, name, ledger).and_then(|mut part| {
-        part.write_all(bytes)?;
-        part.finish()
-    });
-    written.map_err(|source| Failure::File {
-        path: folder.join(name),
-        source,
-    })
-}
-
 /// One run of a program.
 #[derive(Debug)]
 pub struct Job {
@@ -263,10 +252,17 @@ impl Job {
     /// # Errors
     /// [`Failure::File`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
-        match &self.folder {
-            Some(folder) => write(folder, name, bytes, &self.ledger),
-            None => Ok(()),
-        }
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        let written = Part::create(folder, name, &self.ledger).and_then(|mut part| {
+            part.write_all(bytes)?;
+            part.finish()
+        });
+        written.map_err(|source| Failure::File {
+            path: folder.join(name),
+            source,
+        })
     }
 
     /// Writes a table of results whose rows `rows` gives to a writer.

@@ -23,7 +23,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 pub use checkpoint::Checkpoint;
-pub use command_line::{Arguments, Results};
+pub use command_line::{Arguments, CommandLine};
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;
@@ -32,8 +32,12 @@ use crate::failure::Failure;
 
 /// Reads the command line and runs the program.
 pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> ExitCode {
-    let (arguments, given) = match command_line::parse::<A>(std::env::args_os()) {
-        Ok(parsed) => parsed,
+    let CommandLine {
+        arguments,
+        output: mut folder,
+        values,
+    } = match command_line::parse::<A>(std::env::args_os()) {
+        Ok(line) => line,
         Err(answer) => {
             // The help, too, comes as such an answer.
             let code = u8::try_from(answer.exit_code()).unwrap_or(2);
@@ -44,11 +48,10 @@ pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> 
         }
     };
     let name = A::command().get_name().to_owned();
-    let mut folder = arguments.results().output.clone();
     if let (Some(folder), Some(shard)) = (&mut folder, arguments.shard()) {
         folder.push(shard.folder());
     }
-    let job = match Job::start(&name, folder, given) {
+    let job = match Job::start(&name, folder, values) {
         Ok(job) => job,
         Err(failure) => {
             say(&name, &messages(&failure).join(": "));

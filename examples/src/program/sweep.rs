@@ -77,7 +77,7 @@ impl Shard {
 
 /// Results of a shard.
 #[derive(Debug, Serialize, Deserialize)]
-struct Part<R> {
+struct ShardResults<R> {
     shard: Shard,
     results: Vec<(usize, R)>,
 }
@@ -146,7 +146,7 @@ pub fn results<R: Serialize + DeserializeOwned>(
             }
             let own = shard.items(items);
             let results = own.iter().copied().zip(work(&own)?).collect();
-            let part = seal(&job.identity(), &Part { shard, results });
+            let part = seal(&job.identity(), &ShardResults { shard, results });
             let part = part.map_err(|source| Failure::Sealed {
                 path: folder.join(PART),
                 source,
@@ -189,14 +189,14 @@ fn agree(job: &Job, folder: &Path, shards: u32, items: usize) -> Result<(), Fail
 }
 
 /// The part in a folder, if it is there.
-fn read<R: DeserializeOwned>(job: &Job, folder: &Path) -> Result<Option<Part<R>>, Failure> {
+fn read<R: DeserializeOwned>(job: &Job, folder: &Path) -> Result<Option<ShardResults<R>>, Failure> {
     let path = folder.join(PART);
     let bytes = match fs::read(&path) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(source) => return Err(Failure::Unread { path, source }),
     };
-    let part: Result<Part<R>, SealError> = open(&job.identity(), &bytes);
+    let part: Result<ShardResults<R>, SealError> = open(&job.identity(), &bytes);
     part.map(Some)
         .map_err(|source| Failure::Sealed { path, source })
 }

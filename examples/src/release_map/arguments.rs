@@ -2,7 +2,6 @@
 
 use clap::{Parser, ValueEnum};
 
-use crate::program::Results;
 use crate::program::command_line::number;
 
 /// The plane of a map.
@@ -63,23 +62,10 @@ pub struct Arguments {
         value_parser = number(1e-12..=1e-3, "")
     )]
     pub tolerance: f64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
-}
-
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["release-map"])
-    }
 }
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("release-map-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 
     fn check(&self) -> Result<(), String> {
         if self.plane == Plane::RatioEnergy && self.scene != Scene::Paper {

@@ -6,6 +6,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::TransverseOde;
 
 use super::arguments::Arguments;
+use crate::critical_angle::scene::{at_rest, first_sector};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -126,20 +127,3 @@ pub fn over_ratios<P: Transverse<f64> + Sync>(
 
 /// Masses of the children over that of the paper's.
 pub const RATIOS: [f64; 2] = [0.05, 20.0];
-
-/// The equations of the first pair.
-///
-/// # Errors
-/// [`Failure::NoPair`].
-pub fn first_sector<P: Transverse<f64>>(model: P) -> Result<TransverseOde<P>, Failure> {
-    TransverseOde::new(model, 0).ok_or(Failure::NoPair)
-}
-
-/// A release from rest with a difference of one, of all its links alike.
-pub fn at_rest<P: Transverse<f64>>(parent: f64, children: f64) -> State<f64> {
-    let mut angles = vec![children.to_radians(); P::LINKS];
-    angles[0] = parent.to_radians();
-    let links = P::TRANSVERSE.first().map_or(0, |sector| sector.links);
-    angles.resize(P::LINKS + links, 1.0);
-    State::at_rest(0.0, &angles)
-}

@@ -5,8 +5,7 @@ use branched_pendulum::analysis::growth::{BrakeOrbit, Continuation, Floquet};
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::*;
 
-use super::map::first_sector;
-use crate::critical_angle::scene::InPhase;
+use crate::critical_angle::scene::{InPhase, first_sector};
 use crate::failure::Failure;
 
 /// A mode, from its linear oscillation on.

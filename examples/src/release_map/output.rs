@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use branched_pendulum::analysis::CombinationTone;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
@@ -221,7 +222,11 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         let resonance = match ridge.resonance {
             None => "-".to_owned(),
             Some(Resonance { numbers, mismatch }) => {
-                format!("f_eff − {}/2 = {mismatch:.0e} Hz", sum(numbers))
+                let tone = CombinationTone {
+                    multiples: numbers.to_vec(),
+                };
+                let sum = tone.named(&["f_+", "f_−"]);
+                format!("f_eff − ({sum})/2 = {mismatch:.0e} Hz")
             }
         };
         // Writing to a string cannot fail.
@@ -246,26 +251,4 @@ fn list(arguments: &Arguments, tongues: &[Tongue]) -> String {
         );
     }
     text
-}
-
-/// A combination of frequencies as it is written: (2f_+ − f_−).
-fn sum(numbers: [i32; 2]) -> String {
-    let mut text = String::new();
-    for (number, sign) in numbers.into_iter().zip(['+', '−']) {
-        if number == 0 {
-            continue;
-        }
-        let joint = match (number < 0, text.is_empty()) {
-            (true, true) => "−",
-            (true, false) => " − ",
-            (false, true) => "",
-            (false, false) => " + ",
-        };
-        let many = match number.abs() {
-            1 => String::new(),
-            many => many.to_string(),
-        };
-        text.push_str(&format!("{joint}{many}f_{sign}"));
-    }
-    format!("({text})")
 }

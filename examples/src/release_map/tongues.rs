@@ -5,9 +5,8 @@ use branched_pendulum::analysis::growth::{Growth, frequency_at_rest, turns_a_sec
 use branched_pendulum::prelude::*;
 
 use super::arguments::Arguments;
-use super::map::{at_rest, first_sector};
 use super::normal_modes::NormalMode;
-use crate::critical_angle::scene::InPhase;
+use crate::critical_angle::scene::{InPhase, at_rest, first_sector};
 use crate::critical_angle::windows::windows;
 use crate::failure::Failure;
 

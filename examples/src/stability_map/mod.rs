@@ -12,7 +12,7 @@ pub mod verdict;
 use clap::Parser;
 
 use crate::failure::Failure;
-use crate::program::{Job, Results};
+use crate::program::Job;
 
 /// Where does each method fail? Runs the paper's branched double pendulum with
 /// every method at many steps (or tolerances), amplitudes and frictions, and maps
@@ -32,17 +32,10 @@ pub struct Arguments {
         value_parser = ["all", "amplitude", "tolerance", "friction", "truncation"]
     )]
     pub map: String,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
 }
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("stability-map-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 /// Computes the maps asked for, on all cores; one is there before the next begins.

@@ -175,15 +175,15 @@ fn grid(methods: &[Method], settings: &[f64], heights: &[f64]) -> Vec<(Method, f
 pub fn table(map: &Map) -> String {
     let mut text = format!("{}\n\n{:24}", map.survey.title, "");
     for verdict in Verdict::ALL {
-        text.push_str(&format!("{:>18}", verdict.name()));
+        text += &format!("{:>18}", verdict.name());
     }
     text.push('\n');
     for method in map.survey.methods {
-        text.push_str(&format!("{:24}", method.title()));
+        text += &format!("{:24}", method.title());
         for verdict in Verdict::ALL {
             let own = map.trials.iter().filter(|trial| trial.method == *method);
             let count = own.filter(|trial| trial.verdict == verdict).count();
-            text.push_str(&format!("{count:>18}"));
+            text += &format!("{count:>18}");
         }
         text.push('\n');
     }

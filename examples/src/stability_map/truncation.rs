@@ -9,7 +9,7 @@ use branched_pendulum_data::{Cell, Column};
 
 use crate::failure::Failure;
 use crate::program::Job;
-use crate::transfer_orders::Apparatus;
+use crate::scenes::BranchedDouble;
 
 /// Random states at each place.
 const STATES: usize = 400;
@@ -91,7 +91,7 @@ pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
 /// # Errors
 /// [`Failure::Truncation`].
 pub fn after(release: f64) -> Result<Vec<FormError>, Failure> {
-    let model = Apparatus::new();
+    let model = BranchedDouble::new();
     let start = [release.to_radians(), 0.0, 0.0];
     let average = PhaseAverage {
         amplitudes: logarithmic([0.01, 1.5], 20),
@@ -115,7 +115,7 @@ pub fn after(release: f64) -> Result<Vec<FormError>, Failure> {
 }
 
 fn forms() -> impl Iterator<Item = TransferForm> {
-    let forms = <Apparatus as TransferForms<f64>>::TRANSFER_FORMS.iter();
+    let forms = <BranchedDouble as TransferForms<f64>>::TRANSFER_FORMS.iter();
     forms.copied().filter(|form| *form != TransferForm::Exact)
 }
 
@@ -126,15 +126,15 @@ pub fn table(places: &[FormError]) -> String {
         ""
     );
     for worth in Worth::ALL {
-        text.push_str(&format!("{:>18}", worth.name()));
+        text += &format!("{:>18}", worth.name());
     }
     text.push('\n');
     for form in forms() {
-        text.push_str(&format!("{:24}", form.to_string()));
+        text += &format!("{:24}", form.to_string());
         for worth in Worth::ALL {
             let own = places.iter().filter(|place| place.form == form);
             let count = own.filter(|place| Worth::of(place.error) == worth).count();
-            text.push_str(&format!("{count:>18}"));
+            text += &format!("{count:>18}");
         }
         text.push('\n');
     }

@@ -4,8 +4,8 @@ use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
 use crate::failure::Failure;
+use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::solvers::configured;
-use crate::solvers::scenes::{Damped, DampedParameters, Ideal};
 
 /// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,7 @@ fn start(angle_deg: f64) -> State<f64> {
     State::at_rest(0.0, &[angle_deg.to_radians(), 1e-3, -1e-3])
 }
 
-fn energy_of(model: &Ideal, state: &[f64]) -> f64 {
+fn energy_of(model: &BranchedDouble, state: &[f64]) -> f64 {
     let (theta, omega) = state.split_at(3);
     model.kinetic_energy_of(theta, omega) + model.potential_energy_of(theta)
 }
@@ -70,7 +70,7 @@ fn of_error(error: &IntegrationError<f64>) -> Verdict {
 
 /// The verdict on a run without friction, released from `angle_deg`.
 pub fn ideal(method: Method, setting: f64, angle_deg: f64) -> Verdict {
-    let model = Ideal::new();
+    let model = BranchedDouble::new();
     let start = start(angle_deg);
     let initial = energy_of(&model, &start.values);
     let (mut early, mut late) = (0.0_f64, 0.0_f64);
@@ -105,8 +105,11 @@ pub const DAMPED_ANGLE: f64 = 40.0;
 ///
 /// # Errors
 /// [`Failure::Parameter`].
-pub fn damped_model(friction: f64) -> Result<Damped, Failure> {
-    Ok(Damped::new(DampedParameters { friction })?)
+pub fn damped_model(friction: f64) -> Result<DampedBranchedDouble, Failure> {
+    Ok(DampedBranchedDouble::new(DampedBranchedDoubleParameters {
+        friction_root: friction,
+        friction_children: friction,
+    })?)
 }
 
 /// Energy at the end with friction by a method and setting that are known to be
@@ -114,7 +117,7 @@ pub fn damped_model(friction: f64) -> Result<Damped, Failure> {
 ///
 /// # Errors
 /// As the method's.
-pub fn damped_reference(model: &Damped) -> Result<f64, IntegrationError<f64>> {
+pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, IntegrationError<f64>> {
     let method = Gauss {
         solver: Solver::Newton,
         ..Gauss::new(GaussOrder::Eight, 2e-4)
@@ -122,13 +125,18 @@ pub fn damped_reference(model: &Damped) -> Result<f64, IntegrationError<f64>> {
     let ode = AbsoluteAngles(model);
     let run_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let end = method.integrate(&ode, &start(DAMPED_ANGLE), DAMPED_DURATION, run_on)?;
-    Ok(energy_of(&Ideal::new(), &end.state.values))
+    Ok(energy_of(&BranchedDouble::new(), &end.state.values))
 }
 
 /// The verdict on a run with friction whose energy at the end should be
 /// `expected`.
-pub fn damped(method: Method, setting: f64, model: &Damped, expected: f64) -> Verdict {
-    let ideal = Ideal::new();
+pub fn damped(
+    method: Method,
+    setting: f64,
+    model: &DampedBranchedDouble,
+    expected: f64,
+) -> Verdict {
+    let ideal = BranchedDouble::new();
     let start = start(DAMPED_ANGLE);
     let initial = energy_of(&ideal, &start.values);
     let mut most = initial;

@@ -2,7 +2,6 @@
 
 use clap::Parser;
 
-use crate::program::Results;
 use crate::program::command_line::number;
 
 /// A branch of 31 rods sways in the wind, and a hand pulls it and lets go, frame by
@@ -31,21 +30,8 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value = "60", verbatim_doc_comment,
         value_parser = number(0.0..=1e5, "s"))]
     pub storm: f64,
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
-}
-
-impl Default for Arguments {
-    fn default() -> Self {
-        Self::parse_from(["swaying-branch"])
-    }
 }
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("swaying-branch-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }

@@ -1,7 +1,5 @@
 //! Table, frames and chart.
 
-use std::fmt::Write;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
@@ -101,41 +99,27 @@ pub fn text(arguments: &Arguments, branches: &Branches, trials: &[Trial], storm:
         1e3 * branches.sub_step
     );
     for trial in trials {
-        push(
-            &mut text,
-            format_args!(
-                "\n{} of wind and pull, angles up to {:.2} rad from rest\n\n\
+        text += &format!(
+            "\n{} of wind and pull, angles up to {:.2} rad from rest\n\n\
                  | model | setting | error (rad) | a frame (µs) | a sub-step (µs) |\n\
                  |---|---|---:|---:|---:|\n",
-                trial.share, trial.amplitude
-            ),
+            trial.share, trial.amplitude
         );
         for model in &trial.models {
             let sub_step = match model.sub_steps {
                 0 => String::new(),
                 count => format!("{:.3}", model.microseconds / f64::from(count)),
             };
-            push(
-                &mut text,
-                format_args!(
-                    "| {} | {} | {:.1e} | {:.3} | {sub_step} |\n",
-                    model.kind, model.setting, model.error, model.microseconds
-                ),
+            text += &format!(
+                "| {} | {} | {:.1e} | {:.3} | {sub_step} |\n",
+                model.kind, model.setting, model.error, model.microseconds
             );
         }
     }
-    push(
-        &mut text,
-        format_args!(
-            "\nStorm: {} frames with {} hits of a million newtons, {} states not finite, {} \
+    text += &format!(
+        "\nStorm: {} frames with {} hits of a million newtons, {} states not finite, {} \
              sub-steps with\nlimited rates, none above {:.0} rad/s.\n",
-            storm.frames, storm.hits, storm.not_finite, storm.limited, storm.largest_rate
-        ),
+        storm.frames, storm.hits, storm.not_finite, storm.limited, storm.largest_rate
     );
     text
-}
-
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
 }

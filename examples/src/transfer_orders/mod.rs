@@ -18,11 +18,12 @@ pub mod study;
 
 pub use arguments::Arguments;
 pub use cost::Costs;
-pub use scenes::{Apparatus, Arms};
+pub use scenes::Arms;
 pub use study::{Settings, Study};
 
 use crate::failure::Failure;
 use crate::program::Job;
+use crate::scenes::BranchedDouble;
 
 /// Studies all trees; prints and writes what one gives before the next begins.
 ///
@@ -31,12 +32,12 @@ use crate::program::Job;
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let progress = job.progress(2 * study::PARTS);
     let paper = Study::of(
-        &Apparatus::new(),
-        scenes::apparatus(arguments.states)?.seeded(arguments.seed),
+        &BranchedDouble::new(),
+        scenes::apparatus(arguments.states as usize)?.seeded(arguments.seed),
         &progress,
     )?;
     output::deliver(job, &paper)?;
-    let arms = scenes::arms(arguments.states)?.seeded(arguments.seed);
+    let arms = scenes::arms(arguments.states as usize)?.seeded(arguments.seed);
     let arms = Study::of(&Arms::new(), arms, &progress)?;
     output::deliver(job, &arms)
 }

@@ -1,7 +1,5 @@
 //! The tables, the CSV files and the charts.
 
-use std::fmt::Write;
-
 use branched_pendulum::analysis::truncation::ErrorCurve;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
@@ -43,50 +41,39 @@ pub fn table(study: &Study) -> String {
         along.duration,
     );
     for (average, along) in phase_average.iter().zip(trajectories) {
-        push(
-            &mut text,
-            format_args!(
-                "\nAmplitude, rad, at which the error of W into `{}` passes\n\n\
+        text += &format!(
+            "\nAmplitude, rad, at which the error of W into `{}` passes\n\n\
                  {:20}  {:^23}   {:>20}\n{:20}",
-                average.receiver, "", "phase average", "along trajectories", "form",
-            ),
+            average.receiver, "", "phase average", "along trajectories", "form",
         );
         for gap in ["", " "] {
             text.push_str(gap);
             for (level, _) in LEVELS {
-                push(&mut text, format_args!(" {level:>7}"));
+                text += &format!(" {level:>7}");
             }
             text.push(' ');
         }
         text.push_str("    cost\n");
         for (form, (name, ratio)) in average.forms.iter().zip(&costs.ratios).enumerate() {
-            push(&mut text, format_args!("{:20}", name.to_string()));
+            text += &format!("{:20}", name.to_string());
             for (gap, curve) in [("", average), (" ", along)] {
                 text.push_str(gap);
                 for (_, level) in LEVELS {
                     let crossing = curve.crossing(form, level);
                     let crossing = crossing.map_or("-".to_owned(), |crossing| crossing.to_string());
-                    push(&mut text, format_args!(" {crossing:>7}"));
+                    text += &format!(" {crossing:>7}");
                 }
                 text.push(' ');
             }
-            push(&mut text, format_args!(" {ratio:7.2}\n"));
+            text += &format!(" {ratio:7.2}\n");
         }
     }
-    push(
-        &mut text,
-        format_args!(
-            "\nCost: time for one evaluation from (q, p) of W into all sectors, in that of the\n\
+    text += &format!(
+        "\nCost: time for one evaluation from (q, p) of W into all sectors, in that of the\n\
              exact form, {:.0} ns here (median, one state after the other).\n\n",
-            costs.exact_ns
-        ),
+        costs.exact_ns
     );
     text
-}
-
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
 }
 
 /// Prints the table of one tree and writes its curves and its chart.

@@ -9,21 +9,7 @@ use branched_pendulum::branched_pendulum;
 
 use super::study::Settings;
 use crate::failure::Failure;
-
-/// The paper's apparatus with W in every form: to first order in θ_d as
-/// published, to orders 2 to 8 in the amplitude (θ_d and p_d together), and
-/// exact. Its numbers are those of
-/// [`branched_double::scenes`](crate::branched_double::scenes).
-#[branched_pendulum(
-    gravity = 9.80665,
-    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-    ],
-    emit(transfer(
-        angle = 1, amplitude = 2, amplitude = 4, amplitude = 6, amplitude = 8, exact
-    )),
-)]
-pub struct Apparatus;
+use crate::scenes::BranchedDouble;
 
 /// Two jointed arms on a body: a sector of two coordinates.
 #[branched_pendulum(
@@ -47,7 +33,7 @@ pub fn apparatus(states: usize) -> Result<Settings, Failure> {
     let mut settings = Settings::released(
         "paper",
         "the paper's apparatus, released from 47.8°",
-        &Apparatus::new(),
+        &BranchedDouble::new(),
         &release,
         states,
     )?;

@@ -7,8 +7,8 @@ use branched_pendulum::system::TaylorOde;
 
 use super::reference::{Problem, Tree};
 use crate::program::Progress;
+use crate::scenes::{BranchedDouble, Rods};
 use crate::solvers::configured;
-use crate::solvers::scenes::{Ideal, Rods};
 
 /// The methods that are compared.
 pub const METHODS: [Method; 8] = [
@@ -60,7 +60,7 @@ fn settings(method: Method) -> Vec<f64> {
 /// are left out.
 pub fn measure(problem: &Problem, progress: &Progress) -> Vec<Measurement> {
     match problem.tree {
-        Tree::Paper => measure_on(&AbsoluteAngles(&Ideal::new()), problem, progress),
+        Tree::Paper => measure_on(&AbsoluteAngles(&BranchedDouble::new()), problem, progress),
         Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem, progress),
     }
 }
@@ -146,7 +146,7 @@ pub struct EnergyDrift {
 /// # Errors
 /// As the methods'.
 pub fn energy_drifts(progress: &Progress) -> Result<Vec<EnergyDrift>, IntegrationError<f64>> {
-    let model = Ideal::new();
+    let model = BranchedDouble::new();
     let start = State::at_rest(0.0, &[0.3, 1e-3, -1e-3]);
     let energy = |state: &[f64]| {
         let (theta, omega) = state.split_at(3);

@@ -16,25 +16,17 @@ pub mod reference;
 use clap::Parser;
 
 use crate::failure::Failure;
-use crate::program::{Job, Results};
+use crate::program::Job;
 
 /// What does a given error cost, with which method? Runs the paper's branched
 /// double pendulum and seven rods with every method at many tolerances or steps,
 /// against reference trajectories, and follows the energy over 1,000 s.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "work-precision", version, verbatim_doc_comment)]
-pub struct Arguments {
-    /// Folder of results.
-    #[command(flatten)]
-    pub results: Results,
-}
+pub struct Arguments {}
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("work-precision-output");
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 /// Measures all problems and follows the energy.
@@ -42,7 +34,7 @@ impl crate::program::Arguments for Arguments {
 /// # Errors
 /// [`Failure`].
 pub fn run(_: &Arguments, job: &Job) -> Result<(), Failure> {
-    let problems = reference::problems()?;
+    let problems = reference::problems(&[10.0, 20.0, 100.0])?;
     let progress = job.progress(problems.len() + 1);
     let problems: Vec<_> = problems
         .iter()

@@ -1,7 +1,5 @@
 //! Tables, CSV files and charts.
 
-use std::fmt::Write;
-
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
 
@@ -19,22 +17,21 @@ pub type Runs = (&'static str, Vec<Measurement>);
 pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
     let mut text = String::from("Time in µs to an error at the end; * the shortest.\n");
     for (name, runs) in problems {
-        push(&mut text, format_args!("\n{name:24}"));
+        text += &format!("\n{name:24}");
         for level in LEVELS {
-            push(&mut text, format_args!("{level:>10e} "));
+            text += &format!("{level:>10e} ");
         }
         text.push('\n');
         let times = METHODS.map(|method| LEVELS.map(|level| time_to_error(runs, method, level)));
         for (method, row) in METHODS.iter().zip(&times) {
-            push(&mut text, format_args!("{:24}", method.title()));
+            text += &format!("{:24}", method.title());
             for (column, time) in row.iter().enumerate() {
                 let others = times.iter().filter_map(|row| row[column]);
                 let best = others.fold(f64::INFINITY, f64::min);
-                let _ = match time {
-                    Some(time) => {
-                        write!(text, "{time:10.0}{}", if *time == best { '*' } else { ' ' })
-                    }
-                    None => write!(text, "{:>10} ", "-"),
+                text += &match *time {
+                    Some(time) if time == best => format!("{time:10.0}*"),
+                    Some(time) => format!("{time:10.0} "),
+                    None => format!("{:>10} ", "-"),
                 };
             }
             text.push('\n');
@@ -44,20 +41,12 @@ pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
     for drift in drifts {
         let worst = |part: &[f64]| part.iter().copied().fold(0.0_f64, f64::max);
         let (first, last) = (worst(&drift.errors[..1]), worst(&drift.errors[99..]));
-        push(
-            &mut text,
-            format_args!(
-                "{:40} {first:9.1e} in the first 10 s, {last:9.1e} in the last, {} evaluations\n",
-                drift.name, drift.evaluations
-            ),
+        text += &format!(
+            "{:40} {first:9.1e} in the first 10 s, {last:9.1e} in the last, {} evaluations\n",
+            drift.name, drift.evaluations
         );
     }
     text
-}
-
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
 }
 
 /// Writes the runs of all problems as a table and two charts.

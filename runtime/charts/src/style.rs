@@ -193,11 +193,12 @@ const SYMBOLS: [Symbol; 7] = [
 ];
 
 /// Colour, dash and symbol of the `index`-th series. Four dashes against seven
-/// colours: the first 28 series differ pairwise.
+/// colours, and symbols that move on by one when the colours begin anew: the first 28
+/// lines differ pairwise, and the first 49 kinds of points.
 pub(crate) fn automatic(index: usize) -> (Color, Dash, Symbol) {
     (
         PALETTE[index % PALETTE.len()],
         DASHES[index % DASHES.len()],
-        SYMBOLS[index % SYMBOLS.len()],
+        SYMBOLS[(index + index / PALETTE.len()) % SYMBOLS.len()],
     )
 }

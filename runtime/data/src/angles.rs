@@ -73,7 +73,6 @@ impl AngleColumns {
     /// [`ReadError`]: columns that do not exist, a time that does not ascend, frames without
     /// a rate, a unit that cannot be made out.
     pub fn read(&self, table: &Table) -> Result<Recording, ReadError> {
-        self.check(table)?;
         let times = Times::read(table, &self.clock)?;
         let mut findings = Vec::new();
         let columns = self.find_columns(table, times.column, &mut findings)?;
@@ -96,16 +95,6 @@ impl AngleColumns {
             .collect();
         self.turn(&mut links, &mut findings);
         Recording::new(table, times, links, self.outliers, findings)
-    }
-
-    fn check(&self, table: &Table) -> Result<(), ReadError> {
-        match self.outliers {
-            Some(threshold) if !(threshold.is_finite() && threshold > 0.0) => {
-                let what = format!("a threshold of outliers of {threshold}; it must be positive");
-                Err(table.refused(ReadErrorKind::Option { what }))
-            }
-            _ => Ok(()),
-        }
     }
 
     fn check_parents(&self, table: &Table, links: usize) -> Result<(), ReadError> {

@@ -49,7 +49,7 @@ impl fmt::Display for Format {
 
 /// A line with its number in the file, cut into cells.
 #[derive(Clone, Debug)]
-pub(crate) struct Line {
+pub(crate) struct TextLine {
     pub(crate) number: u64,
     pub(crate) cells: Vec<String>,
 }
@@ -133,14 +133,14 @@ impl Format {
     }
 
     /// Cuts a text into lines of cells; blank lines are left out.
-    pub(crate) fn lines(self, text: &str) -> Result<Vec<Line>, csv::Error> {
+    pub(crate) fn lines(self, text: &str) -> Result<Vec<TextLine>, csv::Error> {
         let delimiter = match self.delimiter {
             Delimiter::Comma => b',',
             Delimiter::Semicolon => b';',
             Delimiter::Tab => b'\t',
             Delimiter::Spaces => {
                 let lines = text.lines().zip(1..);
-                let cut = lines.map(|(line, number)| Line {
+                let cut = lines.map(|(line, number)| TextLine {
                     number,
                     cells: self.split(line).into_iter().map(str::to_owned).collect(),
                 });
@@ -160,7 +160,7 @@ impl Format {
                 continue;
             }
             let number = record.position().map_or(0, csv::Position::line);
-            lines.push(Line {
+            lines.push(TextLine {
                 number,
                 cells: record.iter().map(str::to_owned).collect(),
             });

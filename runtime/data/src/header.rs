@@ -1,7 +1,7 @@
 //! Lines above the numbers: names, units, tracks.
 
 use super::error::{Place, ReadErrorKind};
-use super::format::Line;
+use super::format::TextLine;
 use super::write::Column;
 
 /// Programs whose tables are known by their headers.
@@ -57,8 +57,8 @@ impl Refused {
 
 impl Header {
     /// Reads the lines above the first row of `width` cells with numbers.
-    pub(crate) fn read(above: &[Line], width: usize) -> Result<Self, Refused> {
-        let above: &[Line] = &above.iter().map(trimmed).collect::<Vec<_>>();
+    pub(crate) fn read(above: &[TextLine], width: usize) -> Result<Self, Refused> {
+        let above: &[TextLine] = &above.iter().map(trimmed).collect::<Vec<_>>();
         if let Some(start) = above.iter().position(|line| starts(line, "scorer")) {
             return Self::deep_lab_cut(&above[start..], width, start);
         }
@@ -107,7 +107,7 @@ impl Header {
     }
 
     /// A name stands above the first of its track's columns; the time has none.
-    fn tracker(tracks: &Line, quantities: &Line, preamble: usize) -> Self {
+    fn tracker(tracks: &TextLine, quantities: &TextLine, preamble: usize) -> Self {
         let single = tracks.cells.iter().filter(|cell| !cell.is_empty()).count() == 1;
         let mut track = String::new();
         let mut columns: Vec<Column> = Vec::new();
@@ -141,7 +141,7 @@ impl Header {
     }
 
     /// Rows `scorer`, `individuals` (where there are several), `bodyparts`, `coords`.
-    fn deep_lab_cut(above: &[Line], width: usize, preamble: usize) -> Result<Self, Refused> {
+    fn deep_lab_cut(above: &[TextLine], width: usize, preamble: usize) -> Result<Self, Refused> {
         let row = |word: &str| above.iter().find(|line| starts(line, word));
         let needed = |word: &str| {
             row(word).ok_or_else(|| {
@@ -183,7 +183,7 @@ impl Header {
         Ok(header)
     }
 
-    fn check_names(&self, above: &[Line]) -> Result<(), Refused> {
+    fn check_names(&self, above: &[TextLine]) -> Result<(), Refused> {
         for (index, column) in self.columns.iter().enumerate() {
             let name = &column.name;
             let place = || {
@@ -206,31 +206,31 @@ impl Header {
 }
 
 /// A line without empty cells at its end, nor the mark of a comment alone at its start.
-fn trimmed(line: &Line) -> Line {
+fn trimmed(line: &TextLine) -> TextLine {
     let used = line.cells.iter().rposition(|cell| !cell.is_empty());
     let cells = &line.cells[..used.map_or(0, |last| last + 1)];
     let skip = usize::from(cells.first().is_some_and(|cell| cell == "#"));
-    Line {
+    TextLine {
         number: line.number,
         cells: cells[skip..].to_vec(),
     }
 }
 
-fn wrong_width(line: &Line, width: usize) -> Refused {
+fn wrong_width(line: &TextLine, width: usize) -> Refused {
     let kind = ReadErrorKind::Header {
         what: format!("{} names above rows of {width} cells", line.cells.len()),
     };
     Refused::new(kind, Some(Place::line(line.number)))
 }
 
-fn starts(line: &Line, word: &str) -> bool {
+fn starts(line: &TextLine, word: &str) -> bool {
     line.cells
         .first()
         .is_some_and(|cell| cell.eq_ignore_ascii_case(word))
 }
 
 /// Tracks stand over quantities, of which the first is the time and another an x.
-fn is_tracker(tracks: &Line, quantities: &Line) -> bool {
+fn is_tracker(tracks: &TextLine, quantities: &TextLine) -> bool {
     let Some((first, rest)) = quantities.cells.split_first() else {
         return false;
     };
@@ -268,20 +268,16 @@ pub(crate) fn is_frame(name: &str) -> bool {
     )
 }
 
-const UNITS: [&str; 17] = [
-    "s", "ms", "µs", "us", "min", "sec", "seconds", "rad", "mrad", "deg", "degrees", "degree", "°",
-    "m", "mm", "cm", "px",
+const UNITS: [&str; 22] = [
+    "s", "ms", "µs", "us", "min", "sec", "seconds", "rad", "radians", "mrad", "deg", "degrees",
+    "degree", "°", "rad/s", "deg/s", "m", "mm", "cm", "px", "pixel", "pixels",
 ];
 
 fn is_unit(text: &str) -> bool {
     UNITS.contains(&bare(text).as_str())
-        || matches!(
-            bare(text).as_str(),
-            "pixel" | "pixels" | "radians" | "rad/s" | "deg/s"
-        )
 }
 
-fn is_units(line: &Line) -> bool {
+fn is_units(line: &TextLine) -> bool {
     let mut cells = line.cells.iter().filter(|cell| !cell.is_empty()).peekable();
     cells.peek().is_some() && cells.all(|cell| is_unit(cell))
 }

@@ -76,10 +76,8 @@ impl Markers {
     /// [`ReadError`]: tracks that do not exist, a time that does not ascend, frames without a
     /// rate, markers of a link that coincide.
     pub fn read(&self, table: &Table) -> Result<Recording, ReadError> {
-        let positive = |value: f64| value.is_finite() && value > 0.0;
-        if !(0.0..=1.0).contains(&self.likelihood) || self.outliers.is_some_and(|t| !positive(t)) {
-            let what =
-                "a likelihood is between 0 and 1, a threshold of outliers positive".to_owned();
+        if !(0.0..=1.0).contains(&self.likelihood) {
+            let what = format!("a likelihood of {}; it is between 0 and 1", self.likelihood);
             return Err(table.refused(ReadErrorKind::Option { what }));
         }
         let mut findings = Vec::new();

@@ -66,6 +66,10 @@ impl Recording {
         outliers: Option<f64>,
         of_angles: Vec<Finding>,
     ) -> Result<Self, ReadError> {
+        if let Some(threshold) = outliers.filter(|t| !(t.is_finite() && *t > 0.0)) {
+            let what = format!("a threshold of outliers of {threshold}; it must be positive");
+            return Err(table.refused(ReadErrorKind::Option { what }));
+        }
         check(table, &links)?;
         let Times {
             seconds,

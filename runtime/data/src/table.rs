@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::{Place, ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding};
-use super::format::{DecimalMark, Delimiter, Entry, Format, Line};
+use super::format::{DecimalMark, Delimiter, Entry, Format, TextLine};
 use super::header::{FileKind, Header, Track};
 use super::write::Column;
 
@@ -95,7 +95,7 @@ impl Table {
     }
 
     /// Appends a row of a file.
-    fn push(&mut self, row: &Line, format: Format) -> Result<(), ReadError> {
+    fn push(&mut self, row: &TextLine, format: Format) -> Result<(), ReadError> {
         let width = self.columns.len();
         let surplus = row.cells.get(width..).unwrap_or_default();
         let found = row.cells.len();
@@ -256,7 +256,7 @@ impl Table {
 }
 
 /// Returns true for a line of numbers and missing values.
-fn is_row(line: &Line, format: Format) -> bool {
+fn is_row(line: &TextLine, format: Format) -> bool {
     let entries = || line.cells.iter().map(|cell| format.entry(cell));
     line.cells.len() >= 2
         && entries().any(|entry| matches!(entry, Entry::Number(_)))
@@ -264,8 +264,8 @@ fn is_row(line: &Line, format: Format) -> bool {
 }
 
 /// Number of columns: that of the first row, without empty cells at its end that end all rows.
-fn width(rows: &[Line]) -> usize {
-    let used = |line: &Line| {
+fn width(rows: &[TextLine]) -> usize {
+    let used = |line: &TextLine| {
         line.cells
             .iter()
             .rposition(|cell| !cell.is_empty())

@@ -1,6 +1,10 @@
-//! Pendulum trees for Python.
+//! Pendulum trees for Python: the module `branched_pendulum._native`.
 
-mod method;
+mod arrays;
+mod branched_double;
+mod motions;
+mod pendulum;
+mod solution;
 mod tree;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -19,16 +23,14 @@ pyo3::create_exception!(
     "A motion that could not be followed to its end."
 );
 
-/// Pendulum trees, described in text.
-///
-/// SI units; angles are absolute, in radians from the downward vertical. A state is the angles
-/// followed by the angular velocities.
 #[pymodule]
-fn branched_pendulum(module: &Bound<'_, PyModule>) -> PyResult<()> {
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("DescriptionError", py.get_type::<DescriptionError>())?;
     module.add("IntegrationError", py.get_type::<IntegrationError>())?;
+    module.add_class::<pendulum::Pendulum>()?;
     module.add_class::<tree::Tree>()?;
-    module.add_class::<method::Solution>()
+    module.add_class::<branched_double::BranchedDouble>()?;
+    module.add_class::<solution::Solution>()
 }

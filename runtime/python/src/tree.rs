@@ -1,30 +1,40 @@
 //! The class `Tree`.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use std::sync::Arc;
 
-use ::branched_pendulum::prelude::{Ode, State};
-use ::branched_pendulum::system::{LinkPoint, Workspace};
+use branched_pendulum::system::{LinkPoint, Workspace};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
-use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
-};
+use numpy::IntoPyArray;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::method::{Method, Solution};
-use crate::{DescriptionError, IntegrationError};
+use crate::DescriptionError;
+use crate::arrays::{Matrix, Row, Values, matrix, numbers};
+use crate::motions::Model;
+use crate::pendulum::Pendulum;
 
-type Row<'py> = Bound<'py, PyArray1<f64>>;
-type Matrix<'py> = Bound<'py, PyArray2<f64>>;
-type Values<'py> = PyReadonlyArray1<'py, f64>;
-
-/// A pendulum tree: `Tree("gravity = 9.81, rod: rod(mass = m, length = 1)", m=0.2)`.
+/// A pendulum tree that a text describes:
+/// `Tree("gravity = 9.81, rod: rod(mass = m, length = 1)", m=0.2)`.
 ///
-/// The text is what stands between the parentheses of the attribute `branched_pendulum`.
-#[pyclass(frozen, module = "branched_pendulum")]
+/// The text is what stands between the parentheses of the attribute `branched_pendulum`; names
+/// in it are parameters, in SI units. Mistakes raise `DescriptionError`, each marked in its line.
+#[pyclass(frozen, extends = Pendulum, module = "branched_pendulum")]
 pub(crate) struct Tree {
-    tree: PendulumTree,
+    tree: Arc<PendulumTree>,
+}
+
+impl Model for PendulumTree {
+    fn link_names(&self) -> Vec<String> {
+        self.names().to_vec()
+    }
+
+    fn state_energy(&self, state: &[f64]) -> f64 {
+        match state.split_at_checked(self.links()) {
+            Some((theta, omega)) => PendulumTree::energy(self, theta, omega),
+            None => f64::NAN,
+        }
+    }
 }
 
 fn wrong(error: TreeError) -> PyErr {
@@ -35,49 +45,38 @@ fn wrong(error: TreeError) -> PyErr {
     }
 }
 
-/// The numbers of an array, as many as are wanted.
-fn numbers(name: &str, array: &Values<'_>, wanted: usize) -> PyResult<Vec<f64>> {
-    let numbers = array.as_array().to_vec();
-    match numbers.len() == wanted {
-        true => Ok(numbers),
-        false => Err(PyValueError::new_err(format!(
-            "{name} has {} numbers, must have {wanted}",
-            numbers.len()
-        ))),
-    }
-}
-
-fn matrix<'py>(py: Python<'py>, values: Vec<f64>, columns: usize) -> PyResult<Matrix<'py>> {
-    let rows = values.len() / columns.max(1);
-    values.into_pyarray(py).reshape([rows, columns])
+fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
+    let tree = Arc::new(tree);
+    let motions = tree.clone();
+    PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree { tree })
 }
 
 #[pymethods]
 impl Tree {
     #[new]
     #[pyo3(signature = (text, **parameters))]
-    fn new(text: &str, parameters: Option<BTreeMap<String, f64>>) -> PyResult<Self> {
+    fn new(
+        text: &str,
+        parameters: Option<BTreeMap<String, f64>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
         let parameters = parameters.unwrap_or_default();
         let values: Vec<(&str, f64)> = parameters.iter().map(|(name, x)| (&**name, *x)).collect();
         let description = TreeDescription::parse(text).map_err(|error| wrong(error.into()))?;
-        let tree = description.tree(&values).map_err(wrong)?;
-        Ok(Self { tree })
+        Ok(class(description.tree(&values).map_err(wrong)?))
     }
 
-    /// The same tree with other values of parameters: `tree.changed(m=0.3)`.
+    /// Returns the tree with other values of parameters: `tree.changed(m=0.3)`.
     #[pyo3(signature = (**parameters))]
-    fn changed(&self, parameters: Option<BTreeMap<String, f64>>) -> PyResult<Self> {
-        let mut tree = self.tree.clone();
+    fn changed(
+        &self,
+        py: Python<'_>,
+        parameters: Option<BTreeMap<String, f64>>,
+    ) -> PyResult<Py<Self>> {
+        let mut tree = PendulumTree::clone(&self.tree);
         for (name, value) in parameters.unwrap_or_default() {
             tree = tree.with(&name, value).map_err(wrong)?;
         }
-        Ok(Self { tree })
-    }
-
-    /// Names of the links, in the order of the angles.
-    #[getter]
-    fn names(&self) -> Vec<String> {
-        self.tree.names().to_vec()
+        Py::new(py, class(tree))
     }
 
     /// Values of the parameters, in SI units.
@@ -89,15 +88,11 @@ impl Tree {
             .collect()
     }
 
-    fn __len__(&self) -> usize {
-        self.tree.links()
-    }
-
     fn __repr__(&self) -> String {
         format!("Tree of {}", self.tree.names().join(", "))
     }
 
-    /// Angular accelerations (rad/s²) at angles `theta` (rad) and angular velocities `omega`
+    /// Returns the angular accelerations (rad/s²) at angles `theta` (rad) and angular velocities `omega`
     /// (rad/s), at a time of the drive, under torques (N m) from outside.
     #[pyo3(signature = (theta, omega, time = 0.0, torques = None))]
     fn accelerations<'py>(
@@ -126,46 +121,22 @@ impl Tree {
         Ok(alpha.into_pyarray(py))
     }
 
-    /// Rates of a state, as `scipy.integrate.solve_ivp` asks for them.
-    fn rhs<'py>(&self, py: Python<'py>, t: f64, y: Values<'py>) -> PyResult<Row<'py>> {
-        let state = numbers("y", &y, self.tree.dimension())?;
-        let mut rates = vec![0.0; state.len()];
-        self.tree.rates(t, &state, &mut rates);
-        Ok(rates.into_pyarray(py))
-    }
-
-    /// Kinetic energy, J.
+    /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
+    /// (rad/s), in the frame that moves with the root's pivot.
     fn kinetic_energy(&self, theta: Values<'_>, omega: Values<'_>) -> PyResult<f64> {
         let n = self.tree.links();
         let (theta, omega) = (numbers("theta", &theta, n)?, numbers("omega", &omega, n)?);
         Ok(self.tree.kinetic_energy(&theta, &omega))
     }
 
-    /// Potential energy, J.
+    /// Returns the potential energy (J) at angles `theta` (rad).
     fn potential_energy(&self, theta: Values<'_>) -> PyResult<f64> {
         let theta = numbers("theta", &theta, self.tree.links())?;
         Ok(self.tree.potential_energy(&theta))
     }
 
-    /// Energy of each state of an array of them, or of one, J.
-    fn energy<'py>(&self, py: Python<'py>, y: PyReadonlyArray2<'py, f64>) -> PyResult<Row<'py>> {
-        let n = self.tree.links();
-        let y = y.as_array();
-        let energies = y.rows().into_iter().map(|row| {
-            let state = row.to_vec();
-            match state.split_at_checked(n) {
-                Some((theta, omega)) if omega.len() == n => Ok(self.tree.energy(theta, omega)),
-                _ => Err(PyValueError::new_err(format!(
-                    "a state has {} numbers, must have {}",
-                    state.len(),
-                    2 * n
-                ))),
-            }
-        });
-        Ok(energies.collect::<PyResult<Vec<f64>>>()?.into_pyarray(py))
-    }
-
-    /// Generalized momenta, kg m²/s.
+    /// Returns the generalized momenta (kg m²/s) at angles `theta` (rad) and angular
+    /// velocities `omega` (rad/s).
     fn momenta<'py>(
         &self,
         py: Python<'py>,
@@ -177,20 +148,20 @@ impl Tree {
         Ok(self.tree.momenta(&theta, &omega).into_pyarray(py))
     }
 
-    /// Mass matrix, kg m².
+    /// Returns the mass matrix (kg m²) at angles `theta` (rad).
     fn mass_matrix<'py>(&self, py: Python<'py>, theta: Values<'py>) -> PyResult<Matrix<'py>> {
         let theta = numbers("theta", &theta, self.tree.links())?;
         matrix(py, self.tree.mass_matrix(&theta).concat(), theta.len())
     }
 
-    /// Second derivatives of the potential energy, N m/rad.
+    /// Returns the second derivatives of the potential energy (N m/rad) at angles `theta` (rad).
     fn stiffness_matrix<'py>(&self, py: Python<'py>, theta: Values<'py>) -> PyResult<Matrix<'py>> {
         let theta = numbers("theta", &theta, self.tree.links())?;
         matrix(py, self.tree.stiffness_matrix(&theta).concat(), theta.len())
     }
 
-    /// Frequencies (Hz) and shapes of the linear modes, a row for each, about angles at which
-    /// the tree is at rest: zeros, if none are given.
+    /// Returns frequencies (Hz) and shapes of the linear modes, a row for each, about angles
+    /// `theta` (rad) at which the tree is at rest: zeros, if none are given.
     #[pyo3(signature = (theta = None))]
     fn modes<'py>(
         &self,
@@ -208,7 +179,8 @@ impl Tree {
         Ok((modes.frequencies_hz.into_pyarray(py), shapes))
     }
 
-    /// Positions x, y (m) of a point of each link: `"pivot"`, `"centre"` or `"end"`.
+    /// Returns the positions x, y (m) of a point of each link, `"pivot"`, `"centre"` or `"end"`,
+    /// at angles `theta` (rad): y is upwards, from the root's pivot.
     #[pyo3(signature = (theta, point = "end"))]
     fn points<'py>(
         &self,
@@ -227,83 +199,5 @@ impl Tree {
         };
         let theta = numbers("theta", &theta, self.tree.links())?;
         matrix(py, self.tree.points(point, &theta).concat(), 2)
-    }
-
-    /// Follows the motion from the state `y0` at `t[0]`, at the times `t` (s), by `"dop853"`,
-    /// `"dopri5"` or `"verner98"`. Other threads of Python run meanwhile.
-    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None))]
-    fn integrate<'py>(
-        &self,
-        py: Python<'py>,
-        y0: Values<'py>,
-        t: Values<'py>,
-        method: &str,
-        rtol: f64,
-        atol: Option<f64>,
-    ) -> PyResult<Solution> {
-        let method = Method::named(method, rtol, atol)?;
-        let times = t.as_array().to_vec();
-        let Some(&first) = times.first() else {
-            return Err(PyValueError::new_err("t has no times"));
-        };
-        let values = numbers("y0", &y0, self.tree.dimension())?;
-        let dimension = values.len();
-        let start = State::new(first, values);
-        let (states, report) = py.detach(|| method.sample(&self.tree, &start, &times))?;
-        Ok(Solution {
-            t: times.into_pyarray(py).unbind(),
-            y: matrix(py, states, dimension)?.unbind(),
-            report,
-        })
-    }
-
-    /// Follows many motions, one from each row of `starts`, on all cores or as many threads as
-    /// are given: states by start, time and component. NaN from where a motion could not be
-    /// followed.
-    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None))]
-    #[allow(clippy::too_many_arguments)]
-    fn ensemble<'py>(
-        &self,
-        py: Python<'py>,
-        starts: PyReadonlyArray2<'py, f64>,
-        t: Values<'py>,
-        method: &str,
-        rtol: f64,
-        atol: Option<f64>,
-        threads: Option<NonZeroUsize>,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let method = Method::named(method, rtol, atol)?;
-        let times = t.as_array().to_vec();
-        let (dimension, first) = (self.tree.dimension(), times.first().copied());
-        let Some(first) = first else {
-            return Err(PyValueError::new_err("t has no times"));
-        };
-        let starts = starts.as_array();
-        if starts.ncols() != dimension {
-            return Err(PyValueError::new_err(format!(
-                "a start has {} numbers, must have {dimension}",
-                starts.ncols()
-            )));
-        }
-        let starts: Vec<State<f64>> = starts
-            .rows()
-            .into_iter()
-            .map(|row| State::new(first, row.to_vec()))
-            .collect();
-        let samples = py.detach(|| method.sample_all(threads, &self.tree, &starts, &times));
-        let length = dimension * times.len();
-        let mut values = Vec::with_capacity(length * samples.len());
-        for sample in &samples {
-            let begin = values.len();
-            sample
-                .states()
-                .for_each(|state| values.extend_from_slice(state));
-            values.resize(begin + length, f64::NAN);
-        }
-        if let [Err(error)] = samples.iter().map(|s| s.end.as_ref()).collect::<Vec<_>>()[..] {
-            return Err(IntegrationError::new_err(error.to_string()));
-        }
-        let shape = [samples.len(), times.len(), dimension];
-        values.into_pyarray(py).reshape(shape)
     }
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use super::modes::{ModesError, symmetric_matrix};
+use crate::approximate::rest::{MOST_STEPS, come_to_rest};
 
 /// Matrices of a tree at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,12 +17,6 @@ pub struct AtRest<const N: usize> {
     /// Accelerations from rest, rad/s².
     pub accelerations: [f64; N],
 }
-
-/// Most steps of the search.
-const MOST_STEPS: usize = 100;
-
-/// Longest step of an angle, rad: beyond, the stiffness says nothing.
-const LONGEST_STEP: f64 = 0.5;
 
 /// Finds the equilibrium near `start`, at which the tree stays at rest, by Newton's
 /// method: K δ = M α, since the torques at rest are M α = −∂U/∂θ. No angle changes by
@@ -66,8 +61,8 @@ pub fn equilibrium<const N: usize>(
     mut at: impl FnMut(&[f64; N]) -> AtRest<N>,
 ) -> Result<[f64; N], EquilibriumError> {
     let mut theta = start;
-    let mut size = f64::INFINITY;
-    for _ in 0..MOST_STEPS {
+    let last_step = come_to_rest(&mut start.to_vec(), |angles| {
+        theta.copy_from_slice(angles);
         let AtRest {
             mass,
             stiffness,
@@ -79,21 +74,13 @@ pub fn equilibrium<const N: usize>(
         let torque = mass * DVector::from_column_slice(&accelerations);
         let step = stiffness.lu().solve(&torque);
         let step = step.filter(|step| step.iter().all(|part| part.is_finite()));
-        let Some(step) = step else {
-            return Err(EquilibriumError::Singular);
-        };
-        let before = size;
-        size = step.amax();
-        let factor = (LONGEST_STEP / size).min(1.0);
-        for (angle, part) in theta.iter_mut().zip(step.iter()) {
-            *angle += factor * part;
-        }
-        // Rounding is reached where steps no longer shrink.
-        if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) {
-            return Ok(theta);
-        }
+        let step = step.ok_or(EquilibriumError::Singular)?;
+        Ok(step.as_slice().to_vec())
+    })?;
+    match last_step {
+        None => Ok(theta),
+        Some(last_step) => Err(EquilibriumError::NoConvergence { last_step }),
     }
-    Err(EquilibriumError::NoConvergence { last_step: size })
 }
 
 /// Reason for which no equilibrium was found.

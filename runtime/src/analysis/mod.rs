@@ -27,6 +27,6 @@ pub use smoothing::{
 };
 #[cfg(feature = "spectra")]
 pub use spectrum::{
-    Combination, Line, LineSearch, Lines, Passage, Passages, Spectrum, SpectrumError,
+    CombinationTone, LineSearch, Lines, Passage, Passages, SpectralLine, Spectrum, SpectrumError,
     SpectrumOptions, Window,
 };

@@ -5,15 +5,12 @@ use alloc::vec::Vec;
 
 use super::error::LinearError;
 use super::linear::{Linear, check_size};
-use super::matrix::{Matrix, number};
+use super::matrix::{PreciseMatrix, number};
 use super::measured::errors;
+use super::rest::come_to_rest;
 use crate::integrate::Factored;
 use crate::scalar::Dual;
 use crate::system::{Cast, Energy, Pendulum, Workspace};
-
-/// Most steps of the search for an equilibrium, and its longest, rad.
-const MOST_STEPS: usize = 100;
-const LONGEST_STEP: f64 = 0.5;
 
 /// Errors of matrices that come from accelerations, relative.
 const ROUNDING: f64 = 1e-10;
@@ -41,10 +38,10 @@ impl Linear {
         }
         check_size(P::LINKS)?;
         let dual = model.cast(Dual::<f64, 1>::constant);
-        let slopes = Slopes::at_rest(&dual, near.to_vec())?;
+        let slopes = Slopes::at_rest(&dual, near)?;
         let mass = mass(&dual, &slopes.equilibrium);
         let negative = |entries: &[f64]| {
-            let slopes = Matrix::new(near.len(), near.len(), |row, column| {
+            let slopes = PreciseMatrix::new(near.len(), near.len(), |row, column| {
                 -number(entries[row * near.len() + column])
             });
             mass.times(&slopes)
@@ -65,24 +62,24 @@ pub(super) struct Slopes {
 }
 
 impl Slopes {
-    /// Searches by Newton's method.
-    fn at_rest(model: &impl Pendulum<Dual<f64, 1>>, near: Vec<f64>) -> Result<Self, LinearError> {
+    /// Searches for rest next to the angles `near`.
+    fn at_rest(model: &impl Pendulum<Dual<f64, 1>>, near: &[f64]) -> Result<Self, LinearError> {
         let n = near.len();
         let zeros = || vec![0.0; n * n];
         let mut slopes = Self {
-            equilibrium: near,
+            equilibrium: near.to_vec(),
             by_angles: zeros(),
             by_rates: zeros(),
         };
-        let mut size = f64::INFINITY;
-        for _ in 0..MOST_STEPS {
+        let last = come_to_rest(&mut near.to_vec(), |angles| {
+            slopes.equilibrium.copy_from_slice(angles);
             let mut step = slopes.derive(model);
             if !step.iter().chain(&slopes.by_angles).all(|a| a.is_finite()) {
                 return Err(LinearError::NotFinite);
             }
             // At rest already: there may be no stiffness at all.
             if step.iter().all(|&acceleration| acceleration == 0.0) {
-                return Ok(slopes);
+                return Ok(step);
             }
             let mut factored = Factored::new(n);
             factored.entries.copy_from_slice(&slopes.by_angles);
@@ -90,20 +87,13 @@ impl Slopes {
                 return Err(LinearError::NoEquilibrium);
             }
             factored.solve(&mut step);
-            let before = size;
-            size = step
-                .iter()
-                .fold(0.0, |size, part| f64::max(size, part.abs()));
-            // Rounding is reached where steps no longer shrink.
-            if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) {
-                return Ok(slopes);
-            }
-            let factor = f64::min(LONGEST_STEP / size, 1.0);
-            for (angle, part) in slopes.equilibrium.iter_mut().zip(step) {
-                *angle -= factor * part;
-            }
+            step.iter_mut().for_each(|part| *part = -*part);
+            Ok(step)
+        })?;
+        match last {
+            None => Ok(slopes),
+            Some(_) => Err(LinearError::NoEquilibrium),
         }
-        Err(LinearError::NoEquilibrium)
     }
 
     /// Derives at the present angles, and returns the accelerations.
@@ -136,7 +126,7 @@ impl Slopes {
 }
 
 /// The mass matrix: ∂K/∂ω_i at the rates that have one at link j alone.
-fn mass(model: &impl Energy<Dual<f64, 1>>, angles: &[f64]) -> Matrix {
+fn mass(model: &impl Energy<Dual<f64, 1>>, angles: &[f64]) -> PreciseMatrix {
     let n = angles.len();
     let constant = |&angle: &f64| Dual::<f64, 1>::constant(angle);
     let theta: Vec<_> = angles.iter().map(constant).collect();
@@ -156,5 +146,5 @@ fn mass(model: &impl Energy<Dual<f64, 1>>, angles: &[f64]) -> Matrix {
             lower[i * n + j] = entry(i, j);
         }
     }
-    Matrix::new(n, n, |i, j| number(lower[i.max(j) * n + i.min(j)]))
+    PreciseMatrix::new(n, n, |i, j| number(lower[i.max(j) * n + i.min(j)]))
 }

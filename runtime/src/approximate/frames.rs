@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::Approximation;
 use super::error::LinearError;
 use super::linear::Linear;
-use super::matrix::Matrix;
+use super::matrix::PreciseMatrix;
 use crate::scalar::{Double, Real, Scalar};
 
 /// A [`Linear`] model with its exact propagation by frames of one length.
@@ -66,7 +66,7 @@ impl<T: Real> LinearFrames<T> {
             return Err(LinearError::Frame { value: frame });
         }
         let rounded = |value: Double| T::from_parts(value.high(), value.low());
-        let by_columns = |matrix: &Matrix| -> Vec<T> {
+        let by_columns = |matrix: &PreciseMatrix| -> Vec<T> {
             let columns = matrix.transposed();
             columns.entries().iter().copied().map(rounded).collect()
         };

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::error::LinearError;
 use super::frames::LinearFrames;
-use super::matrix::{Matrix, largest, number};
+use super::matrix::{PreciseMatrix, largest, number};
 use crate::scalar::{Double, Real, Scalar};
 
 /// The linear model of small motions about an equilibrium: M q̈ + C q̇ + K q = Q with
@@ -63,11 +63,11 @@ pub struct Linear {
     /// ω² of the modes, ascending.
     pub(super) squares: Vec<Double>,
     /// Shapes of the modes in columns, of modal mass 1.
-    pub(super) shapes: Matrix,
+    pub(super) shapes: PreciseMatrix,
     /// Shapes times masses, a mode a row: what turns angles into modes.
-    pub(super) projections: Matrix,
+    pub(super) projections: PreciseMatrix,
     /// Friction between modes.
-    pub(super) damping: Matrix,
+    pub(super) damping: PreciseMatrix,
     /// Friction below this, relative to the largest, is rounding.
     pub(super) rounding: f64,
     /// Number of modes that take part.
@@ -106,7 +106,7 @@ impl Linear {
                     expected: n,
                     found,
                 }),
-                None => Ok(Matrix::new(n, n, |i, j| number(rows[i].as_ref()[j]))),
+                None => Ok(PreciseMatrix::new(n, n, |i, j| number(rows[i].as_ref()[j]))),
             }
         };
         let matrices = [
@@ -120,11 +120,11 @@ impl Linear {
     /// From mass, stiffness and damping of not too many links, whose entries have errors of `rounding`.
     pub(super) fn new(
         equilibrium: Vec<f64>,
-        [mass, stiffness, damping]: [Matrix; 3],
+        [mass, stiffness, damping]: [PreciseMatrix; 3],
         rounding: f64,
     ) -> Result<Self, LinearError> {
         let n = equilibrium.len();
-        let sizes = [&mass, &stiffness, &damping].map(Matrix::size);
+        let sizes = [&mass, &stiffness, &damping].map(PreciseMatrix::size);
         if n == 0 || !sizes.iter().all(|size| size.is_finite()) {
             return Err(LinearError::NotFinite);
         }
@@ -269,7 +269,7 @@ impl Linear {
 
     /// exp(A h) of a group of modes, and its answer to constant torques on them. States
     /// are the coordinates of the group, followed by their rates.
-    pub(super) fn propagator(&self, group: &[usize], frame: f64) -> (Matrix, Matrix) {
+    pub(super) fn propagator(&self, group: &[usize], frame: f64) -> (PreciseMatrix, PreciseMatrix) {
         let size = group.len();
         // Coordinates times their frequencies: then all have the size of the rates, and
         // the norm of A is as small as it can be.
@@ -277,7 +277,7 @@ impl Linear {
             let square = self.squares[group[k]].high().abs();
             Real::max(Scalar::sqrt(square), 1e-3 / frame)
         };
-        let matrix = Matrix::new(2 * size, 2 * size, |row, column| {
+        let matrix = PreciseMatrix::new(2 * size, 2 * size, |row, column| {
             let (i, j) = (row % size, column % size);
             match (row < size, column < size) {
                 (true, false) if i == j => number(scale(i)),
@@ -286,15 +286,15 @@ impl Linear {
                 _ => number(0.0),
             }
         });
-        let input = Matrix::new(2 * size, size, |row, column| {
+        let input = PreciseMatrix::new(2 * size, size, |row, column| {
             number(f64::from(u8::from(row == size + column)))
         });
         let (propagator, response) = matrix.exponential(frame, input);
         let factor = |row: usize| number(if row < size { scale(row) } else { 1.0 });
-        let propagator = Matrix::new(2 * size, 2 * size, |row, column| {
+        let propagator = PreciseMatrix::new(2 * size, 2 * size, |row, column| {
             propagator.at(row, column) * factor(column) / factor(row)
         });
-        let response = Matrix::new(2 * size, size, |row, column| {
+        let response = PreciseMatrix::new(2 * size, size, |row, column| {
             response.at(row, column) / factor(row)
         });
         (propagator, response)

@@ -7,12 +7,12 @@ use crate::scalar::{Double, Scalar};
 
 /// A matrix, row by row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Matrix {
+pub(super) struct PreciseMatrix {
     columns: usize,
     entries: Vec<Double>,
 }
 
-impl Matrix {
+impl PreciseMatrix {
     pub(super) fn new(
         rows: usize,
         columns: usize,

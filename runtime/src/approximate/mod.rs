@@ -13,6 +13,7 @@ mod linear;
 mod matrix;
 mod measured;
 mod nearly;
+pub(crate) mod rest;
 mod small_error;
 mod switched;
 

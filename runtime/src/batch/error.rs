@@ -1,12 +1,11 @@
 //! Errors of a batch.
 
-use core::fmt;
-
 /// Arguments of a batch that do not fit together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BatchError {
     /// An argument has another number of slices than the pendulum has links.
+    #[error("`{argument}` needs one slice for each of {expected} links, but has {found}")]
     Links {
         /// Its name.
         argument: &'static str,
@@ -16,6 +15,9 @@ pub enum BatchError {
         found: usize,
     },
     /// A slice has another length than the first one of the angles.
+    #[error(
+        "`{argument}[{link}]` holds {found} states, but the first slice of all holds {expected}"
+    )]
     States {
         /// Name of the argument.
         argument: &'static str,
@@ -27,6 +29,7 @@ pub enum BatchError {
         found: usize,
     },
     /// There are more or fewer slices than values of the function.
+    #[error("the function has {expected} values, which need one slice each, but there are {found}")]
     Values {
         /// Number of values.
         expected: usize,
@@ -34,33 +37,3 @@ pub enum BatchError {
         found: usize,
     },
 }
-
-impl fmt::Display for BatchError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Links {
-                argument,
-                expected,
-                found,
-            } => write!(
-                f,
-                "`{argument}` needs one slice for each of {expected} links, but has {found}"
-            ),
-            Self::States {
-                argument,
-                link,
-                expected,
-                found,
-            } => write!(
-                f,
-                "`{argument}[{link}]` holds {found} states, but the first slice of all holds {expected}"
-            ),
-            Self::Values { expected, found } => write!(
-                f,
-                "the function has {expected} values, which need one slice each, but there are {found}"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for BatchError {}

@@ -14,9 +14,9 @@ use crate::system::State;
 /// [`Integrator::resume`](super::Integrator::resume) takes it.
 ///
 /// It holds the state, the account, and what the method remembers: length and error of
-/// the last step, rounding errors that compensated sums carry along, places on the grid of fixed steps, the
-/// rates that implicit methods extrapolate. The equations and the method, with its
-/// options, are the caller's to bring again.
+/// the last step, rounding errors that compensated sums carry along, places on the grid of
+/// fixed steps, the rates that implicit methods extrapolate. The equations and the method,
+/// with its options, are the caller's to bring again.
 ///
 /// With the feature `serde` it is data of serde. A format must keep the bits of its
 /// numbers.

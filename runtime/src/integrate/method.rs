@@ -1,5 +1,6 @@
 //! Methods by name, for programs whose users choose one.
 
+use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
@@ -272,69 +273,47 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for AnyIntegrator<T> {
 
     fn steps(&self, ode: &O, start: &State<T>) -> Result<AnySteps<T, O>, InputError<T>> {
         Ok(match self {
-            Self::Rk4(method) => AnySteps::Rk4(method.steps(ode, start)?),
-            Self::Dopri5(method) => AnySteps::Dopri5(method.steps(ode, start)?),
-            Self::Dop853(method) => AnySteps::Dop853(method.steps(ode, start)?),
-            Self::Verner98(method) => AnySteps::Verner98(method.steps(ode, start)?),
-            Self::Taylor(method) => AnySteps::Taylor(method.steps(ode, start)?),
-            Self::Gauss(method) => AnySteps::Gauss(method.steps(ode, start)?),
+            Self::Rk4(method) => Box::new(method.steps(ode, start)?),
+            Self::Dopri5(method) => Box::new(method.steps(ode, start)?),
+            Self::Dop853(method) => Box::new(method.steps(ode, start)?),
+            Self::Verner98(method) => Box::new(method.steps(ode, start)?),
+            Self::Taylor(method) => Box::new(method.steps(ode, start)?),
+            Self::Gauss(method) => Box::new(method.steps(ode, start)?),
         })
     }
 }
 
 /// The method at work.
-#[allow(unreachable_pub)]
-pub enum AnySteps<T: Real, O: TaylorOde<T> + ?Sized> {
-    Rk4(<Rk4<T> as Integrator<T, O>>::Steps),
-    Dopri5(<Dopri5<T> as Integrator<T, O>>::Steps),
-    Dop853(<Dop853<T> as Integrator<T, O>>::Steps),
-    Verner98(<Verner98<T> as Integrator<T, O>>::Steps),
-    Taylor(<Taylor<T> as Integrator<T, O>>::Steps),
-    Gauss(<Gauss<T> as Integrator<T, O>>::Steps),
-}
+type AnySteps<T, O> = Box<dyn Steps<T, O> + Send + Sync>;
 
-/// Asks the method at work.
-macro_rules! of_any {
-    ($any:expr, $steps:ident => $answer:expr) => {
-        match $any {
-            AnySteps::Rk4($steps) => $answer,
-            AnySteps::Dopri5($steps) => $answer,
-            AnySteps::Dop853($steps) => $answer,
-            AnySteps::Verner98($steps) => $answer,
-            AnySteps::Taylor($steps) => $answer,
-            AnySteps::Gauss($steps) => $answer,
-        }
-    };
-}
-
-impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for AnySteps<T, O> {
+impl<T: Real, O: ?Sized> Steps<T, O> for AnySteps<T, O> {
     fn step(
         &mut self,
         system: &mut Evaluator<'_, T, O>,
         time: T,
         goal: Goal<T>,
     ) -> Result<T, Failure<T>> {
-        of_any!(self, steps => steps.step(system, time, goal))
+        (**self).step(system, time, goal)
     }
 
     fn prepare(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
-        of_any!(self, steps => steps.prepare(system, time))
+        (**self).prepare(system, time)
     }
 
     fn piece(&self) -> Piece<'_, T> {
-        of_any!(self, steps => Steps::<T, O>::piece(steps))
+        (**self).piece()
     }
 
     fn advance(&mut self) {
-        of_any!(self, steps => Steps::<T, O>::advance(steps));
+        (**self).advance();
     }
 
     fn restart(&mut self, values: &[T]) {
-        of_any!(self, steps => Steps::<T, O>::restart(steps, values));
+        (**self).restart(values);
     }
 
     fn remember(&mut self, memory: &mut Memory<T>) {
-        of_any!(self, steps => Steps::<T, O>::remember(steps, memory));
+        (**self).remember(memory);
     }
 }
 

@@ -24,7 +24,7 @@ impl<T: Copy> Tolerance<T> {
         }
     }
 
-    fn values(&self) -> &[T] {
+    pub(crate) fn values(&self) -> &[T] {
         match self {
             Self::Uniform(value) => core::slice::from_ref(value),
             Self::PerComponent(values) => values,

@@ -146,9 +146,9 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
     /// Lays the motion down as it is now: this one and one that
     /// [`Integrator::resume`] takes up from there go on with the same bits.
     ///
-    /// Between two steps nothing changes by it. At a frame inside a step, and after changes of state or
-    /// equations, the method starts anew from the present state, in this
-    /// motion as in the other.
+    /// Between two steps nothing changes by it. At a frame inside a step, and after changes
+    /// of state or equations, the method starts anew from the present state, in this motion
+    /// as in the other.
     ///
     /// # Errors
     ///

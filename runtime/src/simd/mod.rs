@@ -269,7 +269,7 @@ pub trait Simd<T>: Scalar {
 }
 
 /// Numbers in the widest register.
-const WIDEST: usize = 16;
+pub(crate) const WIDEST: usize = 16;
 
 #[cold]
 #[inline(never)]

@@ -1,6 +1,7 @@
 //! Hamiltonian systems in canonical variables.
 
 use super::by_reference::by_reference;
+use super::ode::halves;
 use super::{Cast, CastOde, LengthMismatch, Ode, State};
 use crate::scalar::Scalar;
 
@@ -88,13 +89,9 @@ impl<T: Scalar, C: Canonical<T>> Ode<T> for CanonicalVariables<C> {
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let n = self.0.degrees_of_freedom();
-        if state.len() != 2 * n || rates.len() != 2 * n {
-            rates.fill(T::from_f64(f64::NAN));
-            return;
+        if let Some(([q, p], [q_rates, p_rates])) = halves(n, state, rates) {
+            self.0.canonical_rates(time, q, p, q_rates, p_rates);
         }
-        let (q, p) = state.split_at(n);
-        let (q_rates, p_rates) = rates.split_at_mut(n);
-        self.0.canonical_rates(time, q, p, q_rates, p_rates);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Pendulums as first-order systems.
 
 use super::cast::put;
+use super::ode::halves;
 use super::{Cast, CastOde, LaneOde, Ode, Pendulum, SymmetricPendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
@@ -114,12 +115,10 @@ fn second_order<T: Scalar>(
     rates: &mut [T],
     accelerations: impl FnOnce(&[T], &[T], &mut [T]),
 ) {
-    if state.len() != 2 * n || rates.len() != 2 * n {
-        rates.fill(T::from_f64(f64::NAN));
-        return;
+    if let Some(([positions, velocities], [position_rates, velocity_rates])) =
+        halves(n, state, rates)
+    {
+        position_rates.copy_from_slice(velocities);
+        accelerations(positions, velocities, velocity_rates);
     }
-    let (positions, velocities) = state.split_at(n);
-    let (position_rates, velocity_rates) = rates.split_at_mut(n);
-    position_rates.copy_from_slice(velocities);
-    accelerations(positions, velocities, velocity_rates);
 }

@@ -1,5 +1,6 @@
 //! Quantities that a motion keeps.
 
+use super::ode::halves;
 use super::{Canonical, Energy};
 use crate::scalar::Scalar;
 
@@ -20,7 +21,7 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 }
 
 /// The energy of a pendulum in canonical variables, H = K + U, with the gradient
-/// (−p', q') of Hamilton's equations.
+/// (−p', q') of Hamilton's equations. Holds a pendulum, or a reference to one.
 ///
 /// For conservative pendulums: where friction or a drive are part of p', H is no
 /// first integral, and what this writes is not its gradient.
@@ -50,27 +51,15 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 /// assert!((energy.evaluate(&end.values, &mut [0.0; 4]) - level).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
-pub struct CanonicalEnergy<'a, P>(pub &'a P);
+#[derive(Clone, Copy, Debug)]
+pub struct CanonicalEnergy<P>(pub P);
 
-// Whatever the pendulum is: a reference is copied.
-impl<P> Clone for CanonicalEnergy<'_, P> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<P> Copy for CanonicalEnergy<'_, P> {}
-
-impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<'_, P> {
+impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnergy<P> {
     fn evaluate(&self, state: &[T], gradient: &mut [T]) -> T {
         let n = self.0.degrees_of_freedom();
-        if state.len() != 2 * n || gradient.len() != 2 * n {
-            gradient.fill(T::from_f64(f64::NAN));
+        let Some(([q, p], [slopes, velocities])) = halves(n, state, gradient) else {
             return T::from_f64(f64::NAN);
-        }
-        let (q, p) = state.split_at(n);
-        let (slopes, velocities) = gradient.split_at_mut(n);
+        };
         let time = T::from_f64(0.0);
         self.0.canonical_rates(time, q, p, velocities, slopes);
         for slope in slopes {

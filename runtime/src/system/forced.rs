@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::by_reference::by_reference;
+use super::ode::halves;
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -17,9 +18,9 @@ use crate::scalar::Scalar;
 )]
 pub trait Forced<T: Scalar>: Cast<T> + Sized {
     /// Writes the angular accelerations, in rad/s², as
-    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with generalized torques Q (N m) on top of
-    /// all others: M θ̈ + b = Q. Their power is Q·ω. All slices have length
-    /// [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
+    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with
+    /// generalized torques Q (N m) on top of all others: M θ̈ + b = Q. Their power is Q·ω. All
+    /// slices have length [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
     ///
     /// Q_i is a couple on link i. Forces on links have the torques that
     /// [`Positions`](super::Positions) tells. On a link that stands for several of a
@@ -323,13 +324,9 @@ fn fill<T: Scalar>(
     rates: &mut [T],
     accelerate: impl FnOnce([&[T]; 3], &mut [T]),
 ) {
-    if state.len() != 2 * links || rates.len() != 2 * links {
-        rates.fill(T::from_f64(f64::NAN));
-        return;
+    if let Some(([theta, omega], [first, alpha])) = halves(links, state, rates) {
+        torques.torques_into(time, theta, omega, first);
+        accelerate([theta, omega, first], alpha);
+        first.copy_from_slice(omega);
     }
-    let (theta, omega) = state.split_at(links);
-    let (first, alpha) = rates.split_at_mut(links);
-    torques.torques_into(time, theta, omega, first);
-    accelerate([theta, omega, first], alpha);
-    first.copy_from_slice(omega);
 }

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::Workspace;
 use super::by_reference::by_reference;
+use crate::scalar::Scalar;
 
 /// A system of first-order ordinary differential equations y' = f(t, y).
 #[diagnostic::on_unimplemented(
@@ -41,6 +42,24 @@ by_reference! {
             &self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]
         );
     }
+}
+
+/// Halves of a state, and of its rates.
+type StateHalves<'s, 'r, T> = ([&'s [T]; 2], [&'r mut [T]; 2]);
+
+/// Splits a state and its rates in halves of so many numbers. None, and rates that are NaN,
+/// where lengths do not fit: there is no answer.
+#[inline(always)]
+pub(crate) fn halves<'s, 'r, T: Scalar>(
+    half: usize,
+    state: &'s [T],
+    rates: &'r mut [T],
+) -> Option<StateHalves<'s, 'r, T>> {
+    if [state.len(), rates.len()] != [2 * half; 2] {
+        rates.fill(T::from_f64(f64::NAN));
+        return None;
+    }
+    Some((state.split_at(half).into(), rates.split_at_mut(half).into()))
 }
 
 /// A function as an [`Ode`].

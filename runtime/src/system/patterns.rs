@@ -2,7 +2,6 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::{SmallDifferences, TransverseSector, WholeTree};
 use crate::scalar::Scalar;
@@ -53,12 +52,14 @@ struct Pattern {
 }
 
 /// Reason for which weights are no pattern of differences.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PatternError {
     /// A sector that does not act back.
+    #[error("no sector of that name acts back")]
     Sector,
     /// Another number of weights than the whole tree has such copies.
+    #[error("{found} weights for {expected} copies")]
     Length {
         /// Number of copies under all holders.
         expected: usize,
@@ -66,33 +67,15 @@ pub enum PatternError {
         found: usize,
     },
     /// Weights that are all zero, not finite, or do not add up to zero under a holder.
+    #[error("weights have to be finite, not all zero, and to add up to zero under each holder")]
     Weights,
     /// Copies of which there are more than two, so that weights have to be chosen.
+    #[error("`{sector}` has more than two copies: choose their weights by `chosen`")]
     Choice {
         /// Name of the sector.
         sector: &'static str,
     },
 }
-
-impl fmt::Display for PatternError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sector => f.write_str("no sector of that name acts back"),
-            Self::Length { expected, found } => {
-                write!(f, "{found} weights for {expected} copies")
-            }
-            Self::Weights => f.write_str(
-                "weights have to be finite, not all zero, and to add up to zero under each holder",
-            ),
-            Self::Choice { sector } => write!(
-                f,
-                "`{sector}` has more than two copies: choose their weights by `with`"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for PatternError {}
 
 impl DifferencePatterns {
     /// The patterns of pairs, of a model and the whole tree behind it.

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::by_reference::by_reference;
+use super::ode::halves;
 use super::{Forced, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -174,10 +175,9 @@ impl<P, F> PrescribedOde<P, F> {
         F: Fn(T, &mut [LinkCourse<T>]),
     {
         let (links, held) = (P::LINKS, self.set.links.len());
-        if state.len() != 2 * links || rates.len() != 2 * links {
-            rates.fill(T::from_f64(f64::NAN));
+        let Some((_, [velocities, alpha])) = halves(links, state, rates) else {
             return;
-        }
+        };
         let room = workspace.numbers(3 * links + 5 * held);
         let (all, own) = room.split_at_mut(3 * links);
         let (motion, torques) = all.split_at_mut(2 * links);
@@ -196,7 +196,6 @@ impl<P, F> PrescribedOde<P, F> {
                 (*theta, *omega) = (angle, rate);
             }
         }
-        let (velocities, alpha) = rates.split_at_mut(links);
         velocities.copy_from_slice(omega);
         let motion = PrescribedMotion {
             theta,

@@ -1,6 +1,7 @@
 //! Small differences that act back on the motion that they are beside.
 
 use super::by_reference::by_reference;
+use super::ode::halves;
 use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
@@ -193,12 +194,10 @@ fn fill<T: Scalar>(
     accelerate: impl FnOnce([&[T]; 4], &mut [T]),
 ) {
     let half = links + differences;
-    if state.len() != 2 * half || rates.len() != 2 * half {
-        rates.fill(T::from_f64(f64::NAN));
+    let Some(([angles, velocities], [angle_rates, accelerations])) = halves(half, state, rates)
+    else {
         return;
-    }
-    let (angles, velocities) = state.split_at(half);
-    let (angle_rates, accelerations) = rates.split_at_mut(half);
+    };
     angle_rates.copy_from_slice(velocities);
     let (theta, difference) = angles.split_at(links);
     let (omega, difference_rate) = velocities.split_at(links);

@@ -1,7 +1,6 @@
 //! States of systems.
 
 use alloc::vec::Vec;
-use core::fmt;
 
 use crate::scalar::Scalar;
 
@@ -124,26 +123,14 @@ impl<T: Scalar> State<T> {
 }
 
 /// Positions and velocities of a state differ in number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "a state needs as many velocities as positions, but got {positions} positions and \
+     {velocities} velocities"
+)]
 pub struct LengthMismatch {
     /// Number of positions given.
     pub positions: usize,
     /// Number of velocities given.
     pub velocities: usize,
 }
-
-impl fmt::Display for LengthMismatch {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            positions,
-            velocities,
-        } = self;
-        write!(
-            formatter,
-            "a state needs as many velocities as positions, \
-             but got {positions} positions and {velocities} velocities"
-        )
-    }
-}
-
-impl core::error::Error for LengthMismatch {}

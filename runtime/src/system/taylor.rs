@@ -50,42 +50,22 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     );
 }
 
-impl<T: Scalar, P: TaylorPendulum<T>> TaylorPendulum<T> for &P {
-    fn taylor_workspace(order: usize) -> usize {
-        P::taylor_workspace(order)
-    }
-
-    #[inline]
-    fn taylor_coefficients_into(
-        &self,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        coefficients: &mut [T],
-        work: &mut [Quad<T>],
-    ) {
-        (**self).taylor_coefficients_into(time, theta, omega, coefficients, work);
-    }
-
-    #[inline(always)]
-    fn taylor_coefficients_of<S: Scalar>(
-        pendulum: &Self::Of<S>,
-        time: S,
-        theta: &[S],
-        omega: &[S],
-        coefficients: &mut [S],
-        work: &mut [Quad<S>],
-    ) {
-        P::taylor_coefficients_of(pendulum, time, theta, omega, coefficients, work);
+by_reference! {
+    impl<T: Scalar> TaylorPendulum<T> for &P {
+        static fn taylor_workspace(order: usize) -> usize;
+        for fn taylor_coefficients_of<S: Scalar>(
+            pendulum: &Self::Of<S>, time: S, theta: &[S], omega: &[S], coefficients: &mut [S],
+            work: &mut [Quad<S>]
+        );
+        fn taylor_coefficients_into(
+            &self, time: T, theta: &[T], omega: &[T], coefficients: &mut [T],
+            work: &mut [Quad<T>]
+        );
     }
 }
 
 /// A first-order system y' = f(t, y) whose solution is expanded in powers of the
 /// time.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` does not know the Taylor coefficients of its solution",
-    note = "the method `Taylor` takes `AbsoluteAngles(&model)` of a model with `emit(taylor)` in its attribute, or a `TaylorOde` of your own"
-)]
 ///
 /// # Examples
 ///
@@ -126,6 +106,10 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorPendulum<T> for &P {
 /// assert!((end.state.values[0] - (-1.0_f64).exp()).abs() < 1e-15);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know the Taylor coefficients of its solution",
+    note = "the method `Taylor` takes `AbsoluteAngles(&model)` of a model with `emit(taylor)` in its attribute, or a `TaylorOde` of your own"
+)]
 pub trait TaylorOde<T>: Ode<T> {
     /// Returns false if the coefficients are not known: a run of
     /// [`Taylor`](crate::integrate::Taylor) is refused then.
@@ -174,11 +158,12 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
 }
 
 /// A system whose Taylor coefficients are not known, where a [`TaylorOde`] is
-/// asked for: for methods that are chosen by name.
+/// asked for: for methods that are chosen by name. Holds the system, or a reference to
+/// it.
 #[derive(Clone, Copy, Debug)]
-pub struct RatesOnly<'a, O: ?Sized>(pub &'a O);
+pub struct RatesOnly<O>(pub O);
 
-impl<T, O: Ode<T> + ?Sized> Ode<T> for RatesOnly<'_, O> {
+impl<T, O: Ode<T>> Ode<T> for RatesOnly<O> {
     fn dimension(&self) -> usize {
         self.0.dimension()
     }
@@ -194,7 +179,7 @@ impl<T, O: Ode<T> + ?Sized> Ode<T> for RatesOnly<'_, O> {
     }
 }
 
-impl<T: Scalar, O: Ode<T> + ?Sized> TaylorOde<T> for RatesOnly<'_, O> {
+impl<T: Scalar, O: Ode<T>> TaylorOde<T> for RatesOnly<O> {
     fn has_series(&self) -> bool {
         false
     }

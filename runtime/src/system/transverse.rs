@@ -2,6 +2,7 @@
 
 use super::by_reference::by_reference;
 use super::cast::put;
+use super::ode::halves;
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::{Scalar, at};
 
@@ -278,12 +279,10 @@ fn fill<T: Scalar>(
     differ: impl FnOnce(InPhaseMotion<'_, T>, [&[T]; 2], &mut [T]),
 ) {
     let half = links + differences;
-    if state.len() != 2 * half || rates.len() != 2 * half {
-        rates.fill(T::from_f64(f64::NAN));
+    let Some(([angles, velocities], [angle_rates, accelerations])) = halves(half, state, rates)
+    else {
         return;
-    }
-    let (angles, velocities) = state.split_at(half);
-    let (angle_rates, accelerations) = rates.split_at_mut(half);
+    };
     angle_rates.copy_from_slice(velocities);
     let (theta, difference) = angles.split_at(links);
     let (omega, difference_rate) = velocities.split_at(links);

@@ -1,7 +1,5 @@
 //! Trees behind reduced models.
 
-use core::fmt;
-
 use crate::scalar::Scalar;
 
 /// The whole tree behind a reduced model: which of its links move as which link of the
@@ -67,7 +65,10 @@ pub enum WholeMotion {
 }
 
 /// Slices of other lengths than a model and its whole tree have links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{given} values and room for {room}, but the model has {model} links and its whole tree {whole}"
+)]
 #[non_exhaustive]
 pub struct WholeLengthError {
     /// Number of values of the model that were given.
@@ -79,24 +80,6 @@ pub struct WholeLengthError {
     /// Number of links of the whole tree.
     pub whole: usize,
 }
-
-impl fmt::Display for WholeLengthError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            given,
-            model,
-            room,
-            whole,
-        } = self;
-        write!(
-            f,
-            "{given} values and room for {room}, but the model has {model} links and its whole \
-             tree {whole}"
-        )
-    }
-}
-
-impl core::error::Error for WholeLengthError {}
 
 impl WholeTree {
     /// A tree whose links stand depth first.

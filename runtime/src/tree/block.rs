@@ -29,12 +29,9 @@ pub(super) struct Generation {
     pub(super) above: Option<(usize, usize)>,
 }
 
-/// Numbers in the widest register. In arrays of links with children, a generation
-/// starts where a register of any width would, and has room for a whole one.
-pub(super) const WIDEST: usize = 16;
-
 /// The generations of `width` neighbours in the first of some generations, and of their
-/// children, copy by copy, and so on.
+/// children, copy by copy, and so on. In arrays of links with children, a generation
+/// starts where a register of any width would, and has room for a whole one.
 ///
 /// A block has arrays of its own, in which its links stand as if there were no
 /// others.
@@ -98,7 +95,7 @@ impl Generation {
 
 /// Consecutive generations of the subtrees of neighbouring links.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block<'a> {
+pub(super) struct SubtreeBlock<'a> {
     /// The generations, and where the last one's links have children, these.
     pub(super) generations: &'a [Generation],
     /// How many generations have children.
@@ -127,7 +124,7 @@ pub(super) struct Position {
     pub(super) whole: usize,
 }
 
-impl<'a> Block<'a> {
+impl<'a> SubtreeBlock<'a> {
     /// The generations whose links are computed here.
     pub(super) fn own_generations(&self) -> &'a [Generation] {
         let count = self.inner + usize::from(self.has_leaves);

@@ -5,9 +5,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::sum::Sum;
-use crate::scalar::Scalar;
 use crate::scalar::kind::{compiled, compiled_once};
+use crate::scalar::{Scalar, at};
 use crate::system::Workspace;
+use crate::system::cast::put;
 
 /// Parents of the links.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,16 +102,17 @@ impl<T: Scalar> Bodies<T> {
         }
     }
 
-    /// Returns these bodies with the angles at which the springs of each link or of each generation
-    /// are at rest, rad.
+    /// Returns these bodies with the angles at which the springs of each link or of each
+    /// generation are at rest, rad.
     #[must_use]
     pub fn with_rests(self, rests: Vec<T>) -> Self {
         Self { rests, ..self }
     }
 
-    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of the
-    /// torque (C/s + q s) w in the pivot of each link or of each generation at the rate w
-    /// relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the ground.
+    /// Returns these bodies with friction beside viscous friction and drag: C, q and ε of
+    /// the torque (C/s + q s) w in the pivot of each link or of each generation at the rate
+    /// w relative to the parent, s = √(w² + ε²); q and ε of the torque q s w against the
+    /// ground.
     #[must_use]
     pub fn with_laws(self, laws: Vec<T>) -> Self {
         Self { laws, ..self }
@@ -383,20 +385,4 @@ fn braking_power<T: Scalar>(law: &[T; LAW], relative: T, rate: T) -> T {
     let speed = (square + width * width).sqrt();
     let own_speed = (own_square + drag_width * drag_width).sqrt();
     (coulomb / speed + quadratic * speed) * square + drag * own_speed * own_square
-}
-
-/// The number of a link, zero where there is none.
-#[inline(always)]
-fn at<T: Scalar>(numbers: &[T], link: usize) -> T {
-    match numbers.get(link) {
-        Some(&number) => number,
-        None => T::from_f64(0.0),
-    }
-}
-
-#[inline(always)]
-fn put<T>(numbers: &mut [T], link: usize, value: T) {
-    if let Some(number) = numbers.get_mut(link) {
-        *number = value;
-    }
 }

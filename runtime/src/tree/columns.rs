@@ -12,7 +12,7 @@ use crate::simd::Simd;
 /// As slices of their own, each column would ask whether a place lies in it, every
 /// time: many questions with one respond, and more instructions than the mechanics.
 /// Copies are views of the same numbers, as of a slice of cells.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Columns<'a, T, const N: usize> {
     start: *mut T,
     /// From one column to the next, and from one row to the next.
@@ -21,14 +21,6 @@ pub(super) struct Columns<'a, T, const N: usize> {
     rows: usize,
     slice: PhantomData<&'a mut [T]>,
 }
-
-impl<T, const N: usize> Clone for Columns<'_, T, N> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T, const N: usize> Copy for Columns<'_, T, N> {}
 
 impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
     /// The front of a slice as columns of `length` numbers, or of fewer where it is

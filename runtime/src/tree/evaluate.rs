@@ -3,7 +3,7 @@
 
 use core::ops::Range;
 
-use super::block::{Block, WIDEST};
+use super::block::SubtreeBlock;
 use super::interface::Interface;
 use super::layout;
 use super::memory::{LINE, Room, line, odd_lines, take};
@@ -12,35 +12,28 @@ use super::partition::Partition;
 use super::root::RootDrive;
 use super::shared::Shared;
 use super::skeleton::Skeleton;
+use super::small::LinkStates;
 use super::sweep::{Sweep, View, Way};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, at};
+use crate::simd::WIDEST;
 use crate::simd::dispatch::in_widest;
 use crate::system::Workspace;
 
 /// The equations of one tree, taken through a block: compiled with every model.
 pub(super) type SweepFn<T> = fn(&View<'_, T, T>, Way<'_, T>);
 
-/// A state, and what moves it from outside.
-#[derive(Clone, Copy)]
-pub(super) struct Given<'a, T> {
-    pub(super) drive: Option<RootDrive<T>>,
-    pub(super) theta: &'a [T],
-    pub(super) omega: &'a [T],
-    /// None where there are none.
-    pub(super) torques: Option<&'a [T]>,
-}
-
 /// One evaluation.
 struct Evaluation<'a, T: 'static> {
     tree: &'a Skeleton<T>,
     sweep: SweepFn<T>,
-    given: Given<'a, T>,
+    drive: Option<RootDrive<T>>,
+    given: LinkStates<'a, T>,
 }
 
 impl<T: Scalar> Evaluation<'_, T> {
     fn block<'a>(
         &'a self,
-        block: Block<'a>,
+        block: SubtreeBlock<'a>,
         room: &Room,
         [lasting, passing]: [&'a mut [T]; 2],
     ) -> Sweep<'a, T, T> {
@@ -74,10 +67,6 @@ impl<T: Scalar> Evaluation<'_, T> {
             alpha: ends.then_some(alpha),
         });
         if self.tree.sizes.joints {
-            let at = |numbers: &[T], link: usize| match numbers.get(link) {
-                Some(&number) => number,
-                None => T::from_f64(0.0),
-            };
             joint_motions(
                 sweep,
                 &self.tree.plan.parents,
@@ -129,7 +118,7 @@ impl<T: Scalar> Evaluation<'_, T> {
         let mut buffer = buffer;
         let lasting = take(&mut buffer, layout.top.lasting());
         let mut sweep = self.block(plan.top(), &layout.top, [lasting, buffer]);
-        let drive = self.given.drive;
+        let drive = self.drive;
         sweep.torque = drive.map(|drive| drive.torque);
         sweep.root = Some(RootDrive::above(self.tree.root, drive));
         self.prepare(&mut sweep, below, alpha);
@@ -223,7 +212,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 
     fn next_block<'a>(
         &'a self,
-        block: Block<'a>,
+        block: SubtreeBlock<'a>,
         blocks: &'a mut SomeBlocks<'_, T>,
     ) -> Sweep<'a, T, T> {
         let Level {
@@ -238,7 +227,7 @@ impl<T: Scalar> Evaluation<'_, T> {
 }
 
 /// A partition, and the state of all threads there.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Level<'a, T> {
     partition: &'a Partition,
     room: &'a Room,
@@ -248,15 +237,7 @@ struct Level<'a, T> {
     alpha: Shared<'a, T>,
 }
 
-impl<T> Clone for Level<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Level<'_, T> {}
-
-impl<'a, T> Level<'a, T> {
+impl<'a, T: Copy> Level<'a, T> {
     /// The blocks of each thread.
     fn jobs<'b>(
         self,
@@ -293,16 +274,16 @@ struct SomeBlocks<'a, T> {
 pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     tree: &Skeleton<T>,
     sweep: SweepFn<T>,
-    given: Given<'_, T>,
+    drive: Option<RootDrive<T>>,
+    given: LinkStates<'_, T>,
     alpha: &mut [T],
     workspace: &mut Workspace<T>,
 ) {
     let links = tree.plan.links();
-    let Given {
+    let LinkStates {
         theta,
         omega,
         torques,
-        ..
     } = given;
     let fit = [theta.len(), omega.len(), alpha.len()] == [links; 3];
     if !fit || torques.is_some_and(|torques| torques.len() != links || !tree.sizes.forced) {
@@ -314,7 +295,12 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
     let order = &tree.plan.order;
     if order.is_empty() {
-        let evaluation = Evaluation { tree, sweep, given };
+        let evaluation = Evaluation {
+            tree,
+            sweep,
+            drive,
+            given,
+        };
         // Blocks come with threads, which small trees do without.
         match BLOCKS {
             true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
@@ -343,8 +329,8 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     let evaluation = Evaluation {
         tree,
         sweep,
-        given: Given {
-            drive: given.drive,
+        drive,
+        given: LinkStates {
             theta: own_theta.get(..links).unwrap_or_default(),
             omega: own_omega,
             torques: own_torques,

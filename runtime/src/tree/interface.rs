@@ -1,6 +1,6 @@
 //! Values that blocks hand over to each other.
 
-use super::block::{Block, Generation};
+use super::block::Generation;
 use super::memory::{Sizes, line, odd_lines};
 use super::shared::Shared;
 use super::sweep::Sweep;
@@ -9,19 +9,11 @@ use super::sweep::Sweep;
 /// way down the accelerations of their pivots.
 ///
 /// Several threads have it at one time, each with the links of its own blocks.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Interface<'a, T> {
     columns: Shared<'a, T>,
     stride: usize,
 }
-
-impl<T> Clone for Interface<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Interface<'_, T> {}
 
 /// Accelerations of pivots.
 const PIVOTS: usize = 2;
@@ -35,84 +27,61 @@ impl<'a, T: Copy> Interface<'a, T> {
         }
     }
 
-    /// The responses of a block are stored here.
+    /// Stores the responses of the first generation of a block.
     pub(super) fn store_responses(self, sweep: &mut Sweep<'_, T, T>) {
-        let block = sweep.block;
-        let columns = sweep.storage.sizes.responses;
-        self.each(
-            block,
-            block.generations.first(),
-            columns,
-            |column, own, at, length| {
-                self.columns
-                    .write(at, sweep.storage.responses_mut(column, own, length));
-            },
-        );
+        let (first, columns) = (sweep.block.generations.first(), Self::responses(sweep));
+        self.each(sweep, first, columns, |own, at, numbers| {
+            own.write(at, numbers)
+        });
     }
 
-    /// The responses of the children of a block, which are not computed there.
+    /// Loads the responses of the children of a block, which are not computed there.
     pub(super) fn load_responses(self, sweep: &mut Sweep<'_, T, T>) {
-        let block = sweep.block;
-        let columns = sweep.storage.sizes.responses;
-        self.each(
-            block,
-            block.generations.last(),
-            columns,
-            |column, own, at, length| {
-                self.columns
-                    .read(at, sweep.storage.responses_mut(column, own, length));
-            },
-        );
+        let (last, columns) = (sweep.block.generations.last(), Self::responses(sweep));
+        self.each(sweep, last, columns, |own, at, numbers| {
+            own.read(at, numbers)
+        });
     }
 
-    /// The accelerations of the pivots of these children.
+    /// Stores the accelerations of the pivots of these children.
     pub(super) fn store_pivots(self, sweep: &mut Sweep<'_, T, T>) {
-        let block = sweep.block;
-        self.each(
-            block,
-            block.generations.last(),
-            PIVOTS,
-            |column, own, at, length| {
-                self.columns
-                    .write(at, sweep.storage.responses_mut(column, own, length));
-            },
-        );
+        let last = sweep.block.generations.last();
+        self.each(sweep, last, PIVOTS, |own, at, numbers| {
+            own.write(at, numbers)
+        });
     }
 
-    /// The accelerations of the pivots in which a block starts.
+    /// Loads the accelerations of the pivots in which a block starts.
     pub(super) fn load_pivots(self, sweep: &mut Sweep<'_, T, T>) {
-        let block = sweep.block;
-        self.each(
-            block,
-            block.generations.first(),
-            PIVOTS,
-            |column, own, at, length| {
-                self.columns
-                    .read(at, sweep.storage.responses_mut(column, own, length));
-            },
-        );
+        let first = sweep.block.generations.first();
+        self.each(sweep, first, PIVOTS, |own, at, numbers| {
+            own.read(at, numbers)
+        });
     }
 
-    /// All strips of neighbours of a block's generation in so many columns: where they start
-    /// in the block's memory and in this, and how many they are.
+    /// Number of columns of responses.
+    fn responses(sweep: &Sweep<'_, T, T>) -> usize {
+        sweep.storage.sizes.responses
+    }
+
+    /// Hands over the neighbours of a block's generation in so many columns, strip by strip,
+    /// from the place where they start here.
     fn each(
         self,
-        block: Block<'_>,
+        sweep: &mut Sweep<'_, T, T>,
         generation: Option<&Generation>,
         columns: usize,
-        mut work: impl FnMut(usize, usize, usize, usize),
+        hand: impl Fn(Shared<'a, T>, usize, &mut [T]),
     ) {
         let Some(generation) = generation else { return };
         for strip in 0..generation.strips {
-            let place = block.place(generation, strip);
+            let place = sweep.block.place(generation, strip);
             let at = place.whole - generation.whole;
             for column in 0..columns {
-                work(
-                    column,
-                    place.slot,
-                    column * self.stride + at,
-                    generation.length,
-                );
+                let numbers = sweep
+                    .storage
+                    .responses_mut(column, place.slot, generation.length);
+                hand(self.columns, column * self.stride + at, numbers);
             }
         }
     }

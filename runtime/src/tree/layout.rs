@@ -4,11 +4,11 @@ use alloc::vec::Vec;
 
 use core::ops::Range;
 
-use super::block::WIDEST;
 use super::interface::Interface;
 use super::memory::{Room, Sizes, line, odd_lines};
 use super::partition::Partition;
 use super::plan::Plan;
+use crate::simd::WIDEST;
 
 /// The memory of an evaluation.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Where the numbers of an evaluation stand.
 
-use super::block::Block;
+use super::block::SubtreeBlock;
 use super::columns::Columns;
 use super::equations::{LinkEquations, Row};
 use crate::scalar::Scalar;
@@ -100,7 +100,7 @@ pub(super) struct Room {
 
 impl Room {
     /// For numbers of which so many are in a line.
-    pub(super) fn new(block: &Block<'_>, sizes: Sizes, line: usize) -> Self {
+    pub(super) fn new(block: &SubtreeBlock<'_>, sizes: Sizes, line: usize) -> Self {
         let last = block.own_generations().last().map_or(0, |last| last.own);
         let lead = last.next_multiple_of(line) - last;
         let beyond = block.has_leaves && block.strips.reach().own > block.links();

@@ -70,7 +70,6 @@ use crate::scalar::{Scalar, at};
 use crate::simd::{Simd, wide_slice};
 use crate::system::cast::put;
 use crate::system::{InRegisters, Workspace};
-use evaluate::Given;
 use memory::Sizes;
 use partition::Policy;
 use skeleton::{ByGeneration, ByLink, InBlocks, InOnePiece, Skeleton};
@@ -135,13 +134,12 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         omega: &[T],
         alpha: &mut [T],
     ) {
-        let given = Given {
-            drive,
+        let given = LinkStates {
             theta,
             omega,
             torques: None,
         };
-        self.accelerate(workspace, given, alpha);
+        self.accelerate(workspace, drive, given, alpha);
     }
 
     /// Writes the angular accelerations under torques from outside, as
@@ -155,16 +153,21 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         [theta, omega, torques]: [&[T]; 3],
         alpha: &mut [T],
     ) {
-        let given = Given {
-            drive,
+        let given = LinkStates {
             theta,
             omega,
             torques: Some(torques),
         };
-        self.accelerate(workspace, given, alpha);
+        self.accelerate(workspace, drive, given, alpha);
     }
 
-    fn accelerate(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, alpha: &mut [T]) {
+    fn accelerate(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<RootDrive<T>>,
+        given: LinkStates<'_, T>,
+        alpha: &mut [T],
+    ) {
         let accelerate = match Self::IN_BLOCKS {
             true => compiled::<InBlocks, T>(),
             false => compiled::<InOnePiece, T>(),
@@ -172,6 +175,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         accelerate(
             &self.skeleton,
             sweep::sweep::<E, T>,
+            drive,
             given,
             alpha,
             workspace,

@@ -1,6 +1,6 @@
 //! Sines, cosines and joint motions that equations read, formed before the recursion.
 
-use super::block::{Block, Generation};
+use super::block::{Generation, SubtreeBlock};
 use super::columns::Columns;
 use super::prefetch::prefetch;
 use super::shared::Shared;
@@ -161,7 +161,7 @@ pub(super) struct Links<'a> {
 
 impl<'a> Links<'a> {
     #[inline(always)]
-    pub(super) fn of(block: Block<'a>) -> Self {
+    pub(super) fn of(block: SubtreeBlock<'a>) -> Self {
         Self {
             generations: block.own_generations(),
             start: block.start,

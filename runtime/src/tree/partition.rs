@@ -4,8 +4,9 @@ use alloc::vec::Vec;
 
 use core::ops::Range;
 
-use super::block::{Block, Generation, WIDEST};
+use super::block::{Generation, SubtreeBlock};
 use super::strips::Strips;
+use crate::simd::WIDEST;
 
 /// How a tree is taken apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,14 +146,14 @@ impl Partition {
     pub(super) fn windows(
         &self,
         links: &Range<usize>,
-    ) -> impl ExactSizeIterator<Item = Block<'_>> + use<'_> {
+    ) -> impl ExactSizeIterator<Item = SubtreeBlock<'_>> + use<'_> {
         let first = links.start;
         let blocks = 0..self.policy.blocks(links.len());
         blocks.map(move |block| self.window(first + block * self.policy.width))
     }
 
     /// The block that starts with a link.
-    pub(super) fn window(&self, start: usize) -> Block<'_> {
+    pub(super) fn window(&self, start: usize) -> SubtreeBlock<'_> {
         let rest = self.count - start;
         let Policy { width, widest, .. } = self.policy;
         let (
@@ -165,7 +166,7 @@ impl Partition {
             true => (rest, &self.last),
             false => (width, &self.block),
         };
-        Block {
+        SubtreeBlock {
             generations,
             inner: generations.len().saturating_sub(1),
             has_leaves: self.has_leaves,
@@ -178,7 +179,7 @@ impl Partition {
     }
 
     /// The largest block.
-    pub(super) fn largest(&self) -> Block<'_> {
+    pub(super) fn largest(&self) -> SubtreeBlock<'_> {
         let (first, last) = (self.window(0), self.policy.blocks(self.count) - 1);
         let last = self.window(last * self.policy.width);
         if first.width < last.width {

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::block::{Block, Generation, generations};
+use super::block::{Generation, SubtreeBlock, generations};
 use super::heights::Heights;
 use super::partition::{Partition, Policy};
 use super::strips::Strips;
@@ -115,10 +115,10 @@ impl Plan {
     }
 
     /// The generations above the partitions, or the whole tree.
-    pub(super) fn top(&self) -> Block<'_> {
+    pub(super) fn top(&self) -> SubtreeBlock<'_> {
         let inner = inner(&self.generations, &self.partitions);
         let inner = inner.max(usize::from(!self.order.is_empty()));
-        Block {
+        SubtreeBlock {
             generations: self.generations.get(..=inner).unwrap_or(&self.generations),
             inner,
             has_leaves: self.partitions.is_empty() && self.order.is_empty(),
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     /// Marks the links of a block.
-    fn mark(block: Block<'_>, found: &mut [usize]) {
+    fn mark(block: SubtreeBlock<'_>, found: &mut [usize]) {
         for (_, whole, length) in block.spans() {
             for link in &mut found[whole..whole + length] {
                 *link += 1;

@@ -10,20 +10,12 @@ use crate::scalar::Scalar;
 use crate::simd::Simd;
 
 /// A mutable slice whose elements are written from several places.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Shared<'a, T> {
     start: *mut T,
     length: usize,
     slice: PhantomData<&'a mut [T]>,
 }
-
-impl<T> Clone for Shared<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Shared<'_, T> {}
 
 // SAFETY: its functions' callers see to it that no element is written from one thread
 // while another one writes or reads it.

@@ -2,14 +2,16 @@
 
 use alloc::vec::Vec;
 
-use super::block::WIDEST;
-use super::evaluate::{Given, SweepFn, accelerations};
+use super::evaluate::{SweepFn, accelerations};
 use super::layout::EvaluationMemory;
 use super::memory::{Sizes, line, odd_lines};
 use super::partition::Policy;
 use super::plan::Plan;
+use super::root::RootDrive;
+use super::small::LinkStates;
 use crate::scalar::Scalar;
 use crate::scalar::kind::compiled_once;
+use crate::simd::WIDEST;
 use crate::system::Workspace;
 
 /// The shape of a tree, its constants, and how it is computed.
@@ -120,7 +122,14 @@ compiled_once! {
 }
 
 /// [`accelerations`] by equations that are compiled with a model.
-type Accelerate<T> = fn(&Skeleton<T>, SweepFn<T>, Given<'_, T>, &mut [T], &mut Workspace<T>);
+type Accelerate<T> = fn(
+    &Skeleton<T>,
+    SweepFn<T>,
+    Option<RootDrive<T>>,
+    LinkStates<'_, T>,
+    &mut [T],
+    &mut Workspace<T>,
+);
 
 compiled_once! {
     /// [`accelerations`] of a tree in one piece.

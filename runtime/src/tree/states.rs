@@ -9,7 +9,7 @@
 //! The equations are those of one state, and so is the order of each sum: a state
 //! has the bits that it has alone.
 
-use super::block::Block;
+use super::block::SubtreeBlock;
 use super::equations::LinkEquations;
 use super::memory::{Room, take};
 use super::root::RootDrive;
@@ -139,7 +139,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
 #[inline(always)]
 fn sweep<'a, T: Scalar, V: Simd<T>>(
     tree: &'a Skeleton<T>,
-    block: Block<'a>,
+    block: SubtreeBlock<'a>,
     room: &Room,
     [lasting, passing]: [&'a mut [V]; 2],
 ) -> Sweep<'a, T, V> {

@@ -244,7 +244,8 @@ impl Reach {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tree::block::{WIDEST, generations};
+    use crate::simd::WIDEST;
+    use crate::tree::block::generations;
 
     /// Goes over the last place of every width in every copy, one number after the other.
     fn all_places_are_within_reach(copies: &[usize], first: usize, width: usize) {

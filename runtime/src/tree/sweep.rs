@@ -5,7 +5,7 @@ mod passes;
 mod strip;
 mod view;
 
-use super::block::Block;
+use super::block::SubtreeBlock;
 use super::memory::Storage;
 #[cfg(test)]
 pub(super) use passes::SweepKernel;
@@ -16,7 +16,7 @@ pub(super) use view::View;
 /// A block with its state.
 #[derive(Debug)]
 pub(super) struct Sweep<'a, N, T> {
-    pub(super) block: Block<'a>,
+    pub(super) block: SubtreeBlock<'a>,
     /// Rows of all generations, or columns of all links.
     pub(super) constants: &'a [N],
     /// Velocities, where they are read where they are given.

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use branched_pendulum::analysis::{LineSearch, Lines, Passages, Window};
+use branched_pendulum::analysis::{LineSearch, Lines, Passages, Spectrum, Window};
 use branched_pendulum::integrate::{Dop853, Integrator, Options};
 use branched_pendulum::system::{OdeFn, State};
 
@@ -205,7 +205,8 @@ fn passages_follow_a_line() {
         most: 1,
         ..LineSearch::default()
     };
-    let found = passages.lines(&samples, 50.0, &search).unwrap();
+    let lines = |part: &[f64]| search.find(part, 50.0);
+    let found = passages.each(&samples, 50.0, lines).unwrap();
     assert_eq!(found.len(), 15);
     for passage in &found {
         let line = passage.found.lines[0];
@@ -214,7 +215,9 @@ fn passages_follow_a_line() {
         assert!((line.amplitude / (-0.01 * passage.middle).exp() - 1.0).abs() < 0.02);
     }
     let grid = [0.8, 0.9, 1.0, 1.1, 1.2];
-    let spectra = passages.spectra(&samples, 50.0, &grid, Default::default());
+    let spectra = passages.each(&samples, 50.0, |part| {
+        Spectrum::at_frequencies(part, 50.0, &grid, Default::default())
+    });
     let highest = |amplitudes: &[f64]| {
         let places = 0..amplitudes.len();
         places.max_by(|&a, &b| amplitudes[a].total_cmp(&amplitudes[b]))
@@ -222,13 +225,13 @@ fn passages_follow_a_line() {
     let places = spectra.unwrap();
     let places = places.iter().map(|p| highest(&p.found.amplitudes).unwrap());
     assert!(places.clone().is_sorted_by(|a, b| a >= b) && places.count() == 15);
-    let none = passages.lines(&samples[..100], 50.0, &search).unwrap();
+    let none = passages.each(&samples[..100], 50.0, lines).unwrap();
     assert!(none.is_empty());
     let error = Passages {
         span: f64::NAN,
         step: 1.0,
     };
-    let error = error.lines(&samples, 50.0, &search).unwrap_err();
+    let error = error.each(&samples, 50.0, lines).unwrap_err();
     assert_eq!(error.to_string(), "the span of NaN is not possible");
 }
 

@@ -1,9 +1,7 @@
 //! The equations of a link that may have all that links can have.
 
-use branched_pendulum::prelude::*;
-
 /// Lends its equations. Every property is a parameter, so that each link may have its own.
-#[branched_pendulum(
+#[branched_pendulum::branched_pendulum(
     gravity = g,
     code = loops,
     trunk(mass = m, com = (d, e), inertia = i, friction = c, drag = k, spring = s, rest = r) [
@@ -18,4 +16,4 @@ use branched_pendulum::prelude::*;
     drive(torque = q),
     emit(forces),
 )]
-pub struct General;
+pub(crate) struct General;

@@ -1,10 +1,8 @@
 //! The equations of a link that may have all that links can have, friction that is not viscous
 //! among it.
 
-use branched_pendulum::prelude::*;
-
 /// Lends its equations. Every property is a parameter, so that each link may have its own.
-#[branched_pendulum(
+#[branched_pendulum::branched_pendulum(
     gravity = g,
     code = loops,
     trunk(mass = m, com = (d, e), inertia = i, spring = s, rest = r,
@@ -24,4 +22,4 @@ use branched_pendulum::prelude::*;
     drive(torque = torque),
     emit(forces),
 )]
-pub struct Rough;
+pub(crate) struct Rough;

@@ -1,10 +1,8 @@
 //! The equations of a link without torques in its joint and without lateral offsets, whose
 //! children share a pivot.
 
-use branched_pendulum::prelude::*;
-
 /// Lends its equations. Every property is a parameter, so that each link may have its own.
-#[branched_pendulum(
+#[branched_pendulum::branched_pendulum(
     gravity = g,
     code = loops,
     trunk(mass = m, com = d, inertia = i, joint = l) [
@@ -12,4 +10,4 @@ use branched_pendulum::prelude::*;
     ],
     emit(forces),
 )]
-pub struct Straight;
+pub(crate) struct Straight;

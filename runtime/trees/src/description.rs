@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::scalar::Scalar;
 use branched_pendulum_codegen::scene::Scene;
 
 use crate::error::{DescriptionError, TreeError};
@@ -83,9 +83,4 @@ impl TreeDescription {
             parameters: self.parameters().map(str::to_owned).collect(),
         })
     }
-}
-
-/// Values of parameters as numbers of many digits.
-pub(crate) fn wide(values: &[f64]) -> Vec<Double> {
-    values.iter().copied().map(Double::from_f64).collect()
 }

@@ -4,7 +4,7 @@ use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::tree::RootDrive;
 use branched_pendulum_codegen::scene::{Drive, Signal, TimeFunction};
 
-use crate::numbers::value;
+use crate::numbers::{power, value};
 
 /// A function of time.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl<T: Scalar> Course<T> {
         }
     }
 
-    /// The value at a time in any numbers that constants can be taken to.
+    /// Returns the value at a time in any numbers that constants can be taken to.
     fn at<S: Scalar>(&self, time: S, lift: &impl Fn(T) -> S) -> S {
         match self {
             Self::Constant(value) => lift(*value),
@@ -83,35 +83,17 @@ impl<T: Scalar> Course<T> {
         }
     }
 
-    /// The second derivative, by dual numbers of dual numbers: exact to rounding.
+    /// Returns the second derivative, by dual numbers of dual numbers: exact to rounding.
     fn acceleration(&self, time: T) -> T {
         let inner = Dual::<T, 1>::variable(time, 0);
         let outer = Dual::<Dual<T, 1>, 1>::variable(inner, 0);
         let result = self.at(outer, &|constant| {
             Dual::constant(Dual::<T, 1>::constant(constant))
         });
-        let [
-            Dual {
-                tangents: [second], ..
-            },
-        ] = result.tangents;
+        let [first] = result.tangents;
+        let [second] = first.tangents;
         second
     }
-}
-
-fn power<S: Scalar>(base: S, exponent: u32) -> S {
-    let (mut result, mut square, mut rest) = (S::from_f64(1.0), base, exponent);
-    while rest > 0 {
-        if rest % 2 == 1 {
-            result = result * square;
-        }
-        rest /= 2;
-        // The square behind the last one may be infinite.
-        if rest > 0 {
-            square = square * square;
-        }
-    }
-    result
 }
 
 impl<T: Scalar> Courses<T> {
@@ -134,7 +116,7 @@ impl<T: Scalar> Courses<T> {
         }
     }
 
-    /// The drive at a time: acceleration x, y of the root's pivot, torque.
+    /// Returns the drive at a time: acceleration x, y of the root's pivot, torque.
     pub(crate) fn at(&self, time: T) -> [T; 3] {
         let zero = T::from_f64(0.0);
         let [x, y] = self.pivot.each_ref().map(|course| match course {
@@ -148,7 +130,7 @@ impl<T: Scalar> Courses<T> {
         [x, y, torque]
     }
 
-    /// That drive as the equations take it, which are in SI units.
+    /// Returns that drive as the equations take it, which are in SI units.
     pub(crate) fn root(&self, time: T) -> RootDrive<T> {
         let [x, y, torque] = self.at(time);
         RootDrive {

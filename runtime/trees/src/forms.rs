@@ -1,11 +1,11 @@
-//! The forms of the equations: those of straight trees without torques in their joints
-//! are shorter, those of rough ones, with friction that is not viscous, longer.
+//! The equations of a tree in one of their forms, and the ways through it.
 
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
+use crate::rows::Form;
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
@@ -53,24 +53,11 @@ pub(crate) struct Acting<'a, T> {
 }
 
 impl<T: Scalar> Equations<T> {
-    pub(crate) fn straight(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::Straight(Ways::new(parents, rows, gravity, SMALL_STRAIGHT))
-    }
-
-    pub(crate) fn general(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL))
-    }
-
-    pub(crate) fn rough(parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self::Rough(Ways::new(parents, rows, gravity, SMALL_GENERAL))
-    }
-
-    /// Returns a number by which the forms differ.
-    pub(crate) fn form(&self) -> usize {
-        match self {
-            Self::Straight(_) => 0,
-            Self::General(_) => 1,
-            Self::Rough(_) => 2,
+    pub(crate) fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+        match form {
+            Form::Straight => Self::Straight(Ways::new(parents, rows, gravity, SMALL_STRAIGHT)),
+            Form::General => Self::General(Ways::new(parents, rows, gravity, SMALL_GENERAL)),
+            Form::Rough => Self::Rough(Ways::new(parents, rows, gravity, SMALL_GENERAL)),
         }
     }
 

@@ -43,25 +43,31 @@ pub(crate) fn value(quantity: &Quantity, parameters: &[Double]) -> Double {
         Quantity::Sum(parts) => parts.iter().fold(number(0.0), |sum, part| sum + at(part)),
         Quantity::Product(parts) => parts.iter().fold(number(1.0), |all, part| all * at(part)),
         Quantity::Quotient(above, below) => at(above) / at(below),
-        Quantity::Power(base, exponent) => power(at(base), *exponent),
+        Quantity::Power(base, exponent) => {
+            let power = power(at(base), exponent.unsigned_abs());
+            match *exponent < 0 {
+                true => number(1.0) / power,
+                false => power,
+            }
+        }
         Quantity::Negative(value) => -at(value),
     }
 }
 
-fn power(base: Double, exponent: i32) -> Double {
-    let one = Double::from_f64(1.0);
-    let (mut result, mut square, mut rest) = (one, base, exponent.unsigned_abs());
+/// A power, by squares.
+pub(crate) fn power<S: Scalar>(base: S, exponent: u32) -> S {
+    let (mut result, mut square, mut rest) = (S::from_f64(1.0), base, exponent);
     while rest > 0 {
         if rest % 2 == 1 {
             result = result * square;
         }
-        square = square * square;
         rest /= 2;
+        // The square behind the last one may be infinite.
+        if rest > 0 {
+            square = square * square;
+        }
     }
-    match exponent < 0 {
-        true => one / result,
-        false => result,
-    }
+    result
 }
 
 /// Checks what a description requires of its parameters.
@@ -123,56 +129,68 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
             requirement: "positive",
         });
     }
-    Ok(match scene.layout {
-        Layout::Generations { branching, .. } => in_generations(&own, branching),
-        _ => own,
-    })
+    let places = places(scene).into_iter();
+    let links = places.filter_map(|Place { link, parent, .. }| {
+        let numbers = *own.get(link)?;
+        Some(LinkNumbers { parent, ..numbers })
+    });
+    Ok(links.collect())
 }
 
-/// Copies of one link of each generation, in the order of trees by rule: copy c under link
-/// i of a generation of n links is number c n + i of the next one.
-fn in_generations(own: &[LinkNumbers], branching: usize) -> Vec<LinkNumbers> {
-    let mut links = Vec::new();
-    let (mut above, mut count) = (0, 1);
-    for (generation, numbers) in own.iter().enumerate() {
-        let start = links.len();
-        let copies = if generation == 0 { 1 } else { branching };
-        for index in 0..copies * count {
-            let parent = (generation > 0).then_some(above + index % count);
-            links.push(LinkNumbers { parent, ..*numbers });
-        }
-        (above, count) = (start, copies * count);
-    }
-    links
+/// A link of the whole tree.
+struct Place {
+    /// Its index in the scene.
+    link: usize,
+    /// The parent's index in the whole tree.
+    parent: Option<usize>,
+    /// Its number among the copies below the parent, from 1, where there are several.
+    copy: Option<usize>,
 }
 
-/// Names of the links, in the same order.
-pub(crate) fn names(scene: &Scene) -> Vec<String> {
+/// The links of the whole tree. In generations these are copies of one link of each, in the
+/// order of trees by rule: copy c under link i of a generation of n links is number c n + i
+/// of the next one.
+fn places(scene: &Scene) -> Vec<Place> {
+    let links = scene.links.iter().enumerate();
     let Layout::Generations { branching, .. } = scene.layout else {
-        return scene.links.iter().map(|link| link.name.clone()).collect();
+        let places = links.map(|(link, own)| Place {
+            link,
+            parent: own.parent.map(|LinkId(parent)| parent),
+            copy: None,
+        });
+        return places.collect();
     };
-    let mut names: Vec<String> = Vec::new();
+    let mut places: Vec<Place> = Vec::new();
     let (mut above, mut count) = (0, 1);
-    for (generation, link) in scene.links.iter().enumerate() {
-        let start = names.len();
-        let copies = if generation == 0 { 1 } else { branching };
-        for index in 0..copies * count {
-            // The numbers of the copies that it hangs in, behind the name of the generation
-            // above.
-            let stem = scene.links.get(generation.wrapping_sub(1));
-            let suffix = stem.and_then(|stem| {
-                let parent: &String = names.get(above + index % count)?;
-                parent.get(stem.name.len()..)
-            });
-            let own = match copies > 1 {
-                true => format!("_{}", index / count + 1),
-                false => String::new(),
-            };
-            names.push(format!("{}{}{own}", link.name, suffix.unwrap_or_default()));
-        }
+    for (link, _) in links {
+        let start = places.len();
+        let copies = if link == 0 { 1 } else { branching };
+        places.extend((0..copies * count).map(|index| Place {
+            link,
+            parent: (link > 0).then_some(above + index % count),
+            copy: (copies > 1).then_some(index / count + 1),
+        }));
         (above, count) = (start, copies * count);
     }
-    names
+    places
+}
+
+/// Names of the links, in the same order: those of copies end with their own numbers and
+/// those of the copies that they hang in.
+pub(crate) fn names(scene: &Scene) -> Vec<String> {
+    let mut suffixes: Vec<String> = Vec::new();
+    let names = places(scene).into_iter().map(|place| {
+        let above = place.parent.and_then(|parent| suffixes.get(parent));
+        let mut suffix = above.cloned().unwrap_or_default();
+        if let Some(copy) = place.copy {
+            suffix.push_str(&format!("_{copy}"));
+        }
+        let stem = scene.links.get(place.link).map(|link| link.name.as_str());
+        let name = format!("{}{suffix}", stem.unwrap_or_default());
+        suffixes.push(suffix);
+        name
+    });
+    names.collect()
 }
 
 fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {

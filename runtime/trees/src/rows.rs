@@ -5,17 +5,133 @@ use branched_pendulum::scalar::{Double, Scalar};
 
 use crate::numbers::LinkNumbers;
 
-/// Columns of the general equations, in their order. Moments are those of the derived
-/// balance of one link (`docs/pipeline.md`): M = m (d² + e²) + I + σ (ℓ² + w²),
-/// h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
+/// Forms of the equations, by what the links of a tree have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Form {
+    /// No torques in joints and no lateral offsets, and children share a pivot.
+    Straight,
+    /// All but friction that is not viscous.
+    General,
+    /// All.
+    Rough,
+}
+
+impl Form {
+    /// Returns the shortest form that knows all that the links have.
+    pub(crate) fn of(links: &[LinkNumbers], is_driven: bool) -> Self {
+        match (are_rough(links), are_straight(links) && !is_driven) {
+            (true, _) => Self::Rough,
+            (false, false) => Self::General,
+            (false, true) => Self::Straight,
+        }
+    }
+
+    /// Returns the constants of the equations, a row for each link.
+    pub(crate) fn rows(self, links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+        let moments = moments(links, carries).into_iter();
+        let no_torque = Double::from_f64(0.0);
+        match self {
+            Self::Straight => {
+                let rows = moments.zip(attachments(links));
+                rows.flat_map(|(row, place)| row.straight(place)).collect()
+            }
+            Self::General => {
+                let rows = moments.zip(links);
+                rows.flat_map(|(row, link)| row.jointed(link).into_iter().chain([no_torque]))
+                    .collect()
+            }
+            Self::Rough => {
+                let rows = moments.zip(links).flat_map(|(row, link)| {
+                    let friction = link.laws.into_iter().chain([no_torque]);
+                    row.jointed(link).into_iter().chain(friction)
+                });
+                rows.collect()
+            }
+        }
+    }
+}
+
+/// Returns true if some friction is not viscous.
+pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
+    let zero = Double::from_f64(0.0);
+    links.iter().any(|link| {
+        let [coulomb, quadratic, _, drag, _] = link.laws;
+        [coulomb, quadratic, drag].iter().any(|law| *law != zero)
+    })
+}
+
+fn are_straight(links: &[LinkNumbers]) -> bool {
+    let zero = Double::from_f64(0.0);
+    let places = attachments(links);
+    links.iter().all(|link| {
+        let [along, across] = link.pivot;
+        let none = [link.com[1], across, link.friction, link.drag, link.spring];
+        let place = link.parent.and_then(|parent| places.get(parent));
+        none.iter().all(|number| *number == zero) && place.is_none_or(|place| *place == along)
+    })
+}
+
+/// The place of the pivot of each link's last child, along the link.
+fn attachments(links: &[LinkNumbers]) -> Vec<Double> {
+    let mut places = vec![Double::from_f64(0.0); links.len()];
+    for link in links {
+        if let Some(place) = link.parent.and_then(|parent| places.get_mut(parent)) {
+            *place = link.pivot[0];
+        }
+    }
+    places
+}
+
+/// Moments of a link: those of the derived balance of one link (`docs/pipeline.md`),
+/// M = m (d² + e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
 #[derive(Clone, Copy, Debug)]
-struct Row {
+struct Moments {
     inertia: Double,
     moment: [Double; 2],
     mass: Double,
     /// h/M and h⊥/M of a link without children.
     gain: [Double; 2],
     inverse_inertia: Double,
+}
+
+impl Moments {
+    /// Returns the columns of the straight equations; `place` is that of the children.
+    fn straight(self, place: Double) -> [Double; 6] {
+        let Self {
+            inertia,
+            moment,
+            mass,
+            gain,
+            inverse_inertia,
+        } = self;
+        [inertia, moment[0], mass, gain[0], inverse_inertia, place]
+    }
+
+    /// Returns the columns that the general and the rough equations share.
+    fn jointed(self, link: &LinkNumbers) -> [Double; 13] {
+        let Self {
+            inertia,
+            moment,
+            mass,
+            gain,
+            inverse_inertia,
+        } = self;
+        [
+            inertia,
+            moment[0],
+            moment[1],
+            mass,
+            gain[0],
+            gain[1],
+            inverse_inertia,
+            link.pivot[0],
+            link.pivot[1],
+            link.friction,
+            link.drag,
+            link.spring,
+            link.rest,
+        ]
+    }
 }
 
 /// The links' parents, and which of the links have children.
@@ -32,9 +148,9 @@ pub(crate) fn parents(links: &[LinkNumbers]) -> (Vec<u32>, Vec<bool>) {
     (parents.collect(), carries)
 }
 
-fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Row> {
+fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     let zero = Double::from_f64(0.0);
-    let mut rows: Vec<Row> = Vec::with_capacity(links.len());
+    let mut rows: Vec<Moments> = Vec::with_capacity(links.len());
     for (link, carries) in links.iter().zip(carries) {
         let [along, across] = link.com;
         let moment = link.com.map(|place| link.mass * place);
@@ -54,7 +170,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Row> {
             parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
             parent.mass += link.mass;
         }
-        rows.push(Row {
+        rows.push(Moments {
             inertia,
             moment,
             mass,
@@ -65,103 +181,10 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Row> {
     rows
 }
 
-/// Rows of the general equations.
-pub(crate) fn general(links: &[LinkNumbers], carries: &[bool]) -> Vec<[Double; 14]> {
-    let rows = moments(links, carries).into_iter().zip(links);
-    rows.map(|(row, link)| {
-        let no_torque = Double::from_f64(0.0);
-        [
-            row.inertia,
-            row.moment[0],
-            row.moment[1],
-            row.mass,
-            row.gain[0],
-            row.gain[1],
-            row.inverse_inertia,
-            link.pivot[0],
-            link.pivot[1],
-            link.friction,
-            link.drag,
-            link.spring,
-            link.rest,
-            no_torque,
-        ]
-    })
-    .collect()
-}
-
-/// Returns true if some friction is not viscous.
-pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
-    let zero = Double::from_f64(0.0);
-    links.iter().any(|link| {
-        let [coulomb, quadratic, _, drag, _] = link.laws;
-        [coulomb, quadratic, drag].iter().any(|law| *law != zero)
-    })
-}
-
-/// Rows of the rough equations, if some friction is not viscous.
-pub(crate) fn rough(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[Double; 19]>> {
-    let zero = Double::from_f64(0.0);
-    if !are_rough(links) {
-        return None;
-    }
-    let rows = general(links, carries).into_iter().zip(links);
-    let rows = rows.map(|(general, link)| {
-        let mut row = [zero; 19];
-        for (place, value) in row
-            .iter_mut()
-            .zip(general.iter().take(13).chain(&link.laws))
-        {
-            *place = *value;
-        }
-        row
-    });
-    Some(rows.collect())
-}
-
-/// Rows of laws of friction of [`Bodies`](branched_pendulum::tree::Bodies).
-pub(crate) fn laws(links: &[LinkNumbers]) -> Vec<[Double; 5]> {
-    links.iter().map(|link| link.laws).collect()
-}
-
-/// Rows of the straight equations, if all links have what these know.
-pub(crate) fn straight(links: &[LinkNumbers], carries: &[bool]) -> Option<Vec<[Double; 6]>> {
-    let zero = Double::from_f64(0.0);
-    if are_rough(links) {
-        return None;
-    }
-    let mut places: Vec<Option<Double>> = vec![None; links.len()];
-    for link in links {
-        let (com, pivot) = (link.com, link.pivot);
-        let none = [com[1], pivot[1], link.friction, link.drag, link.spring];
-        if none.iter().any(|number| *number != zero) {
-            return None;
-        }
-        if let Some(place) = link.parent.and_then(|parent| places.get_mut(parent)) {
-            if place.is_some_and(|place| place != pivot[0]) {
-                return None;
-            }
-            *place = Some(pivot[0]);
-        }
-    }
-    let rows = moments(links, carries).into_iter().zip(places);
-    let rows = rows.map(|(row, place)| {
-        [
-            row.inertia,
-            row.moment[0],
-            row.mass,
-            row.gain[0],
-            row.inverse_inertia,
-            place.unwrap_or(zero),
-        ]
-    });
-    Some(rows.collect())
-}
-
 /// Rows of [`Bodies`](branched_pendulum::tree::Bodies).
-pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<[Double; 12]> {
+pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
     let half = Double::from_f64(0.5);
-    let rows = links.iter().map(|link| {
+    let rows = links.iter().flat_map(|link| {
         let [along, across] = link.com;
         let [first, lateral] = link.com.map(|place| link.mass * place);
         let about = link.inertia + first * along + lateral * across;
@@ -183,9 +206,14 @@ pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<[Double; 12]
     rows.collect()
 }
 
+/// Rows of laws of friction of [`Bodies`](branched_pendulum::tree::Bodies).
+pub(crate) fn laws(links: &[LinkNumbers]) -> Vec<Double> {
+    links.iter().flat_map(|link| link.laws).collect()
+}
+
 /// Rows of a [`PropertyTable`](branched_pendulum::tree::PropertyTable).
-pub(crate) fn properties(links: &[LinkNumbers]) -> Vec<[Double; 8]> {
-    let rows = links.iter().map(|link| {
+pub(crate) fn properties(links: &[LinkNumbers]) -> Vec<Double> {
+    let rows = links.iter().flat_map(|link| {
         let ([d, e], [along, across], [x, y]) = (link.com, link.pivot, link.end);
         [link.mass, link.inertia, d, e, along, across, x, y]
     });

@@ -8,12 +8,12 @@ use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{Bodies, PropertyTable, Shape};
 
-use crate::description::{TreeDescription, wide};
+use crate::description::TreeDescription;
 use crate::drive::Courses;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
-use crate::rows;
+use crate::rows::{self, Form};
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
 ///
@@ -105,24 +105,18 @@ impl PendulumTree<f64> {
 impl<T: Scalar> PendulumTree<T> {
     pub(crate) fn of(description: TreeDescription, values: Vec<f64>) -> Result<Self, TreeError> {
         let scene = &description.scene;
-        let parameters = wide(&values);
+        let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
         numbers::check(scene, &parameters)?;
         let links = numbers::links(scene, &parameters)?;
         let gravity = numbers::value(&scene.gravity, &parameters);
         let (parents, carries) = rows::parents(&links);
         let drive = scene.drive.as_ref();
         let above = constant(-gravity);
-        let straight = rows::straight(&links, &carries).filter(|_| drive.is_none());
-        let equations = match (straight, rows::rough(&links, &carries)) {
-            (Some(rows), _) => Equations::straight(&parents, in_numbers(&rows), above),
-            (_, Some(rows)) => Equations::rough(&parents, in_numbers(&rows), above),
-            _ => {
-                let rows = in_numbers(&rows::general(&links, &carries));
-                Equations::general(&parents, rows, above)
-            }
-        };
+        let form = Form::of(&links, drive.is_some());
+        let rows = in_numbers(&form.rows(&links, &carries));
+        let equations = Equations::new(form, &parents, rows, above);
         let mut hasher = DefaultHasher::new();
-        (&parents, equations.form()).hash(&mut hasher);
+        (&parents, form).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),
@@ -251,6 +245,6 @@ fn constant<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }
 
-fn in_numbers<T: Scalar, const N: usize>(rows: &[[Double; N]]) -> Vec<T> {
-    rows.as_flattened().iter().copied().map(constant).collect()
+fn in_numbers<T: Scalar>(rows: &[Double]) -> Vec<T> {
+    rows.iter().copied().map(constant).collect()
 }

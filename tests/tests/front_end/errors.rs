@@ -6,8 +6,9 @@ mod tree;
 use std::collections::BTreeSet;
 
 use branched_pendulum_codegen::report::{
-    OutputMessage, SizeMessage, SyntaxMessage, TreeMessage, ValueMessage,
+    OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage, ValueMessage,
 };
+use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::support::{errors, run_source};
 
@@ -80,6 +81,36 @@ fn every_message_has_a_golden() {
         })
         .collect();
     assert_eq!(seen, messages);
+}
+
+/// A text that a program reads is answered in the words of the macro, unless it asks for what
+/// is derived for one tree.
+#[test]
+fn texts_at_run_time_are_answered_alike() {
+    let mut compared = 0;
+    for (name, source) in cases() {
+        let (_, text) = source.split_once("#[branched_pendulum(").expect(name);
+        let (text, _) = text.rsplit_once(")]").expect(name);
+        let Err(TreeError::Description(error)) = PendulumTree::parse(text) else {
+            continue;
+        };
+        let own: BTreeSet<[String; 3]> = error
+            .mistakes()
+            .iter()
+            .map(|at| [&at.message, &at.label, &at.help].map(Clone::clone))
+            .collect();
+        if own.iter().any(|[text, ..]| text.contains("at run time")) {
+            continue;
+        }
+        let report = run_source(source).report;
+        let diagnostics = report.diagnostics().iter();
+        let problems = diagnostics.map(|diagnostic| diagnostic.message.problem());
+        let texts = problems.map(|Problem { text, label, hint }| [text, label, hint]);
+        let compiled: BTreeSet<[String; 3]> = texts.collect();
+        assert_eq!(own, compiled, "{name}");
+        compared += 1;
+    }
+    assert!(compared > 80, "{compared}");
 }
 
 /// Compile errors carry the text and the hint.

@@ -3,29 +3,11 @@
 use branched_pendulum_codegen::program::{Argument, Op, Program, Purpose};
 use branched_pendulum_codegen::{Language, Stages, emit, translate};
 use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source::{scene, stages_of};
+use branched_pendulum_tests::source::{fixture, scene};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// Fixture scenes whose code is no loop.
-const SCENES: [&str; 14] = [
-    "branch",
-    "chain",
-    "damped_series",
-    "driven",
-    "driven_series",
-    "free_series",
-    "generations",
-    "nested",
-    "observed",
-    "offset",
-    "paper",
-    "series",
-    "simple",
-    "unequal",
-];
 
 const STATES: usize = 3;
 
@@ -47,6 +29,14 @@ struct Call {
     time: Option<f64>,
     inputs: Vec<Vec<f64>>,
     results: Vec<f64>,
+}
+
+impl Call {
+    /// The time as an argument, if there is one.
+    fn time(&self) -> String {
+        let time = self.time.map(|time| format!(", {time:?}"));
+        time.unwrap_or_default()
+    }
 }
 
 fn parameters(stages: &Stages) -> Vec<f64> {
@@ -92,9 +82,9 @@ fn list(numbers: &[f64]) -> String {
     numbers.join(", ")
 }
 
-/// A folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let own = format!("branched-pendulum-{name}-{}", std::process::id());
+/// A folder of this process's own.
+fn folder() -> PathBuf {
+    let own = format!("branched-pendulum-languages-{}", std::process::id());
     let folder = std::env::temp_dir().join(own);
     std::fs::create_dir_all(&folder).expect("the temporary folder is writable");
     folder
@@ -130,190 +120,202 @@ fn has(program: &str, arguments: &[&str]) -> bool {
 }
 
 /// `PaperDouble` as `paper_double`, as functions of C are called.
-fn prefix(stages: &Stages) -> String {
-    let code = translate(Language::C, &stages.scene, &stages.program).expect("no loops");
+fn prefix(code: &str) -> String {
     let (_, rest) = code.split_once("void ").expect("a function");
     let (name, _) = rest.split_once("_constants(").expect("its name");
     name.to_owned()
 }
 
+/// All fixture scenes, each derived once: those that are written out in all languages, those
+/// in loops refused but in LaTeX.
 #[test]
-fn c_has_the_bits_of_the_interpreter() {
-    if !has("cc", &["--version"]) {
-        println!("not checked: there is no cc");
-        return;
-    }
-    let folder = folder("c");
-    for name in SCENES {
+fn all_scenes_in_all_languages() {
+    let scenes = std::fs::read_dir(fixture("scenes")).expect("the folder is there");
+    let mut names: Vec<String> = scenes
+        .map(|entry| entry.expect("it is read").path())
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect();
+    names.sort();
+    let folder = folder();
+    let has_c = has("cc", &["--version"]);
+    let mut numpy = NumpyMain::new();
+    let mut loops = 0;
+    for name in &names {
         let stages = scene(name);
-        let calls = calls(&stages);
-        let mut code = translate(Language::C, &stages.scene, &stages.program).expect("no loops");
-        let (prefix, count) = (prefix(&stages), stages.program.setup.definitions.len());
-        let parameters = list(&parameters(&stages));
-        let _ = write!(
-            code,
-            "\n#include <stdio.h>\nint main(void) {{\n    double parameters[] = {{{parameters} 0.0}};\n    \
-             static double k[{count}], out[100000];\n    {prefix}_constants(parameters, k);\n",
-            parameters = if parameters.is_empty() {
-                parameters
-            } else {
-                parameters + ","
-            },
-        );
-        for call in &calls {
-            let arrays = call.inputs.iter();
-            let arrays: String = arrays
-                .map(|array| format!(", (double[]){{{}}}", list(array)))
-                .collect();
-            let time = call
-                .time
-                .map_or(String::new(), |time| format!(", {time:?}"));
-            let _ = writeln!(
-                code,
-                "    {prefix}_{}(k{time}{arrays}, out);\n    \
-                 for (int i = 0; i < {}; i++) printf(\"%.17g\\n\", out[i]);",
-                call.name,
-                call.results.len(),
-            );
+        latex_is_well_formed(name, &stages);
+        if stages.scene.in_loops() {
+            loops += 1;
+            assert_eq!(written(Language::C, &stages), None);
+            continue;
         }
-        code.push_str("    return 0;\n}\n");
-        let (source, binary) = (folder.join(format!("{name}.c")), folder.join(name));
-        std::fs::write(&source, code).expect("it can be written");
-        // Neither fused nor folded: the compiler has sines of its own.
-        let flags = [
-            "-std=c99",
-            "-O1",
-            "-Wall",
-            "-Wextra",
-            "-Werror",
-            "-ffp-contract=off",
-        ];
-        let mut compiler = Command::new("cc");
-        compiler.args(flags).arg("-fno-builtin").arg(&source);
-        output(compiler.arg("-o").arg(&binary).arg("-lm"));
-        compare(name, &output(&mut Command::new(&binary)), &calls);
+        let calls = calls(&stages);
+        if has_c {
+            c_has_the_bits_of_the_interpreter(name, &stages, &calls, &folder);
+        }
+        julia_counts_from_one_and_ends_what_it_begins(name, &stages, &folder);
+        numpy.add(name, &stages, calls, &folder);
+    }
+    assert!(loops > 0 && names.len() - loops > 10, "{names:?}");
+    if !has_c {
+        println!("C not checked: there is no cc");
+    }
+    match has("python3", &["-c", "import numpy"]) {
+        true => numpy.has_the_bits_of_the_interpreter(&folder),
+        false => println!("NumPy not checked: python3 has none"),
     }
     std::fs::remove_dir_all(folder).expect("it is ours");
 }
 
-/// With sines of the C library in place of NumPy's own, which differ in the last bit; and with
-/// many states at once.
-#[test]
-fn numpy_has_the_bits_of_the_interpreter() {
-    if !has("python3", &["-c", "import numpy"]) {
-        println!("not checked: there is no numpy");
-        return;
-    }
-    let folder = folder("numpy");
-    let mut main = String::from(
-        "import math, sys\nsys.path.insert(0, sys.argv[1])\nimport numpy\n\
-         class Plain:\n    def __getattr__(self, name):\n        return getattr(numpy, name)\n\
-         Plain.sin = lambda _, x: math.sin(x)\nPlain.cos = lambda _, x: math.cos(x)\n\
-         def show(x):\n    for number in numpy.ravel(x):\n        print(repr(float(number)))\n",
+fn written(language: Language, stages: &Stages) -> Option<String> {
+    translate(language, &stages.scene, &stages.program)
+}
+
+fn c_has_the_bits_of_the_interpreter(name: &str, stages: &Stages, calls: &[Call], folder: &Path) {
+    let mut code = written(Language::C, stages).expect("no loops");
+    let (prefix, count) = (prefix(&code), stages.program.setup.definitions.len());
+    // C has no arrays without elements.
+    let parameters = list(&[&parameters(stages)[..], &[0.0]].concat());
+    let _ = write!(
+        code,
+        "\n#include <stdio.h>\nint main(void) {{\n    double parameters[] = {{{parameters}}};\n    \
+         static double k[{count}], out[100000];\n    {prefix}_constants(parameters, k);\n",
     );
-    let mut all = Vec::new();
-    for name in SCENES {
-        let stages = scene(name);
-        let code = translate(Language::Numpy, &stages.scene, &stages.program).expect("no loops");
+    for call in calls {
+        let arrays = call.inputs.iter();
+        let arrays: String = arrays
+            .map(|array| format!(", (double[]){{{}}}", list(array)))
+            .collect();
+        let time = call.time();
+        let _ = writeln!(
+            code,
+            "    {prefix}_{}(k{time}{arrays}, out);\n    \
+             for (int i = 0; i < {}; i++) printf(\"%.17g\\n\", out[i]);",
+            call.name,
+            call.results.len(),
+        );
+    }
+    code.push_str("    return 0;\n}\n");
+    let (source, binary) = (folder.join(format!("{name}.c")), folder.join(name));
+    std::fs::write(&source, code).expect("it can be written");
+    // Neither fused nor folded: the compiler has sines of its own.
+    let flags = [
+        "-std=c99",
+        "-O1",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-ffp-contract=off",
+    ];
+    let mut compiler = Command::new("cc");
+    compiler.args(flags).arg("-fno-builtin").arg(&source);
+    output(compiler.arg("-o").arg(&binary).arg("-lm"));
+    compare(name, &output(&mut Command::new(&binary)), calls);
+}
+
+/// One program of Python that calls the functions of all scenes, with sines of the C library
+/// in place of NumPy's own, which differ in the last bit; and with many states at once.
+struct NumpyMain {
+    program: String,
+    calls: Vec<Call>,
+}
+
+impl NumpyMain {
+    fn new() -> Self {
+        let program = "import math, sys\nsys.path.insert(0, sys.argv[1])\nimport numpy\n\
+             class Plain:\n    def __getattr__(self, name):\n        return getattr(numpy, name)\n\
+             Plain.sin = lambda _, x: math.sin(x)\nPlain.cos = lambda _, x: math.cos(x)\n\
+             def show(x):\n    for number in numpy.ravel(x):\n        print(repr(float(number)))\n";
+        Self {
+            program: program.to_owned(),
+            calls: Vec::new(),
+        }
+    }
+
+    fn add(&mut self, name: &str, stages: &Stages, calls: Vec<Call>, folder: &Path) {
+        let code = written(Language::Numpy, stages).expect("no loops");
         let file = folder.join(format!("scene_{name}.py"));
         std::fs::write(file, code).expect("it can be written");
-        let parameters = list(&parameters(&stages));
+        let parameters = list(&parameters(stages));
         let _ = writeln!(
-            main,
+            self.program,
             "import scene_{name} as scene\nreal = scene.np\nscene.np = Plain()\nk = scene.constants([{parameters}])"
         );
-        let calls = calls(&stages);
         for call in &calls {
             let arrays = call.inputs.iter();
             let arrays: String = arrays.map(|array| format!(", [{}]", list(array))).collect();
-            let time = call
-                .time
-                .map_or(String::new(), |time| format!(", {time:?}"));
-            let _ = writeln!(main, "show(scene.{}(k{time}{arrays}))", call.name);
+            let time = call.time();
+            let _ = writeln!(self.program, "show(scene.{}(k{time}{arrays}))", call.name);
         }
-        all.extend(calls);
-        main.push_str(
+        self.calls.extend(calls);
+        self.program.push_str(
             "scene.np = real\nn = scene.accelerations.__code__.co_argcount\n\
              if n == 3:\n    states = numpy.full((100, 1000), 0.3)\n    \
              assert scene.accelerations(k, states, states).shape[-1:] == (1000,)\n",
         );
     }
-    let file = folder.join("main.py");
-    std::fs::write(&file, main).expect("it can be written");
-    let printed = output(Command::new("python3").arg(&file).arg(&folder));
-    compare("numpy", &printed, &all);
-    std::fs::remove_dir_all(folder).expect("it is ours");
+
+    fn has_the_bits_of_the_interpreter(&self, folder: &Path) {
+        let file = folder.join("main.py");
+        std::fs::write(&file, &self.program).expect("it can be written");
+        let printed = output(Command::new("python3").arg(&file).arg(folder));
+        compare("numpy", &printed, &self.calls);
+    }
 }
 
 /// Julia counts from one; where it is installed it has to read the file.
-#[test]
-fn julia_counts_from_one_and_ends_what_it_begins() {
-    for name in SCENES {
-        let stages = scene(name);
-        let code = translate(Language::Julia, &stages.scene, &stages.program).expect("no loops");
-        assert!(!code.contains("[0]"), "{name}");
-        let begun = code
-            .lines()
-            .filter(|line| line.starts_with("function "))
-            .count();
-        let ended = code.lines().filter(|line| *line == "end").count();
-        assert_eq!(begun, ended, "{name}");
-        if has("julia", &["--version"]) {
-            let parse = "Meta.parseall(read(stdin, String)).args[end]";
-            let file = folder("julia").join("scene.jl");
-            std::fs::write(&file, code).expect("it can be written");
-            let parse = parse.replace("read(stdin, String)", &format!("read({file:?}, String)"));
-            output(Command::new("julia").arg("-e").arg(parse));
-        }
+fn julia_counts_from_one_and_ends_what_it_begins(name: &str, stages: &Stages, folder: &Path) {
+    let code = written(Language::Julia, stages).expect("no loops");
+    assert!(!code.contains("[0]"), "{name}");
+    let begun = code
+        .lines()
+        .filter(|line| line.starts_with("function "))
+        .count();
+    let ended = code.lines().filter(|line| *line == "end").count();
+    assert_eq!(begun, ended, "{name}");
+    if has("julia", &["--version"]) {
+        let file = folder.join("scene.jl");
+        std::fs::write(&file, code).expect("it can be written");
+        let parse = format!("Meta.parseall(read({file:?}, String)).args[end]");
+        output(Command::new("julia").arg("-e").arg(parse));
     }
 }
 
 /// Braces, groups and environments are closed; no sign is what LaTeX takes for something else.
-#[test]
-fn latex_is_well_formed() {
-    for name in SCENES {
-        let Stages {
-            description,
-            scene,
-            mechanics,
-            program,
-            ..
-        } = scene(name);
-        let document = emit::latex_document(&description.item, &scene, &mechanics, &program);
-        let mut depth = 0;
-        for (place, letter) in document.char_indices() {
-            let plain = !document[..place].ends_with('\\');
-            depth += match letter {
-                '{' if plain => 1,
-                '}' if plain => -1,
-                _ => 0,
-            };
-            assert!(depth >= 0, "{name}: {}", &document[..place]);
-            assert!(letter.is_ascii(), "{name}: {letter}");
-        }
-        assert_eq!(depth, 0, "{name}");
-        for (open, close) in [("\\begin{", "\\end{"), ("\\left", "\\right")] {
-            let [open, close] = [open, close].map(|word| document.matches(word).count());
-            assert_eq!(open, close, "{name}");
-        }
-        let equations = document.split("\\begin{align*}\n").skip(1);
-        for equation in equations {
-            let (lines, _) = equation.split_once("\n\\end{align*}").expect("it ends");
-            assert!(
-                lines
-                    .split("\\\\\n")
-                    .all(|line| line.matches('&').count() == 1),
-                "{lines}"
-            );
-        }
+fn latex_is_well_formed(name: &str, stages: &Stages) {
+    let Stages {
+        description,
+        scene,
+        mechanics,
+        program,
+        ..
+    } = stages;
+    let document = emit::latex_document(&description.item, scene, mechanics, program);
+    let of_one_link = document.contains("\\subsection*{equations of one link}");
+    assert_eq!(of_one_link, scene.in_loops(), "{name}");
+    let mut depth = 0;
+    for (place, letter) in document.char_indices() {
+        let plain = !document[..place].ends_with('\\');
+        depth += match letter {
+            '{' if plain => 1,
+            '}' if plain => -1,
+            _ => 0,
+        };
+        assert!(depth >= 0, "{name}: {}", &document[..place]);
+        assert!(letter.is_ascii(), "{name}: {letter}");
     }
-}
-
-#[test]
-fn loops_are_refused() {
-    let stages = stages_of(
-        "#[branched_pendulum(gravity = 9.81, code = loops, a: rod(mass = 1, length = 1) [
-             b: rod(mass = 1, length = 1) ])] struct Loops;",
-    );
-    assert_eq!(translate(Language::C, &stages.scene, &stages.program), None);
+    assert_eq!(depth, 0, "{name}");
+    for (open, close) in [("\\begin{", "\\end{"), ("\\left", "\\right")] {
+        let [open, close] = [open, close].map(|word| document.matches(word).count());
+        assert_eq!(open, close, "{name}");
+    }
+    let equations = document.split("\\begin{align*}\n").skip(1);
+    for equation in equations {
+        let (lines, _) = equation.split_once("\n\\end{align*}").expect("it ends");
+        assert!(
+            lines
+                .split("\\\\\n")
+                .all(|line| line.matches('&').count() == 1),
+            "{lines}"
+        );
+    }
 }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
 use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
-use branched_pendulum_examples::solvers::scenes::{Ideal, Rods};
+use branched_pendulum_examples::scenes::{BranchedDouble, Rods};
 use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{SVector, System};
@@ -111,14 +111,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     print!("{:38}", "microseconds to an error of");
     ERRORS.iter().for_each(|error| print!("{error:>9.0e}"));
     println!();
-    for problem in problems()?.iter().filter(|problem| problem.end == END) {
+    for problem in &problems(&[END])? {
         let found = match problem.tree {
-            Tree::Paper => theirs::<_, 6>(&Ideal::new(), problem)?,
+            Tree::Paper => theirs::<_, 6>(&BranchedDouble::new(), problem)?,
             Tree::Rods => theirs::<_, 14>(&Rods::new(), problem)?,
         };
         print(problem, "Dop853 of ode_solvers", &found);
         match problem.tree {
-            Tree::Paper => ours(&AbsoluteAngles(&Ideal::new()), problem)?,
+            Tree::Paper => ours(&AbsoluteAngles(&BranchedDouble::new()), problem)?,
             Tree::Rods => ours(&AbsoluteAngles(&Rods::new()), problem)?,
         }
     }

@@ -39,33 +39,12 @@ struct Reference {
 }
 
 impl Reference {
-    /// `docs/physics.md`, section 1, and Cholesky's factors.
+    /// `docs/physics.md`, section 1, and elimination.
     fn new(links: &[Link<Double>], theta: &[f64], omega: &[f64]) -> Self {
         let n = links.len();
         let zero = Double::from_f64(0.0);
         let gravity: Double = table::decimal(980_665.0, 1e5);
-        let mut carried: Vec<Double> = links.iter().map(|link| link.mass).collect();
-        let mut moment: Vec<Double> = links.iter().map(|link| link.mass * link.com).collect();
-        let mut coupling = vec![vec![zero; n]; n];
-        for (i, link) in links.iter().enumerate() {
-            coupling[i][i] = link.inertia + link.mass * link.com * link.com;
-        }
-        for (i, link) in links.iter().enumerate().rev() {
-            if let Some(parent) = link.parent {
-                let (mass, lever) = (carried[i], link.lever);
-                carried[parent] += mass;
-                moment[parent] += lever * mass;
-                coupling[parent][parent] += lever * lever * mass;
-            }
-        }
-        for j in 0..n {
-            let mut below = j;
-            while let Some(above) = links[below].parent {
-                coupling[above][j] = links[below].lever * moment[j];
-                coupling[j][above] = coupling[above][j];
-                below = above;
-            }
-        }
+        let (coupling, moment) = table::couplings(links);
         let turned: Vec<(Double, Double)> = theta
             .iter()
             .map(|&theta| Double::from_f64(theta).sin_cos())

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::table::{GRAVITY, Link};
+use super::table::{GRAVITY, Link, couplings};
 
 /// A(θ) = A_ij cos(θ_i − θ_j), for any tree.
 #[derive(Clone, Debug)]
@@ -16,33 +16,13 @@ pub struct Dense {
 }
 
 impl Dense {
-    /// The constants of a tree: `docs/physics.md`, section 1.
+    /// For a tree.
     #[must_use]
     pub fn new(links: &[Link]) -> Self {
         let n = links.len();
-        let mut subtree: Vec<f64> = links.iter().map(|link| link.mass).collect();
-        let mut moment: Vec<f64> = links.iter().map(|link| link.mass * link.com).collect();
-        let mut coupling = DMatrix::zeros(n, n);
-        for (i, link) in links.iter().enumerate() {
-            coupling[(i, i)] = link.inertia + link.mass * link.com * link.com;
-        }
-        for (i, link) in links.iter().enumerate().rev() {
-            if let Some(parent) = link.parent {
-                subtree[parent] += subtree[i];
-                moment[parent] += link.lever * subtree[i];
-                coupling[(parent, parent)] += link.lever * link.lever * subtree[i];
-            }
-        }
-        for j in 0..n {
-            let mut below = j;
-            while let Some(above) = links[below].parent {
-                coupling[(above, j)] = links[below].lever * moment[j];
-                coupling[(j, above)] = coupling[(above, j)];
-                below = above;
-            }
-        }
+        let (coupling, moment) = couplings(links);
         Self {
-            coupling,
+            coupling: DMatrix::from_fn(n, n, |i, j| coupling[i][j]),
             weight: moment.iter().map(|moment| GRAVITY * moment).collect(),
             sines: vec![0.0; n],
             cosines: vec![0.0; n],

@@ -3,7 +3,6 @@
 // One attribute a tree; their docs are in the attribute's output.
 #![allow(missing_docs)]
 
-use std::fmt::Write;
 use std::hint::black_box;
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -72,18 +71,25 @@ pub struct Row {
     pub sines: f64,
     /// Loops on one thread.
     pub one: f64,
-    /// Loops on two threads.
-    pub two: f64,
+    /// Loops on two threads, where they are measured.
+    pub two: Option<f64>,
     /// The recursion over a table.
     pub articulated: f64,
 }
 
-/// Measures all trees.
+/// Measures full trees.
 #[must_use]
-pub fn all() -> Vec<Row> {
+pub fn full() -> Vec<Row> {
     macro_rules! rows {
         ($($name:ident $generations:literal),*) => {
-            vec![$(row($name::<f64>::new(), $name::set_threads, $generations)),*]
+            vec![$({
+                let mut model = $name::<f64>::new();
+                model.set_threads(NonZeroUsize::MIN);
+                let mut row = row(&model, &table::tree($generations));
+                model.set_threads(NonZeroUsize::MIN.saturating_add(1));
+                row.two = Some(States::new(row.links).loops(&model));
+                row
+            }),*]
         };
     }
     rows!(
@@ -97,62 +103,25 @@ pub fn all() -> Vec<Row> {
     )
 }
 
-fn row<P: Pendulum<f64>>(
-    mut model: P,
-    set_threads: impl Fn(&mut P, NonZeroUsize),
-    generations: usize,
-) -> Row {
-    let mut states = States::new(P::LINKS);
-    let sines = states.sines();
-    let mut workspace = Workspace::new();
-    let mut threads = |count: NonZeroUsize| {
-        set_threads(&mut model, count);
-        states.best(&mut |theta, omega, alpha| {
-            model.accelerations_with(&mut workspace, 0.0, theta, omega, alpha);
-        })
-    };
-    let one = threads(NonZeroUsize::MIN);
-    let two = threads(NonZeroUsize::MIN.saturating_add(1));
-    Row {
-        links: P::LINKS,
-        sines,
-        one,
-        two,
-        articulated: states.articulated(&table::tree(generations)),
-    }
-}
-
-/// Least times for one link of an irregular tree, ns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Irregular {
-    /// Number of links.
-    pub links: usize,
-    /// The system's sine and cosine of its angle.
-    pub sines: f64,
-    /// The loop over a table.
-    pub looped: f64,
-    /// The recursion over a table.
-    pub articulated: f64,
-}
-
-/// Measures the irregular trees.
+/// Measures irregular trees.
 #[must_use]
-pub fn irregular() -> Vec<Irregular> {
+pub fn irregular() -> Vec<Row> {
     vec![
-        bush(&Bush127::<f64>::new(), BUSH_127),
-        bush(&Bush500::<f64>::new(), BUSH_500),
+        row(&Bush127::<f64>::new(), &table::bush(BUSH_127)),
+        row(&Bush500::<f64>::new(), &table::bush(BUSH_500)),
     ]
 }
 
-fn bush<P: Pendulum<f64>>(model: &P, trees: &[[usize; 2]]) -> Irregular {
-    let (mut states, mut workspace) = (States::new(P::LINKS), Workspace::new());
-    Irregular {
+fn row<P: Pendulum<f64>>(model: &P, links: &[table::Link]) -> Row {
+    let mut states = States::new(P::LINKS);
+    let mut recursion = Articulated::new(links);
+    Row {
         links: P::LINKS,
         sines: states.sines(),
-        looped: states.best(&mut |theta, omega, alpha| {
-            model.accelerations_with(&mut workspace, 0.0, theta, omega, alpha);
-        }),
-        articulated: states.articulated(&table::bush(trees)),
+        one: states.loops(model),
+        two: None,
+        articulated: states
+            .best(&mut |theta, omega, alpha| recursion.accelerations(theta, omega, alpha)),
     }
 }
 
@@ -201,51 +170,30 @@ impl States {
         })
     }
 
-    fn articulated(&mut self, links: &[table::Link]) -> f64 {
-        let mut recursion = Articulated::new(links);
-        self.best(&mut |theta, omega, alpha| recursion.accelerations(theta, omega, alpha))
+    fn loops(&mut self, model: &impl Pendulum<f64>) -> f64 {
+        let mut workspace = Workspace::new();
+        self.best(&mut |theta, omega, alpha| {
+            model.accelerations_with(&mut workspace, 0.0, theta, omega, alpha);
+        })
     }
 }
 
-/// The tables that the program prints.
+/// A table that the program prints.
 #[must_use]
-pub fn tables(rows: &[Row], irregular: &[Irregular]) -> String {
-    let mut text = "Large trees in loops: least time for one link, ns.\n\n".to_owned();
-    let _ = writeln!(
-        text,
-        "{:>9} {:>14} {:>14} {:>14} {:>14}",
-        "links", "sines of std", "one thread", "two threads", "articulated"
-    );
+pub fn table(title: &str, rows: &[Row]) -> String {
+    let heads = ["sines of std", "one thread", "two threads", "articulated"];
+    let heads = heads.map(|head| format!(" {head:>14}"));
+    let mut text = format!("{title}\n\n{:>9}{}\n", "links", heads.concat());
     for row in rows {
-        let &Row {
-            links,
-            sines,
-            one,
-            two,
-            articulated,
-        } = row;
-        let _ = writeln!(
-            text,
-            "{links:>9} {sines:>14.2} {one:>14.2} {two:>14.2} {articulated:>14.2}"
-        );
+        let times = [
+            Some(row.sines),
+            Some(row.one),
+            row.two,
+            Some(row.articulated),
+        ];
+        let cell = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
+        let cells = times.map(|time| format!(" {:>14}", cell(time)));
+        text += &format!("{:>9}{}\n", row.links, cells.concat());
     }
-    text.push_str("\nIrregular trees in a table, likewise.\n\n");
-    let _ = writeln!(
-        text,
-        "{:>9} {:>14} {:>14} {:>14}",
-        "links", "sines of std", "table", "articulated"
-    );
-    for row in irregular {
-        let &Irregular {
-            links,
-            sines,
-            looped,
-            articulated,
-        } = row;
-        let _ = writeln!(
-            text,
-            "{links:>9} {sines:>14.2} {looped:>14.2} {articulated:>14.2}"
-        );
-    }
-    text
+    text + "\n"
 }

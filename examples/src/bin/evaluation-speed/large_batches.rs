@@ -1,6 +1,5 @@
 //! Many states of large trees: code in loops, a state in each lane.
 
-use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -136,25 +135,17 @@ fn pass<P: Cast<T>, T: Lane>(
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
     let mut text =
-        "\nMany states of large trees: least time for one state, ns. The driven one is in\n\
+        "Many states of large trees: least time for one state, ns. The driven one is in\n\
         generations; `places` is a table with children at several places of a link.\n\n"
             .to_owned();
-    let _ = writeln!(
-        text,
-        "{:>12} {:>6} {:>10} {:>10} {:>10}",
+    text += &format!(
+        "{:>12} {:>6} {:>10} {:>10} {:>10}\n",
         "loops over", "links", "one state", "batch", "f32"
     );
     for row in rows {
-        let &Row {
-            scene,
-            links,
-            single,
-            batch,
-            narrow,
-        } = row;
-        let _ = writeln!(
-            text,
-            "{scene:>12} {links:>6} {single:>10.0} {batch:>10.0} {narrow:>10.0}"
+        text += &format!(
+            "{:>12} {:>6} {:>10.0} {:>10.0} {:>10.0}\n",
+            row.scene, row.links, row.single, row.batch, row.narrow
         );
     }
     text

@@ -18,7 +18,7 @@ mod tests;
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::program::{self, Results};
+use branched_pendulum_examples::program;
 use clap::Parser;
 
 /// What do the accelerations of one state cost, in emitted code one by one and in
@@ -28,17 +28,10 @@ use clap::Parser;
 /// cost, in loops, by the number of threads, and irregular ones, alone and in batches?
 #[derive(Parser)]
 #[command(name = "evaluation-speed", version, verbatim_doc_comment)]
-struct Arguments {
-    #[command(flatten)]
-    results: Results,
-}
+struct Arguments {}
 
 impl program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
-
-    fn results(&self) -> &Results {
-        &self.results
-    }
 }
 
 /// Passes over the states.
@@ -60,10 +53,12 @@ fn main() -> ExitCode {
         progress.next();
         job.print(&(output::errors(&errors) + "\n"))?;
         progress.begin("large trees");
-        let large = large::all();
-        let irregular = large::irregular();
+        let large = large::full();
+        let title = "Large trees in loops: least time for one link, ns.";
+        job.print(&large::table(title, &large))?;
+        let title = "Irregular trees in a table, likewise.";
+        job.print(&large::table(title, &large::irregular()))?;
         progress.next();
-        job.print(&large::tables(&large, &irregular))?;
         progress.begin("large trees in batches");
         let batches = large_batches::all();
         progress.next();

@@ -1,6 +1,4 @@
-//! The table, its CSV and the chart.
-
-use std::fmt::Write;
+//! The tables of all contenders, and the chart.
 
 use branched_pendulum::scalar::InstructionSet;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
@@ -15,30 +13,18 @@ use super::measure::{CONTENDERS, Row};
 pub fn table(rows: &[Row]) -> String {
     let mut text = format!(
         "Median time for the accelerations of one state, ns, and over that of the \
-         system's\nsines and cosines alone. Batches with {}.\n\n{:12}",
+         system's\nsines and cosines alone. Batches with {}.\n\n",
         InstructionSet::widest(),
-        "links",
     );
-    for name in CONTENDERS {
-        push(&mut text, format_args!(" {name:>14}"));
-    }
-    text.push('\n');
+    text += &line("links", CONTENDERS.map(str::to_owned));
     for row in rows {
-        push(
-            &mut text,
-            format_args!("{:12}", format!("{} {}", row.links, row.scene)),
-        );
-        for time in row.times {
-            let cell = time.map_or("-".to_owned(), |time| format!("{time:.2}"));
-            push(&mut text, format_args!(" {cell:>14}"));
-        }
-        push(&mut text, format_args!("\n{:12}", ""));
-        for time in row.times {
+        let cell = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{time:.2}"));
+        let ratio = |time: Option<f64>| {
             let ratio = time.zip(row.times[0]).map(|(time, sines)| time / sines);
-            let cell = ratio.map_or(String::new(), |ratio| format!("({ratio:.3})"));
-            push(&mut text, format_args!(" {cell:>14}"));
-        }
-        text.push('\n');
+            ratio.map_or(String::new(), |ratio| format!("({ratio:.3})"))
+        };
+        let name = format!("{} {}", row.links, row.scene);
+        text += &(line(&name, row.times.map(cell)) + &line("", row.times.map(ratio)));
     }
     text
 }
@@ -47,36 +33,25 @@ pub fn table(rows: &[Row]) -> String {
 /// beneath each row medians in units in the last place.
 #[must_use]
 pub fn errors(rows: &[Errors]) -> String {
-    let mut text = format!(
+    let mut text =
         "Worst error in units of u |M⁻¹| (|M| |ω̇| + |b|), and median in ulps. Lanes have\n\
-         the bits of single states.\n\n{:12}",
-        "links",
-    );
-    for name in CONTENDERS {
-        push(&mut text, format_args!(" {name:>14}"));
-    }
+         the bits of single states.\n\n"
+            .to_owned();
+    text += &line("links", CONTENDERS.map(str::to_owned));
     for row in rows {
-        push(
-            &mut text,
-            format_args!("\n{:12}", format!("{} {}", row.links, row.scene)),
-        );
-        for worst in row.worst {
-            let cell = worst.map_or("-".to_owned(), |worst| format!("{worst:.2}"));
-            push(&mut text, format_args!(" {cell:>14}"));
-        }
-        push(&mut text, format_args!("\n{:12}", ""));
-        for ulps in row.ulps {
-            let cell = ulps.map_or(String::new(), |ulps| format!("({ulps:.1})"));
-            push(&mut text, format_args!(" {cell:>14}"));
-        }
+        let worst =
+            |error: Option<f64>| error.map_or("-".to_owned(), |error| format!("{error:.2}"));
+        let ulps = |ulps: Option<f64>| ulps.map_or(String::new(), |ulps| format!("({ulps:.1})"));
+        let name = format!("{} {}", row.links, row.scene);
+        text += &(line(&name, row.worst.map(worst)) + &line("", row.ulps.map(ulps)));
     }
-    text.push('\n');
     text
 }
 
-/// Writing to a `String` cannot fail.
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    let _ = text.write_fmt(arguments);
+/// A line of a table, a cell for each contender.
+fn line(name: &str, cells: [String; CONTENDERS.len()]) -> String {
+    let cells = cells.map(|cell| format!(" {cell:>14}"));
+    format!("{name:12}{}\n", cells.concat())
 }
 
 /// Time for one link against the number of links.
@@ -94,13 +69,16 @@ pub fn chart(rows: &[Row], large: &[large::Row]) -> Chart {
         let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
         panel = panel.series(Series::line(*name, &x, &y).with_symbols());
     }
+    let column = |rows: &[large::Row], time: fn(&large::Row) -> f64| -> [Vec<f64>; 2] {
+        let links = rows.iter().map(|row| row.links as f64);
+        [links.collect(), rows.iter().map(time).collect()]
+    };
     // In smaller trees threads take longer to start than the work takes.
-    let threaded = large.partition_point(|row| row.links < 100_000);
-    let links: Vec<f64> = large.iter().map(|row| row.links as f64).collect();
-    let one: Vec<f64> = large.iter().map(|row| row.one).collect();
-    let two: Vec<f64> = large.iter().map(|row| row.two).collect();
+    let threaded = &large[large.partition_point(|row| row.links < 100_000)..];
+    let [links, one] = column(large, |row| row.one);
+    let [many, two] = column(threaded, |row| row.two.unwrap_or(f64::NAN));
     panel = panel
         .series(Series::line("loops", &links, &one).with_symbols())
-        .series(Series::line("two threads", &links[threaded..], &two[threaded..]).with_symbols());
+        .series(Series::line("two threads", &many, &two).with_symbols());
     Chart::new("Accelerations of one state", Axis::log("links")).panel(panel)
 }

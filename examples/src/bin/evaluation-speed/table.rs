@@ -90,3 +90,32 @@ fn grow<T: Scalar>(
         grow(links, Some(index), [generations - 1, branching], next);
     }
 }
+
+/// The constants A_ij of the mass matrix, and those of the weights over g:
+/// `docs/physics.md`, section 1.
+pub fn couplings<T: Scalar>(links: &[Link<T>]) -> (Vec<Vec<T>>, Vec<T>) {
+    let n = links.len();
+    let mut carried: Vec<T> = links.iter().map(|link| link.mass).collect();
+    let mut moment: Vec<T> = links.iter().map(|link| link.mass * link.com).collect();
+    let mut coupling = vec![vec![T::from_f64(0.0); n]; n];
+    for (i, link) in links.iter().enumerate() {
+        coupling[i][i] = link.inertia + link.mass * link.com * link.com;
+    }
+    for (i, link) in links.iter().enumerate().rev() {
+        if let Some(parent) = link.parent {
+            let (mass, lever) = (carried[i], link.lever);
+            carried[parent] = carried[parent] + mass;
+            moment[parent] = moment[parent] + lever * mass;
+            coupling[parent][parent] = coupling[parent][parent] + lever * lever * mass;
+        }
+    }
+    for j in 0..n {
+        let mut below = j;
+        while let Some(above) = links[below].parent {
+            coupling[above][j] = links[below].lever * moment[j];
+            coupling[j][above] = coupling[above][j];
+            below = above;
+        }
+    }
+    (coupling, moment)
+}

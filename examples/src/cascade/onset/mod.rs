@@ -10,7 +10,7 @@ pub mod report;
 pub mod run;
 pub mod scene;
 
-pub use run::{Onset, Work};
+pub use run::Onset;
 pub use scene::{Level, Tree};
 
 use crate::failure::Failure;
@@ -60,7 +60,7 @@ pub fn run(release: &Release, job: &Job) -> Result<(), Failure> {
     report::write_samples(job, &run)?;
     job.print(&(report::report(release, &modes, &run) + "\n"))?;
     job.chart("onset", &charts::chart(&run))?;
-    job.report("steps", run.work.steps);
-    job.report("evaluations", run.work.evaluations);
+    job.report("steps", run.account.accepted);
+    job.report("evaluations", run.account.evaluations);
     Ok(())
 }

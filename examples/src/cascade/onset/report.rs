@@ -1,7 +1,5 @@
 //! Tables: sectors, closure of the budgets, who gave what to whom.
 
-use std::fmt::Write as _;
-
 use branched_pendulum::analysis::SectorModes;
 use branched_pendulum_data::Column;
 
@@ -24,17 +22,12 @@ pub fn report(release: &Release, modes: &SectorModes, run: &Onset) -> String {
         "Fifteen rods, released from rest with differences of {difference} rad; torque\n\
          {torque} N m · cos(2π {frequency} Hz t) on the root; {duration} s, Dop853 at {tolerance:e}: \
          {} steps,\n{} evaluations.\n\n",
-        run.work.steps, run.work.evaluations
+        run.account.accepted, run.account.evaluations
     );
     text.push_str(&sector_table(modes, run));
     text.push('\n');
     text.push_str(&matrix_table(run));
     text
-}
-
-fn push(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
 }
 
 /// Sectors with their sizes, frequencies and closures.
@@ -47,24 +40,21 @@ fn sector_table(modes: &SectorModes, run: &Onset) -> String {
     );
     text.push_str("| sector | size | frequencies (Hz) |");
     for name in DEFINITIONS {
-        push(&mut text, format_args!(" {name} |"));
+        text += &format!(" {name} |");
     }
     text.push_str("\n|---|---|---|---|---|---|---|\n");
     let closures: [_; DEFINITIONS.len()] = std::array::from_fn(|index| run.closure(index));
     for (sector, block) in modes.blocks.iter().enumerate() {
         let frequencies = block.modes.frequencies_hz.iter();
         let frequencies: Vec<String> = frequencies.map(|f| format!("{f:.4}")).collect();
-        push(
-            &mut text,
-            format_args!(
-                "| `{}` | {} | {} |",
-                block.name,
-                block.coordinates.len(),
-                frequencies.join(", ")
-            ),
+        text += &format!(
+            "| `{}` | {} | {} |",
+            block.name,
+            block.coordinates.len(),
+            frequencies.join(", ")
         );
         for closure in &closures {
-            push(&mut text, format_args!(" {:.0e} |", closure[sector]));
+            text += &format!(" {:.0e} |", closure[sector]);
         }
         text.push('\n');
     }
@@ -82,27 +72,24 @@ fn matrix_table(run: &Onset) -> String {
         rate of its energy.\n\n|  |"
             .to_owned();
     for sector in sectors() {
-        push(&mut text, format_args!(" `{}` |", sector.name));
+        text += &format!(" `{}` |", sector.name);
     }
     text.push_str(" friction, drive | dE/dt |\n|---|");
     text.push_str(&"---:|".repeat(SECTORS + 2));
     text.push('\n');
     let mean = |energy: f64| milli(energy / last.time);
     for (row, sector) in sectors().iter().enumerate() {
-        push(&mut text, format_args!("| `{}` |", sector.name));
+        text += &format!("| `{}` |", sector.name);
         for column in 0..SECTORS {
             let cell = if column == row {
                 "–".to_owned()
             } else {
                 mean(last.transfers[row][column])
             };
-            push(&mut text, format_args!(" {cell} |"));
+            text += &format!(" {cell} |");
         }
         let gained = last.flowed[PARSEVAL][row];
-        push(
-            &mut text,
-            format_args!(" {} | {} |\n", mean(last.power[row]), mean(gained)),
-        );
+        text += &format!(" {} | {} |\n", mean(last.power[row]), mean(gained));
     }
     text
 }

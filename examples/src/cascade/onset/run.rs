@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use branched_pendulum::Budget;
-use branched_pendulum::integrate::DenseError;
+use branched_pendulum::integrate::{DenseError, Report};
 use branched_pendulum::prelude::{
     DenseStep, Dop853, Integrator, Options, State, SymmetricCoordinates,
 };
@@ -39,22 +39,13 @@ pub struct Budgets {
     pub transfers: [[f64; SECTORS]; SECTORS],
 }
 
-/// The integrator's work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Work {
-    /// Steps accepted.
-    pub steps: u64,
-    /// Evaluations of the equations of motion.
-    pub evaluations: u64,
-}
-
 /// A run: samples at even times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Onset {
     /// The samples, the first at the release.
     pub samples: Vec<Budgets>,
-    /// The integrator's work.
-    pub work: Work,
+    /// The integrator's account.
+    pub account: Report<f64>,
 }
 
 impl Onset {
@@ -90,10 +81,7 @@ impl Onset {
             .map_err(|error| Failure::integration(0.0, error))?;
         Ok(Self {
             samples: recorder.samples,
-            work: Work {
-                steps: solution.report.accepted,
-                evaluations: solution.report.evaluations,
-            },
+            account: solution.report,
         })
     }
 

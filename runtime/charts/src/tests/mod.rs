@@ -1,3 +1,4 @@
+mod awkward;
 mod charts;
 mod films;
 mod parts;

@@ -6,7 +6,6 @@ use std::error::Error;
 use super::candidate::{Candidate, CandidateName, SettingRange, Visit};
 use super::candidates::Candidates;
 use super::form::ModelForm;
-use super::integrated::{entered, left};
 use crate::scalar::Real;
 use crate::system::State;
 
@@ -78,7 +77,7 @@ impl<T: Real, F: FnMut(&mut [T])> Candidate for ByFrames<'_, T, F> {
         let step = &mut *self.step.borrow_mut();
         let mut frames = 0;
         for (index, start) in starts.iter().enumerate() {
-            let mut state = entered::<T>(&self.form, start).values;
+            let mut state = self.form.entered::<T>(start).values;
             let (mut done, mut values) = (0.0, Vec::new());
             for (number, time) in times.iter().enumerate() {
                 let due = (time - start.time) / self.frame;
@@ -92,9 +91,8 @@ impl<T: Real, F: FnMut(&mut [T])> Candidate for ByFrames<'_, T, F> {
                 }
                 values.clear();
                 values.extend(state.iter().map(|value| value.to_f64()));
-                left(&self.form, &values, &mut |state| {
-                    visit(index, number, state)
-                });
+                self.form
+                    .left(&values, &mut |state| visit(index, number, state));
             }
         }
         Ok(frames)

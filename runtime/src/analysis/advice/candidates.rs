@@ -5,11 +5,12 @@ use std::rc::Rc;
 
 use super::candidate::{Candidate, CandidateName};
 use super::form::ModelForm;
-use super::in_lanes::{IntegratedInLanes, LaneSamplable, LanesByRates, LanesBySeries};
-use super::integrated::{ByRates, BySeries, Integrated, Samplable};
-use crate::integrate::Method;
-use crate::scalar::{Lane, Real};
-use crate::system::{AbsoluteAngles, CastOde, LaneOde, TaylorOde, TaylorPendulum};
+use super::integrated::{
+    Follow, Following, Integrated, StepCount, VisitModel, in_lanes, in_lanes_by_pair, one_by_one,
+};
+use crate::integrate::{Method, Options, Taylor};
+use crate::scalar::Real;
+use crate::system::{AbsoluteAngles, CastOde, LaneOde, RatesOnly, TaylorOde, TaylorPendulum};
 
 /// Candidates among which [`Advisor::advise`](super::Advisor::advise) chooses.
 #[derive(Default)]
@@ -56,90 +57,105 @@ impl<'a> Candidates<'a> {
 
     /// Adds a system by every method of `form` but Taylor series, in `f64` and in `f32`.
     #[must_use]
-    pub fn rates<O>(mut self, form: &ModelForm<'a>, ode: O) -> Self
+    pub fn rates<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
         O: CastOde<f64, f32> + 'a,
         O::Of: 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
-        self.add(form, "f64", Rc::new(ByRates(ode)), false);
-        self.add::<f32>(form, "f32", Rc::new(ByRates(single)), false);
-        self
+        let known = |method: Method| method != Method::Taylor;
+        self.integrated::<f64>(form, "f64", known, false, move |following, visit| {
+            one_by_one(&RatesOnly(&ode), following, visit)
+        })
+        .integrated::<f32>(form, "f32", known, false, move |following, visit| {
+            one_by_one(&RatesOnly(&single), following, visit)
+        })
     }
 
     /// Adds a system by every method of `form`, in `f64` and in `f32`.
     #[must_use]
-    pub fn series<O>(mut self, form: &ModelForm<'a>, ode: O) -> Self
+    pub fn series<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
         O: CastOde<f64, f32> + TaylorOde<f64> + 'a,
         O::Of: TaylorOde<f32> + 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
-        self.add(form, "f64", Rc::new(BySeries(ode)), true);
-        self.add::<f32>(form, "f32", Rc::new(BySeries(single)), true);
-        self
-    }
-
-    fn add<T: Real>(
-        &mut self,
-        form: &ModelForm<'a>,
-        scalar: &'static str,
-        system: Rc<dyn Samplable<T> + 'a>,
-        has_series: bool,
-    ) {
-        let known = |method: &&Method| has_series || **method != Method::Taylor;
-        for &method in form.methods.iter().filter(known) {
-            self.all.push(Box::new(Integrated {
-                form: form.clone(),
-                scalar,
-                method,
-                system: Rc::clone(&system),
-            }));
-        }
+        self.integrated::<f64>(
+            form,
+            "f64",
+            |_| true,
+            false,
+            move |following, visit| one_by_one(&ode, following, visit),
+        )
+        .integrated::<f32>(
+            form,
+            "f32",
+            |_| true,
+            false,
+            move |following, visit| one_by_one(&single, following, visit),
+        )
     }
 
     /// Adds a system by the explicit pairs of `form` in the lanes of vector registers, in
     /// `f64` and in `f32`: for several starts.
     #[must_use]
-    pub fn lanes<O>(mut self, form: &ModelForm<'a>, ode: O) -> Self
+    pub fn lanes<O>(self, form: &ModelForm<'a>, ode: O) -> Self
     where
         O: LaneOde<f64> + CastOde<f64, f32> + Sync + 'a,
         <O as CastOde<f64, f32>>::Of: LaneOde<f32> + Sync + 'a,
     {
         let single = ode.cast(|value: f64| value as f32);
-        self.add_lanes(form, "f64", Rc::new(LanesByRates(ode)), false);
-        self.add_lanes::<f32>(form, "f32", Rc::new(LanesByRates(single)), false);
-        self
+        let known = |method: Method| method.is_adaptive() && method != Method::Taylor;
+        self.integrated::<f64>(form, "f64", known, true, move |following, visit| {
+            in_lanes_by_pair(&ode, following, visit)
+        })
+        .integrated::<f32>(form, "f32", known, true, move |following, visit| {
+            in_lanes_by_pair(&single, following, visit)
+        })
     }
 
     /// Adds a model in absolute angles by the explicit pairs of `form` and by Taylor
     /// series in the lanes of vector registers, in `f64`: for several starts.
     #[must_use]
-    pub fn lanes_with_series<P>(mut self, form: &ModelForm<'a>, model: AbsoluteAngles<P>) -> Self
+    pub fn lanes_with_series<P>(self, form: &ModelForm<'a>, model: AbsoluteAngles<P>) -> Self
     where
         P: TaylorPendulum<f64> + Sync + 'a,
     {
-        self.add_lanes(form, "f64", Rc::new(LanesBySeries(model)), true);
-        self
+        self.integrated::<f64>(
+            form,
+            "f64",
+            Method::is_adaptive,
+            true,
+            move |following, visit| match following.method {
+                Method::Taylor => {
+                    let series = Taylor::new(Options::with_tolerance(following.setting));
+                    in_lanes(&series, &model, following, visit)
+                }
+                _ => in_lanes_by_pair(&model, following, visit),
+            },
+        )
     }
 
-    fn add_lanes<T: Lane>(
-        &mut self,
+    /// Adds a candidate for each method of `form` that is known to `follow`.
+    fn integrated<T: Real>(
+        mut self,
         form: &ModelForm<'a>,
         scalar: &'static str,
-        system: Rc<dyn LaneSamplable<T> + 'a>,
-        has_series: bool,
-    ) {
-        let known =
-            |method: &&Method| method.is_adaptive() && (has_series || **method != Method::Taylor);
-        for &method in form.methods.iter().filter(known) {
-            self.all.push(Box::new(IntegratedInLanes {
+        is_known: impl Fn(Method) -> bool,
+        in_lanes: bool,
+        follow: impl Fn(&Following<'_, T>, &mut VisitModel<'_, T>) -> StepCount + 'a,
+    ) -> Self {
+        let follow: Rc<Follow<'a, T>> = Rc::new(follow);
+        for &method in form.methods.iter().filter(|&&method| is_known(method)) {
+            self.all.push(Box::new(Integrated {
                 form: form.clone(),
                 scalar,
                 method,
-                system: Rc::clone(&system),
+                in_lanes,
+                follow: Rc::clone(&follow),
             }));
         }
+        self
     }
 }
 

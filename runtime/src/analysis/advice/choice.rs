@@ -59,7 +59,7 @@ impl TimeLimit {
 
 /// The runs of which an [`Advice`](super::Advice) speaks, as their indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Choice {
+pub(super) struct ChosenRuns {
     pub(super) chosen: Option<usize>,
     pub(super) runner_up: Option<usize>,
     pub(super) next_cheaper: Option<usize>,
@@ -70,7 +70,7 @@ pub(super) struct Choice {
 /// of another candidate, and of those that cost less the dearest, of another candidate
 /// where there is one. Where there is none to
 /// choose, the closest is the one that is least wrong within the limit.
-pub(super) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize) -> Choice {
+pub(super) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize) -> ChosenRuns {
     let within = |run: &Measured| limit.is_none_or(|limit| limit.allows(run, samples));
     let least = |value: fn(&Measured) -> f64, among: &dyn Fn(&Measured) -> bool| {
         let own = runs.iter().enumerate().filter(|(_, run)| among(run));
@@ -79,15 +79,15 @@ pub(super) fn choose(runs: &[Measured], limit: Option<TimeLimit>, samples: usize
     };
     let chosen = least(|run| run.seconds, &|run| run.is_right() && within(run));
     let Some(best) = chosen.map(|index| &runs[index]) else {
-        return Choice {
+        return ChosenRuns {
             runner_up: least(|run| run.seconds, &Measured::is_right),
             closest: least(Measured::ratio, &within),
-            ..Choice::default()
+            ..ChosenRuns::default()
         };
     };
     let cheaper = |run: &Measured| run.seconds < best.seconds && !run.is_right();
     let other = |run: &Measured| cheaper(run) && run.candidate != best.candidate;
-    Choice {
+    ChosenRuns {
         chosen,
         runner_up: least(|run| run.seconds, &|run| {
             run.candidate != best.candidate && run.is_right() && within(run)
@@ -120,7 +120,7 @@ pub fn pareto(runs: &[Measured]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Choice, Measured, TimeLimit, choose, pareto};
+    use super::{ChosenRuns, Measured, TimeLimit, choose, pareto};
     use crate::analysis::advice::{Criterion, Worst};
 
     fn run(candidate: usize, seconds: f64, ratio: f64) -> Measured {
@@ -150,7 +150,7 @@ mod tests {
             run(2, 3.0, 1e-9),
             run(3, 9.0, 0.0),
         ];
-        let expected = Choice {
+        let expected = ChosenRuns {
             chosen: Some(2),
             runner_up: Some(4),
             // Not 3, which is dearer but of the chosen candidate.
@@ -180,9 +180,9 @@ mod tests {
         failed.worst = None;
         assert_eq!(
             choose(&[failed.clone()], None, 1),
-            Choice {
+            ChosenRuns {
                 closest: Some(0),
-                ..Choice::default()
+                ..ChosenRuns::default()
             }
         );
         assert!(pareto(&[failed]).is_empty());

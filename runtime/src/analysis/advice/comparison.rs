@@ -4,6 +4,7 @@
 use super::paths::{OutputValues, Paths};
 use super::truth::Truth;
 use super::wanted::Wanted;
+use crate::analysis::statistics::Estimate;
 
 /// Measure by which an output is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,10 +152,10 @@ impl Comparison<'_> {
                             parts.push(sum / count as f64);
                         }
                     }
-                    Spread::of(&parts)
+                    Estimate::of_independent(&parts)
                 };
                 let (found, expected) = (mean(own), mean(truth));
-                let error = (found.mean - expected.mean).abs();
+                let error = (found.value - expected.value).abs();
                 let allowed = SIGMAS * found.error.hypot(expected.error);
                 let ratio = if error == 0.0 { 0.0 } else { error / allowed };
                 if ratio > worst.ratio || ratio.is_nan() {
@@ -163,23 +164,5 @@ impl Comparison<'_> {
             }
         }
         worst
-    }
-}
-
-/// Mean of parts of a record, and its standard error.
-struct Spread {
-    mean: f64,
-    error: f64,
-}
-
-impl Spread {
-    fn of(parts: &[f64]) -> Self {
-        let count = parts.len() as f64;
-        let mean = parts.iter().sum::<f64>() / count;
-        let squares: f64 = parts.iter().map(|part| (part - mean).powi(2)).sum();
-        Self {
-            mean,
-            error: (squares / (count * (count - 1.0))).sqrt(),
-        }
     }
 }

@@ -5,10 +5,11 @@ use std::fmt;
 use std::rc::Rc;
 
 use crate::integrate::{GaussOrder, Method};
-use crate::system::{DifferencePatterns, WholeTree};
+use crate::scalar::Real;
+use crate::system::{DifferencePatterns, State, WholeTree};
 
 /// Takes a state of the scene to one of the model, or back.
-pub(super) type Passage<'a> = Rc<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+type StateMap<'a> = Rc<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// A model's name, what is written for it, and how its states relate to those of the
 /// scene.
@@ -18,8 +19,8 @@ pub struct ModelForm<'a> {
     pub(super) system: String,
     pub(super) entries: Vec<String>,
     pub(super) methods: Vec<Method>,
-    pub(super) enter: Option<Passage<'a>>,
-    pub(super) leave: Option<Passage<'a>>,
+    enter: Option<StateMap<'a>>,
+    leave: Option<StateMap<'a>>,
 }
 
 impl<'a> ModelForm<'a> {
@@ -161,7 +162,27 @@ fn reordered(state: &[f64], places: &[usize]) -> Vec<f64> {
         .collect()
 }
 
+/// Numbers in another scalar.
+pub(super) fn of_scalar<T: Real>(values: &[f64]) -> Vec<T> {
+    values.iter().map(|&value| T::from_f64(value)).collect()
+}
+
 impl ModelForm<'_> {
+    /// A start of the scene as one of the model.
+    pub(super) fn entered<T: Real>(&self, start: &State<f64>) -> State<T> {
+        let own = self.enter.as_ref().map(|enter| enter(&start.values));
+        let values = own.as_deref().unwrap_or(&start.values);
+        State::new(T::from_f64(start.time), of_scalar(values))
+    }
+
+    /// A state of the model as one of the scene.
+    pub(super) fn left(&self, values: &[f64], visit: &mut dyn FnMut(&[f64])) {
+        match &self.leave {
+            Some(leave) => visit(&leave(values)),
+            None => visit(values),
+        }
+    }
+
     /// The attribute, if anything is to be written there.
     pub(super) fn attribute(&self) -> Option<String> {
         let entries = self.entries.join(", ");

@@ -1,64 +1,102 @@
-//! Models by the methods of this crate, one start after the other.
+//! Models by the methods of this crate: one start after the other, or as many at a time as
+//! vector registers have lanes.
 
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::rc::Rc;
 
 use super::candidate::{Candidate, CandidateName, SettingRange, Visit};
-use super::form::ModelForm;
-use crate::integrate::{AnyIntegrator, IntegrationError, Integrator, Method, Solution};
-use crate::scalar::Real;
-use crate::system::{Ode, RatesOnly, State, TaylorOde};
+use super::form::{ModelForm, of_scalar};
+use crate::ensemble::Ensemble;
+use crate::integrate::{Dop853, Dopri5, Integrator, LaneMethod, Method, Options, Verner98};
+use crate::scalar::{Lane, Real};
+use crate::system::{LaneOde, State, TaylorOde};
 
-/// A system that any method samples.
-pub(super) trait Samplable<T: Real> {
-    fn sample(
-        &self,
-        method: &AnyIntegrator<T>,
-        start: &State<T>,
-        times: &[T],
-        visit: &mut dyn FnMut(&[T]),
-    ) -> Result<Solution<T>, IntegrationError<T>>;
+/// Starts of a model, and how they are to be followed.
+pub(super) struct Following<'r, T> {
+    pub(super) method: Method,
+    /// Tolerance or step.
+    pub(super) setting: T,
+    pub(super) starts: &'r [State<T>],
+    pub(super) times: &'r [T],
 }
 
-pub(super) struct ByRates<O>(pub(super) O);
+/// Receives states of the model: index of the start, index of the time, values.
+pub(super) type VisitModel<'v, T> = dyn FnMut(usize, usize, &[T]) + 'v;
 
-impl<T: Real, O: Ode<T>> Samplable<T> for ByRates<O> {
-    fn sample(
-        &self,
-        method: &AnyIntegrator<T>,
-        start: &State<T>,
-        times: &[T],
-        visit: &mut dyn FnMut(&[T]),
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        method.sample(&RatesOnly(&self.0), start, times, |_, values| visit(values))
-    }
-}
+/// Number of steps, or why the last time is not reached.
+pub(super) type StepCount = Result<u64, Box<dyn Error + Send + Sync>>;
 
-pub(super) struct BySeries<O>(pub(super) O);
+/// Follows starts of a model.
+pub(super) type Follow<'a, T> = dyn Fn(&Following<'_, T>, &mut VisitModel<'_, T>) -> StepCount + 'a;
 
-impl<T: Real, O: TaylorOde<T>> Samplable<T> for BySeries<O> {
-    fn sample(
-        &self,
-        method: &AnyIntegrator<T>,
-        start: &State<T>,
-        times: &[T],
-        visit: &mut dyn FnMut(&[T]),
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        method.sample(&self.0, start, times, |_, values| visit(values))
-    }
-}
-
-/// A model by one method, one start after the other.
+/// A model by one method.
 pub(super) struct Integrated<'a, T> {
     pub(super) form: ModelForm<'a>,
     pub(super) scalar: &'static str,
     pub(super) method: Method,
-    pub(super) system: Rc<dyn Samplable<T> + 'a>,
+    pub(super) in_lanes: bool,
+    pub(super) follow: Rc<Follow<'a, T>>,
+}
+
+/// Follows one start after the other.
+pub(super) fn one_by_one<T: Real, O: TaylorOde<T>>(
+    system: &O,
+    following: &Following<'_, T>,
+    visit: &mut VisitModel<'_, T>,
+) -> StepCount {
+    let method = following.method.with(following.setting);
+    let mut steps = 0;
+    for (index, start) in following.starts.iter().enumerate() {
+        let mut number = 0;
+        let solution = method.sample(system, start, following.times, |_, state: &[T]| {
+            visit(index, number, state);
+            number += 1;
+        })?;
+        steps += solution.report.accepted;
+    }
+    Ok(steps)
+}
+
+/// Follows starts in lanes, on one thread: what is measured is the cost of a core.
+pub(super) fn in_lanes<T: Lane, O: LaneOde<T> + Sync>(
+    method: &impl LaneMethod<O, T>,
+    system: &O,
+    following: &Following<'_, T>,
+    visit: &mut VisitModel<'_, T>,
+) -> StepCount {
+    let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
+    let runs = ensemble.sample_in_lanes(method, system, following.starts, following.times);
+    let mut steps = 0;
+    for (index, run) in runs.into_iter().enumerate() {
+        for (number, state) in run.states().enumerate() {
+            visit(index, number, state);
+        }
+        steps += run.end?.report.accepted;
+    }
+    Ok(steps)
+}
+
+/// Follows starts in lanes by an explicit pair.
+pub(super) fn in_lanes_by_pair<T: Lane, O: LaneOde<T> + Sync>(
+    system: &O,
+    following: &Following<'_, T>,
+    visit: &mut VisitModel<'_, T>,
+) -> StepCount {
+    let options = Options::with_tolerance(following.setting);
+    match following.method {
+        Method::Dopri5 => in_lanes(&Dopri5::new(options), system, following, visit),
+        Method::Verner98 => in_lanes(&Verner98::new(options), system, following, visit),
+        _ => in_lanes(&Dop853::new(options), system, following, visit),
+    }
 }
 
 impl<T: Real> Candidate for Integrated<'_, T> {
     fn name(&self) -> CandidateName {
-        CandidateName::new(&self.form.name, self.method.title(), self.scalar)
+        CandidateName {
+            in_lanes: self.in_lanes,
+            ..CandidateName::new(&self.form.name, self.method.title(), self.scalar)
+        }
     }
 
     fn settings(&self) -> SettingRange {
@@ -72,56 +110,40 @@ impl<T: Real> Candidate for Integrated<'_, T> {
         times: &[f64],
         visit: &mut Visit<'_>,
     ) -> Result<u64, Box<dyn Error + Send + Sync>> {
-        let method = self.method.with(T::from_f64(setting));
-        let times = of_scalar::<T>(times);
-        let mut steps = 0;
-        for (index, start) in starts.iter().enumerate() {
-            let own = entered(&self.form, start);
-            let (mut number, mut values) = (0, Vec::new());
-            let solution = self.system.sample(&method, &own, &times, &mut |state| {
-                values.clear();
-                values.extend(state.iter().map(|value| value.to_f64()));
-                left(&self.form, &values, &mut |state| {
-                    visit(index, number, state)
-                });
-                number += 1;
-            })?;
-            steps += solution.report.accepted;
-        }
-        Ok(steps)
+        let starts: Vec<State<T>> = starts
+            .iter()
+            .map(|start| self.form.entered(start))
+            .collect();
+        let following = Following {
+            method: self.method,
+            setting: T::from_f64(setting),
+            starts: &starts,
+            times: &of_scalar::<T>(times),
+        };
+        let mut values = Vec::new();
+        (self.follow)(&following, &mut |start, time, state| {
+            values.clear();
+            values.extend(state.iter().map(|value| value.to_f64()));
+            self.form
+                .left(&values, &mut |state| visit(start, time, state));
+        })
     }
 
     fn to_write(&self, setting: f64) -> Vec<String> {
         let mut lines = written(&self.form, self.method, self.scalar, setting);
         let system = system_in(&self.form, self.scalar);
-        lines.push(format!(
-            "method.sample(&{system}, &start, &times, |time, state| …)?;"
-        ));
+        lines.push(match self.in_lanes {
+            true => {
+                format!("Ensemble::new().sample_in_lanes(&method, &{system}, &starts, &times);")
+            }
+            false => format!("method.sample(&{system}, &start, &times, |time, state| …)?;"),
+        });
         lines
     }
 }
 
-pub(super) fn of_scalar<T: Real>(values: &[f64]) -> Vec<T> {
-    values.iter().map(|&value| T::from_f64(value)).collect()
-}
-
-/// A start of the scene as one of the model.
-pub(super) fn entered<T: Real>(form: &ModelForm<'_>, start: &State<f64>) -> State<T> {
-    let own = form.enter.as_ref().map(|enter| enter(&start.values));
-    let values = own.as_deref().unwrap_or(&start.values);
-    State::new(T::from_f64(start.time), of_scalar(values))
-}
-
-/// A state of the model as one of the scene.
-pub(super) fn left(form: &ModelForm<'_>, values: &[f64], visit: &mut dyn FnMut(&[f64])) {
-    match &form.leave {
-        Some(leave) => visit(&leave(values)),
-        None => visit(values),
-    }
-}
-
 /// Where the tolerances and steps of a method may lie, in numbers of this type.
-pub(super) fn settings<T: Real>(method: Method) -> SettingRange {
+fn settings<T: Real>(method: Method) -> SettingRange {
     if method.is_adaptive() {
         // Below some ten roundings a step cannot be judged; a series has none to judge.
         let roundings = if method == Method::Taylor { 0.5 } else { 20.0 };
@@ -138,12 +160,7 @@ pub(super) fn settings<T: Real>(method: Method) -> SettingRange {
 }
 
 /// The lines for the attribute and for the method.
-pub(super) fn written(
-    form: &ModelForm<'_>,
-    method: Method,
-    scalar: &str,
-    setting: f64,
-) -> Vec<String> {
+fn written(form: &ModelForm<'_>, method: Method, scalar: &str, setting: f64) -> Vec<String> {
     let mut form = form.clone();
     if method == Method::Taylor {
         form = form.entry("emit(taylor)");
@@ -175,7 +192,7 @@ pub(super) fn written(
 }
 
 /// The system in this scalar, as one writes it.
-pub(super) fn system_in(form: &ModelForm<'_>, scalar: &str) -> String {
+fn system_in(form: &ModelForm<'_>, scalar: &str) -> String {
     match scalar {
         "f64" => form.system.clone(),
         _ => format!("{}.cast(|value: f64| value as f32)", form.system),

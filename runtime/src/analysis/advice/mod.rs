@@ -63,7 +63,6 @@ mod comparison;
 mod error;
 mod extrapolation;
 mod form;
-mod in_lanes;
 mod integrated;
 mod paths;
 mod report;

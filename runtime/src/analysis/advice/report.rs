@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::candidate::{CandidateName, SettingRange};
 use super::candidates::Candidates;
-use super::choice::{Choice, Measured, TimeLimit};
+use super::choice::{ChosenRuns, Measured, TimeLimit};
 use super::comparison::{Comparison, Criterion};
 
 /// How far an output could be followed, and how well it is known so far.
@@ -41,7 +41,7 @@ pub struct Advice {
     pub to_write: Vec<String>,
     ranges: Vec<SettingRange>,
     conserved: Option<(String, &'static str, f64)>,
-    choice: Choice,
+    choice: ChosenRuns,
     limit: Option<TimeLimit>,
     samples: usize,
     end: f64,
@@ -52,7 +52,7 @@ impl Advice {
         comparison: &Comparison<'_>,
         candidates: &Candidates<'_>,
         runs: Vec<Measured>,
-        choice: Choice,
+        choice: ChosenRuns,
         limit: Option<TimeLimit>,
     ) -> Self {
         let outputs = comparison

@@ -81,7 +81,7 @@ impl Continuation {
         if !valid || shape.len() != n || system.dimension() != 2 * n {
             return Err(GrowthError::Mode);
         }
-        let shooting = Shooting {
+        let shooting = RestToRest {
             system,
             equilibrium,
             method: Dop853::new(Options::with_tolerance(self.tolerance)),
@@ -120,14 +120,14 @@ impl Continuation {
 
 /// Releases from rest. A place on the curve is the angles from the equilibrium and the
 /// half period over that of the linear mode.
-struct Shooting<'a, L> {
+struct RestToRest<'a, L> {
     system: &'a L,
     equilibrium: &'a [f64],
     method: Dop853<f64>,
     half_period: f64,
 }
 
-impl<L: Linearised<f64>> Shooting<'_, L> {
+impl<L: Linearised<f64>> RestToRest<'_, L> {
     fn start(&self, place: &DVector<f64>) -> State<f64> {
         let angles = self.equilibrium.iter().zip(place.iter());
         let angles: Vec<f64> = angles.map(|(middle, angle)| middle + angle).collect();

@@ -19,7 +19,7 @@ pub use self::brake_orbit::{BrakeOrbit, Continuation};
 pub use self::checked::Checked;
 pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
-use self::record::Record;
+use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
@@ -136,7 +136,7 @@ fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> Place {
 struct Run {
     state: State<f64>,
     place: Place,
-    record: Record,
+    record: GrowthRecord,
 }
 
 impl Run {
@@ -280,7 +280,7 @@ impl Growth {
         let (angles, rates) = (place.angles.clone(), place.rates.clone());
         let parts = start.values.get(angles).zip(start.values.get(rates));
         let (angles, rates) = parts.ok_or(GrowthError::Difference)?;
-        let record = Record::new(self, start.time, angles, rates)?;
+        let record = GrowthRecord::new(self, start.time, angles, rates)?;
         Ok(Run {
             state: start,
             place,
@@ -312,7 +312,7 @@ fn scales(times: &[f64]) -> impl Iterator<Item = &[f64]> {
 }
 
 impl Grown {
-    fn of(coarse: &Record, fine: &Record) -> Self {
+    fn of(coarse: &GrowthRecord, fine: &GrowthRecord) -> Self {
         let factors = coarse.factors().iter().zip(fine.factors());
         Self {
             factors: factors

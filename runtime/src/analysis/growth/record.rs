@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::rotation::Turns;
+use super::rotation::TurnCount;
 use super::{Growth, GrowthError};
 
 /// Largest sizes and amplitudes of differences as they are looked at, one look after the
 /// other. All are logarithms, so that no growth is too large.
 #[derive(Clone, Debug)]
-pub(super) struct Record {
+pub(super) struct GrowthRecord {
     frequency: f64,
     start: f64,
     horizons: Vec<f64>,
@@ -21,7 +21,7 @@ pub(super) struct Record {
     factors: Vec<f64>,
     /// Largest amplitudes in the two halves of the span.
     halves: [f64; 2],
-    turns: Turns,
+    turns: TurnCount,
 }
 
 /// One look: |δ|² and its rate, and the square of the amplitude.
@@ -61,7 +61,7 @@ impl Look {
     }
 }
 
-impl Record {
+impl GrowthRecord {
     pub(super) fn new(
         growth: &Growth,
         start: f64,
@@ -88,7 +88,7 @@ impl Record {
             largest: 0.5 * last.square.ln(),
             factors: Vec::new(),
             halves: [first, f64::NEG_INFINITY],
-            turns: Turns::new(start, span, (angle, rate / frequency)),
+            turns: TurnCount::new(start, span, (angle, rate / frequency)),
         })
     }
 
@@ -143,7 +143,7 @@ impl Record {
 
 #[cfg(test)]
 mod tests {
-    use super::Record;
+    use super::GrowthRecord;
     use crate::analysis::growth::Growth;
     use std::f64::consts::{E, TAU};
 
@@ -163,7 +163,7 @@ mod tests {
             let (sine, cosine) = (TAU * t).sin_cos();
             (size * cosine, size * (0.3 * cosine - TAU * sine))
         };
-        let mut record = Record::new(&growth, 2.0, &[1.0], &[0.0]).unwrap();
+        let mut record = GrowthRecord::new(&growth, 2.0, &[1.0], &[0.0]).unwrap();
         let mut scale = 1.0;
         for (number, &time) in times.iter().enumerate().skip(1) {
             let (angle, rate) = state(time);
@@ -189,7 +189,7 @@ mod tests {
             horizons: vec![3.0],
             tolerance: 1e-9,
         };
-        let mut record = Record::new(&growth, 0.0, &[0.0], &[TAU]).unwrap();
+        let mut record = GrowthRecord::new(&growth, 0.0, &[0.0], &[TAU]).unwrap();
         for time in growth.looks(0.0).into_iter().skip(1) {
             let (sine, cosine) = (TAU * time).sin_cos();
             record.look(time, &[sine], &[TAU * cosine]);

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// E. Sander, J. A. Yorke, *Quantitative quasiperiodicity*, Nonlinearity 30 (2017)
 /// 4111–4140.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turns {
+pub(super) struct TurnCount {
     start: f64,
     span: f64,
     time: f64,
@@ -19,7 +19,7 @@ pub(super) struct Turns {
     weights: f64,
 }
 
-impl Turns {
+impl TurnCount {
     pub(super) fn new(start: f64, span: f64, point: (f64, f64)) -> Self {
         Self {
             start,
@@ -72,7 +72,7 @@ pub fn turns_a_second(times: &[f64], points: impl IntoIterator<Item = (f64, f64)
     let (Some((&start, point)), Some(&end)) = (both.next(), times.last()) else {
         return f64::NAN;
     };
-    let mut turns = Turns::new(start, end - start, point);
+    let mut turns = TurnCount::new(start, end - start, point);
     both.for_each(|(&time, point)| turns.look(time, point));
     turns.a_second()
 }

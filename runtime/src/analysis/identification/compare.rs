@@ -3,10 +3,11 @@
 use super::error::{IdentificationError, positive};
 use super::family::Family;
 use super::fit::{AngleErrors, Fit};
-use super::least_squares::{Effort, FitStage};
+use super::least_squares::{FULL, FitStage};
 use super::problem::{Identification, no_motion};
 use super::record::{AngleRecord, MeasuredLink};
 use super::task::split;
+use crate::analysis::smoothing::misplaced;
 use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::State;
 
@@ -25,10 +26,9 @@ impl<F: Family> Identification<F> {
         let Some(start) = fit.starts.first() else {
             return Ok(Vec::new());
         };
-        let late = |&(index, &time): &(usize, &f64)| {
-            !(time >= start.time && (index == 0 || time > times[index - 1]))
-        };
-        if let Some((index, &value)) = times.iter().enumerate().find(late) {
+        let before = times.first().filter(|&&first| first < start.time);
+        let before = before.map(|&first| (0, first));
+        if let Some((index, value)) = before.or_else(|| misplaced(times)) {
             return Err(IdentificationError::Time { index, value });
         }
         let equations = self.family.equations(fit.parameters());
@@ -103,11 +103,9 @@ impl<F: Family> Identification<F> {
                 starts: vec![start],
                 globals: globals.clone(),
                 free: Vec::new(),
-                junction: None,
+                junction: Vec::new(),
             };
-            let (residuals, _) = stage
-                .solve(&task, Effort::FULL)
-                .ok_or_else(|| no_motion(record))?;
+            let (residuals, _) = stage.solve(&task, FULL).ok_or_else(|| no_motion(record))?;
             all.rows.extend(task.errors(&stage, &residuals).rows);
         }
         Ok(all)

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::elimination::EliminatedChain;
 use super::least_squares::{FitStage, LinearStage};
 use super::task::FitTask;
+use crate::analysis::statistics::jackknife;
 
 /// Part of a block of data in the normal equations of the globals, starts eliminated.
 struct TimeBlock {
@@ -54,7 +55,7 @@ impl TimeBlocks {
         }
         // A frequency is a measurement of its own.
         let own = all.blocks.len();
-        for (index, row) in linear.prior_rows().row_iter().enumerate() {
+        for (index, row) in linear.prior.row_iter().enumerate() {
             all.add(
                 own + index,
                 &row.columns(0, columns).transpose(),
@@ -101,15 +102,11 @@ impl TimeBlocks {
             let rest = part(&(&total - &block.information)).cholesky()?;
             changes.push(rest.solve(&block.pull.select_rows(free)));
         }
-        let mean = changes.iter().sum::<DVector<f64>>() / count as f64;
-        let factor = (count as f64 - 1.0) / count as f64;
-        let square = |index: usize| {
-            let squares = changes
-                .iter()
-                .map(|change| (change[index] - mean[index]).powi(2));
-            factor * squares.sum::<f64>()
+        let variance = |index: usize| {
+            let change = |block: Option<usize>| block.map_or(0.0, |block| changes[block][index]);
+            Some(jackknife(count, change).ok()?.error.powi(2))
         };
-        Some((0..free.len()).map(square).collect())
+        (0..free.len()).map(variance).collect()
     }
 }
 

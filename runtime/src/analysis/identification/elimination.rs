@@ -6,16 +6,15 @@
 //! G. J. Bierman, *Factorization methods for discrete sequential estimation*, 1977). Cost:
 //! linear in the data.
 
-use nalgebra::{DMatrix, DMatrixView, DVector};
+use nalgebra::{DMatrix, DVector};
 
-use super::task::LinearSegment;
+use super::least_squares::{FitStage, LinearStage};
 
 /// The chain with all starts eliminated.
 pub(super) struct EliminatedChain {
     pivots: Vec<Pivot>,
     /// Rows on the globals and what they make up for: as many as globals.
     pub(super) globals: DMatrix<f64>,
-    unknowns: usize,
 }
 
 /// The rows that give the start of a segment from that of the next, from the globals, and
@@ -34,123 +33,116 @@ pub(super) struct Damping {
     pub(super) globals: Vec<f64>,
 }
 
-/// The rows of all segments.
-pub(super) struct SegmentChain<'a> {
-    pub(super) segments: &'a [LinearSegment],
-    /// Weights of the components of the jump from a segment to the next; none where
-    /// segments are free of each other.
-    pub(super) junction: Option<&'a [f64]>,
-    /// The states at the starts of the segments.
-    pub(super) starts: &'a [Vec<f64>],
-    /// Rows on the globals alone.
-    pub(super) prior: DMatrix<f64>,
-}
-
-impl SegmentChain<'_> {
+impl FitStage {
     /// Eliminates all starts.
-    pub(super) fn eliminate(&self, damping: Option<&Damping>) -> EliminatedChain {
-        let unknowns = self.prior.ncols() - 1;
-        let damped = damping.map(|damping| diagonal(&damping.globals, unknowns + 1, 0));
-        let mut carried = stacked(&[Some(&self.prior), damped.as_ref()]);
-        let mut pivots = Vec::with_capacity(self.segments.len());
-        let mut coupled = DMatrix::zeros(0, 0);
-        for (index, segment) in self.segments.iter().enumerate() {
+    pub(super) fn eliminate(
+        &self,
+        linear: &LinearStage,
+        damping: Option<&Damping>,
+    ) -> EliminatedChain {
+        // Columns of the globals and of what they make up for, the last ones of all rows.
+        let rest = linear.prior.ncols();
+        let mut carried = Rows::new(rest, rest);
+        carried.put(&linear.prior);
+        if let Some(damping) = damping {
+            carried.put_diagonal(&damping.globals);
+        }
+        let mut carried = carried.matrix;
+        let mut pivots = Vec::with_capacity(linear.segments.len());
+        for (index, segment) in linear.segments.iter().enumerate() {
             let n = segment.end.nrows();
-            let damped = damping.map(|damping| diagonal(&damping.starts[index], n, 0));
+            let next = self.starts.get(index + 1);
+            let ahead = next.map_or(0, Vec::len);
             // Columns: this start, the next one, the globals, the right-hand side.
-            let next = match self.starts.get(index + 1) {
-                Some(next) if self.junction.is_some() => next.as_slice(),
-                _ => &[],
-            };
-            let wide = n + next.len() + unknowns + 1;
-            let rows = |count: usize| DMatrix::<f64>::zeros(count, wide);
-            let mut all = Vec::new();
-            let mut put = |local: Option<DMatrixView<'_, f64>>, rest: DMatrixView<'_, f64>| {
-                let mut block = rows(rest.nrows());
-                if let Some(local) = local {
-                    block.columns_mut(0, n).copy_from(&local);
+            let mut rows = Rows::new(n + ahead + rest, rest);
+            rows.put(&carried);
+            rows.put(&segment.data);
+            if let Some(damping) = damping {
+                rows.put_diagonal(&damping.starts[index]);
+            }
+            if let Some(next) = next {
+                let mut jump = segment.end.clone();
+                for (component, weight) in self.junction.iter().enumerate() {
+                    let missing = next[component] - jump[(component, n + rest - 1)];
+                    jump[(component, n + rest - 1)] = missing;
+                    jump.row_mut(component).scale_mut(*weight);
                 }
-                block
-                    .columns_mut(n + next.len(), unknowns + 1)
-                    .copy_from(&rest);
-                all.push(block);
-            };
-            let local = (coupled.nrows() > 0).then(|| coupled.columns(0, n));
-            put(local, carried.columns(0, unknowns + 1));
-            put(
-                Some(segment.data.columns(0, n)),
-                segment.data.columns(n, unknowns + 1),
-            );
-            if let Some(damped) = &damped {
-                let nothing = DMatrix::zeros(n, unknowns + 1);
-                put(Some(damped.columns(0, n)), nothing.columns(0, unknowns + 1));
+                let above = rows.put(&jump);
+                for (component, weight) in self.junction.iter().enumerate() {
+                    rows.matrix[(above + component, n + component)] = -weight;
+                }
             }
-            if let Some(weights) = self.junction.filter(|_| !next.is_empty()) {
-                all.push(junction(segment, weights, next, unknowns));
-            }
-            let all: Vec<Option<&DMatrix<f64>>> = all.iter().map(Some).collect();
-            let triangle = triangle(stacked(&all), wide);
+            let triangle = triangle(rows.matrix);
             pivots.push(Pivot {
                 own: triangle.view((0, 0), (n, n)).into_owned(),
-                next: triangle.view((0, n), (n, next.len())).into_owned(),
-                rest: triangle
-                    .columns(n + next.len(), unknowns + 1)
-                    .rows(0, n)
-                    .into_owned(),
+                next: triangle.view((0, n), (n, ahead)).into_owned(),
+                rest: triangle.view((0, n + ahead), (n, rest)).into_owned(),
             });
-            let left = triangle.nrows() - n;
-            coupled = match next.is_empty() {
-                true => DMatrix::zeros(0, 0),
-                false => triangle.view((n, n), (left, n)).into_owned(),
-            };
             carried = triangle
-                .view((n, n + next.len()), (left, unknowns + 1))
+                .view((n, n), (ahead + rest, ahead + rest))
                 .into_owned();
         }
         EliminatedChain {
             pivots,
-            globals: triangle(carried, unknowns + 1)
-                .rows(0, unknowns)
-                .into_owned(),
-            unknowns,
+            globals: triangle(carried).rows(0, rest - 1).into_owned(),
         }
     }
 }
 
-/// Rows of the jump at the end of a segment.
-fn junction(
-    segment: &LinearSegment,
-    weights: &[f64],
-    next: &[f64],
-    unknowns: usize,
-) -> DMatrix<f64> {
-    let n = next.len();
-    DMatrix::from_fn(n, 2 * n + unknowns + 1, |component, column| {
-        let weight = weights[component];
-        let at = |column: usize| segment.end[(component, column)];
-        weight
-            * match column {
-                column if column < n => at(column),
-                column if column < 2 * n => -f64::from(u8::from(column - n == component)),
-                column if column < 2 * n + unknowns => at(column - n),
-                _ => next[component] - at(n + unknowns),
-            }
-    })
+/// Rows that are put below each other. Those that are put have columns of a start, or none,
+/// before the last ones.
+struct Rows {
+    matrix: DMatrix<f64>,
+    /// Number of the last columns.
+    rest: usize,
+}
+
+impl Rows {
+    fn new(width: usize, rest: usize) -> Self {
+        Self {
+            matrix: DMatrix::zeros(0, width),
+            rest,
+        }
+    }
+
+    /// Makes room for rows; returns the number of those above.
+    fn grow(&mut self, count: usize) -> usize {
+        let above = self.matrix.nrows();
+        let matrix = std::mem::replace(&mut self.matrix, DMatrix::zeros(0, 0));
+        self.matrix = matrix.resize_vertically(above + count, 0.0);
+        above
+    }
+
+    fn put(&mut self, rows: &DMatrix<f64>) -> usize {
+        let above = self.grow(rows.nrows());
+        let start = rows.ncols() - self.rest;
+        let before = self.matrix.ncols() - self.rest;
+        let mut place = self.matrix.rows_mut(above, rows.nrows());
+        let own = rows.columns(0, start);
+        place.columns_mut(0, start).copy_from(&own);
+        let last = rows.columns(start, self.rest);
+        place.columns_mut(before, self.rest).copy_from(&last);
+        above
+    }
+
+    fn put_diagonal(&mut self, values: &[f64]) {
+        let above = self.grow(values.len());
+        for (index, &value) in values.iter().enumerate() {
+            self.matrix[(above + index, index)] = value;
+        }
+    }
 }
 
 impl EliminatedChain {
     /// Solves for globals, which are as many as rows, and starts.
     pub(super) fn solve(&self) -> Option<(DVector<f64>, Vec<DVector<f64>>)> {
-        let triangle = self.globals.columns(0, self.unknowns);
-        let right = self.globals.column(self.unknowns);
-        let globals = match self.unknowns {
+        let unknowns = self.globals.nrows();
+        let triangle = self.globals.columns(0, unknowns);
+        let globals = match unknowns {
             0 => DVector::zeros(0),
-            _ => triangle.solve_upper_triangular(&right)?,
+            _ => triangle.solve_upper_triangular(&self.globals.column(unknowns))?,
         };
-        let mut column = DMatrix::from_element(self.unknowns + 1, 1, -1.0);
-        column
-            .view_mut((0, 0), (self.unknowns, 1))
-            .copy_from(&globals);
+        let column = DMatrix::from_columns(&[globals.push(-1.0)]);
         let starts = self.back(&column)?;
         let starts = starts.iter().map(|start| start.column(0).into_owned());
         Some((globals, starts.collect()))
@@ -158,8 +150,8 @@ impl EliminatedChain {
 
     /// Returns how the starts change with the globals: a column a global.
     pub(super) fn responses(&self) -> Option<Vec<DMatrix<f64>>> {
-        let unit = DMatrix::identity(self.unknowns + 1, self.unknowns);
-        self.back(&unit)
+        let unknowns = self.globals.nrows();
+        self.back(&DMatrix::identity(unknowns + 1, unknowns))
     }
 
     /// Starts for columns of globals and, in the last row, of minus the right-hand side.
@@ -177,31 +169,12 @@ impl EliminatedChain {
     }
 }
 
-fn diagonal(values: &[f64], width: usize, from: usize) -> DMatrix<f64> {
-    let mut rows = DMatrix::zeros(values.len(), width);
-    for (index, &value) in values.iter().enumerate() {
-        rows[(index, from + index)] = value;
-    }
-    rows
-}
-
-fn stacked(blocks: &[Option<&DMatrix<f64>>]) -> DMatrix<f64> {
-    let blocks = || blocks.iter().flatten();
-    let width = blocks().map(|block| block.ncols()).max().unwrap_or(0);
-    let mut all = DMatrix::zeros(blocks().map(|block| block.nrows()).sum(), width);
-    let mut row = 0;
-    for block in blocks() {
-        all.rows_mut(row, block.nrows()).copy_from(block);
-        row += block.nrows();
-    }
-    all
-}
-
-/// Upper triangle of the same normal equations, of `size` rows.
-fn triangle(rows: DMatrix<f64>, size: usize) -> DMatrix<f64> {
-    let given = match rows.nrows() {
+/// Upper triangle, a square, of rows with the same normal equations.
+fn triangle(rows: DMatrix<f64>) -> DMatrix<f64> {
+    let width = rows.ncols();
+    let triangle = match rows.nrows() {
         0 => rows,
         _ => rows.qr().unpack_r(),
     };
-    given.resize(size, size, 0.0)
+    triangle.resize(width, width, 0.0)
 }

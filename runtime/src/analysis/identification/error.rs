@@ -180,16 +180,16 @@ fn list(names: &[String]) -> String {
 }
 
 pub(super) fn finite(what: &str, value: f64) -> Result<(), IdentificationError> {
-    let what = what.to_owned();
-    match value.is_finite() {
-        true => Ok(()),
-        false => Err(IdentificationError::Number { what, value }),
-    }
+    number(what, value, value.is_finite())
 }
 
 pub(super) fn positive(what: &str, value: f64) -> Result<(), IdentificationError> {
+    number(what, value, value > 0.0)
+}
+
+fn number(what: &str, value: f64, is_possible: bool) -> Result<(), IdentificationError> {
     let what = what.to_owned();
-    match value > 0.0 {
+    match is_possible {
         true => Ok(()),
         false => Err(IdentificationError::Number { what, value }),
     }

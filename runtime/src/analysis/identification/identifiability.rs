@@ -4,14 +4,16 @@ use core::fmt;
 
 use nalgebra::DMatrix;
 
+use super::task::FitTask;
+
 /// Relative size of a singular value that is taken for zero: what is left of exact
 /// dependences after integration with a finite tolerance.
 const ZERO: f64 = 1e-7;
 /// Share in an open change that counts.
 const SHARE: f64 = 1e-3;
 
-/// Combinations that the data determine, by a singular value decomposition of the derivatives of all data
-/// with respect to relative changes of the parameters (and to offsets, rad).
+/// Combinations that the data determine, by a singular value decomposition of the derivatives
+/// of all data with respect to relative changes of the parameters (and to offsets, rad).
 ///
 /// Equations of motion know ratios only: masses, inertias and friction may all be twice as
 /// large. Such changes are told, and those that data with this noise cannot tell from none.
@@ -35,27 +37,27 @@ pub struct OpenChange {
     pub others: Vec<(String, f64)>,
 }
 
-/// The unknowns of a fit as this module sees them.
-pub(super) struct Unknowns<'a> {
-    pub(super) names: &'a [String],
-    /// Unit of each: its size, for an offset 1 rad.
-    pub(super) units: Vec<f64>,
-    /// Unit of the columns of `triangle`.
-    pub(super) scales: &'a [f64],
-    /// Triangle of the normal equations, in standard deviations of the data.
-    pub(super) triangle: &'a DMatrix<f64>,
-    /// Deviation of the data, in those that were given.
-    pub(super) deviation: f64,
-}
-
-impl Unknowns<'_> {
-    /// Decomposes; returns the indices of the unknowns that are held, too: `first` those
-    /// that were held already.
-    pub(super) fn identifiability(&self, first: &[usize]) -> (Identifiability, Vec<usize>) {
-        let count = self.names.len();
-        let mut matrix = self.triangle.columns(0, count).into_owned();
-        for (column, (unit, scale)) in self.units.iter().zip(self.scales).enumerate() {
-            matrix.column_mut(column).scale_mut(unit / scale);
+impl FitTask<'_> {
+    /// Decomposes the triangle of the normal equations of these globals, in standard
+    /// deviations of the data, whose own is `deviation` in those that were given. Returns
+    /// the indices of the unknowns that are held, too: `first` those that were held already.
+    pub(super) fn identifiability(
+        &self,
+        globals: &[f64],
+        triangle: &DMatrix<f64>,
+        deviation: f64,
+        first: &[usize],
+    ) -> (Identifiability, Vec<usize>) {
+        let count = globals.len();
+        let mut matrix = triangle.columns(0, count).into_owned();
+        for (index, (&value, scale)) in globals.iter().zip(&self.scales).enumerate() {
+            // Unit of a parameter is its size, of an offset 1 rad.
+            let unit = match self.unknown.get(index) {
+                Some(_) if value != 0.0 => value.abs(),
+                Some(_) => *scale,
+                None => 1.0,
+            };
+            matrix.column_mut(index).scale_mut(unit / scale);
         }
         let decomposed = matrix.svd(false, true);
         let values = decomposed.singular_values.as_slice();
@@ -63,7 +65,7 @@ impl Unknowns<'_> {
         let largest = values
             .iter()
             .fold(0.0, |most, &value| f64::max(most, value));
-        let floor = f64::max(self.deviation, ZERO * largest);
+        let floor = f64::max(deviation, ZERO * largest);
         let is_open = |value: f64| value.is_nan() || value <= floor;
         let mut basis = DMatrix::zeros(count, values.iter().filter(|&&v| is_open(v)).count());
         if let Some(directions) = &decomposed.v_t {
@@ -79,12 +81,12 @@ impl Unknowns<'_> {
         let found = Identifiability {
             unknown: count,
             singular_values: sorted,
-            open: self.open(&basis, &held),
+            open: self.open_changes(&basis, &held),
         };
         (found, held)
     }
 
-    fn open(&self, basis: &DMatrix<f64>, held: &[usize]) -> Vec<OpenChange> {
+    fn open_changes(&self, basis: &DMatrix<f64>, held: &[usize]) -> Vec<OpenChange> {
         let Some(inverse) = basis.select_rows(held).try_inverse() else {
             return Vec::new();
         };

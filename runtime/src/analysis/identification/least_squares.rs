@@ -4,26 +4,18 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::elimination::{Damping, EliminatedChain, SegmentChain};
+use super::elimination::Damping;
 use super::task::{FitTask, LinearSegment};
 
 /// Steps of one stage at most.
 const STEPS: usize = 100;
-/// Where to stop, and how exactly to look: early stages only lead to the next one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Effort {
-    /// Share of the sum of squares below which a gain ends the iteration.
-    pub(super) settled: f64,
-}
-
+/// Shares of the sum of squares below which a gain ends the iteration: of early stages, which
+/// only lead to the next one, and of the last.
+pub(super) const ROUGH: f64 = 1e-4;
+pub(super) const FULL: f64 = 2e-6;
 /// Share of the sum of squares that integration makes uncertain where a motion is long: a
 /// smaller loss after a step is none, and ends the iteration too.
 const UNCERTAIN: f64 = 1e-4;
-
-impl Effort {
-    pub(super) const ROUGH: Self = Self { settled: 1e-4 };
-    pub(super) const FULL: Self = Self { settled: 2e-6 };
-}
 /// Root mean square of residuals, in deviations, at which nothing is left to be done.
 const NOTHING: f64 = 1e-8;
 /// Damping: its start, what it is multiplied and divided by, its bounds.
@@ -35,6 +27,10 @@ const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
 /// Damping below which steps are as good as those of Gauss and Newton.
 const NEARLY_FREE: f64 = 1e-2;
 
+/// Share of the sum of squares that another choice has to leave at most, to be followed by one
+/// more.
+const WORTH: f64 = 0.99;
+
 /// Segments, with the estimate that belongs to them.
 #[derive(Clone, Debug)]
 pub(super) struct FitStage {
@@ -43,8 +39,8 @@ pub(super) struct FitStage {
     pub(super) globals: Vec<f64>,
     /// Globals that are fitted; the others stay as they are.
     pub(super) free: Vec<usize>,
-    /// Weights of the jump from a segment to the next, if they are tied to each other.
-    pub(super) junction: Option<Vec<f64>>,
+    /// Weights of the jump from a segment to the next.
+    pub(super) junction: Vec<f64>,
 }
 
 /// Residuals of a stage, in deviations: of angles, and the sum of squares of all.
@@ -53,10 +49,19 @@ pub(super) struct Residuals {
     pub(super) squares: f64,
 }
 
+/// A stage that is solved.
+pub(super) struct Solved {
+    pub(super) residuals: Residuals,
+    pub(super) steps: usize,
+    /// Globals that were held.
+    pub(super) held: Vec<usize>,
+}
+
 /// A stage with derivatives.
 pub(super) struct LinearStage {
     pub(super) segments: Vec<LinearSegment>,
-    prior: DMatrix<f64>,
+    /// Rows on the globals alone.
+    pub(super) prior: DMatrix<f64>,
 }
 
 impl FitStage {
@@ -80,8 +85,8 @@ impl FitStage {
             let (residuals, end) = task.shoot(&self.globals, &self.starts[index], samples)?;
             squares += sum_of_squares(&residuals);
             angles.push(residuals);
-            if let (Some(weights), Some(next)) = (&self.junction, self.starts.get(index + 1)) {
-                let jumps = end.iter().zip(next).zip(weights);
+            if let Some(next) = self.starts.get(index + 1) {
+                let jumps = end.iter().zip(next).zip(&self.junction);
                 let jumps = jumps.map(|((end, next), weight)| weight * (end - next));
                 squares += jumps.map(|jump| jump * jump).sum::<f64>();
             }
@@ -100,27 +105,41 @@ impl FitStage {
         })
     }
 
-    pub(super) fn eliminate(
-        &self,
-        linear: &LinearStage,
-        damping: Option<&Damping>,
-    ) -> EliminatedChain {
-        let chain = SegmentChain {
-            segments: &linear.segments,
-            junction: self.junction.as_deref(),
-            starts: &self.starts,
-            prior: linear.prior.clone(),
-        };
-        chain.eliminate(damping)
-    }
-
-    /// Iterates to the least sum of squares that is near. Returns the residuals there and
-    /// the number of steps; none where there is no motion to begin with.
-    pub(super) fn solve(
+    /// Solves a stage, with those unknowns held that no data of this kind determine.
+    ///
+    /// Where they are held they may leave no real value to others, as a mass whose inertia
+    /// is too large for what both turn like: the motion is then not reached, the open
+    /// directions have turned, and others are held from there on.
+    pub(super) fn solve_determined(
         &mut self,
         task: &FitTask<'_>,
-        effort: Effort,
-    ) -> Option<(Residuals, usize)> {
+        settled: f64,
+        choices: usize,
+    ) -> Option<Solved> {
+        let (mut before, mut steps) = (f64::INFINITY, 0);
+        for choice in 1.. {
+            self.free = (0..task.names.len()).collect();
+            let globals = self.eliminate(&self.linearise(task)?, None).globals;
+            let (_, held) = task.identifiability(&self.globals, &globals, 0.0, &[]);
+            self.free.retain(|global| !held.contains(global));
+            let (residuals, more) = self.solve(task, settled)?;
+            steps += more;
+            if choice >= choices || residuals.squares > WORTH * before {
+                return Some(Solved {
+                    residuals,
+                    steps,
+                    held,
+                });
+            }
+            before = residuals.squares;
+        }
+        None
+    }
+
+    /// Iterates to the least sum of squares that is near, until a step gains less than the
+    /// share `settled` of it. Returns the residuals there and the number of steps; none where
+    /// there is no motion to begin with.
+    pub(super) fn solve(&mut self, task: &FitTask<'_>, settled: f64) -> Option<(Residuals, usize)> {
         let mut best = self.residuals(task)?;
         let count: usize = best.angles.iter().map(Vec::len).sum();
         let nothing = (count + task.frequencies.len()) as f64 * NOTHING * NOTHING;
@@ -137,7 +156,7 @@ impl FitStage {
             let gain = best.squares - residuals.squares;
             // A step that is held back changes little wherever it is.
             let small = match gain > 0.0 {
-                true => effort.settled,
+                true => settled,
                 false => UNCERTAIN,
             };
             let is_settled = lambda <= NEARLY_FREE && gain.abs() <= small * best.squares;
@@ -181,11 +200,6 @@ impl FitStage {
 }
 
 impl LinearStage {
-    /// Rows on the globals alone.
-    pub(super) fn prior_rows(&self) -> &DMatrix<f64> {
-        &self.prior
-    }
-
     /// Damping in units of the columns' own lengths, which makes it independent of units.
     fn damping(&self, root: f64) -> Damping {
         let columns = self.prior.ncols() - 1;

@@ -4,7 +4,7 @@ use super::error::IdentificationError;
 use super::family::Family;
 use super::fit::{Fit, StageReport};
 use super::frequencies::Frequency;
-use super::least_squares::{Effort, FitStage, Residuals};
+use super::least_squares::{FULL, FitStage, ROUGH, Solved};
 use super::record::AngleRecord;
 use super::task::{FitTask, split};
 
@@ -59,19 +59,8 @@ impl Default for Shooting {
 
 /// Number of choices of unknowns that are held in the first stage, at most.
 const CHOICES: usize = 8;
-/// Share of the sum of squares that another choice has to leave at most, to be followed by one
-/// more.
-const WORTH: f64 = 0.99;
 /// By how much the tolerance of early stages is larger.
 const LOOSENED: f64 = 1e3;
-
-/// A stage that is solved.
-struct Solved {
-    residuals: Residuals,
-    steps: usize,
-    /// Globals that were held.
-    held: Vec<usize>,
-}
 
 impl<F: Family> Identification<F> {
     /// The models of a family, of whose parameters nothing is said as yet.
@@ -159,7 +148,7 @@ impl<F: Family> Identification<F> {
         self.check_count(&task, &segments)?;
         let starts = task.first_states(record, &globals, &segments)?;
         let mut stage = FitStage {
-            junction: Some(self.junction(&task, &starts)),
+            junction: self.junction(&task, &starts),
             segments,
             starts,
             globals,
@@ -169,13 +158,13 @@ impl<F: Family> Identification<F> {
         let mut length = self.shooting.first;
         loop {
             let is_last = stage.segments.len() <= 1 || 2.0 * length > self.shooting.longest;
-            let (effort, loosened) = match is_last {
-                true => (Effort::FULL, 1.0),
-                false => (Effort::ROUGH, LOOSENED),
+            let (settled, loosened) = match is_last {
+                true => (FULL, 1.0),
+                false => (ROUGH, LOOSENED),
             };
             task.tolerance = self.shooting.tolerance * loosened;
             let choices = if reports.is_empty() { CHOICES } else { 1 };
-            let solved = self.solve(&task, &mut stage, effort, choices);
+            let solved = stage.solve_determined(&task, settled, choices);
             let Solved {
                 residuals,
                 steps,
@@ -193,38 +182,6 @@ impl<F: Family> Identification<F> {
             }
             stage.merge();
         }
-    }
-
-    /// Solves a stage, with those unknowns held that no data of this kind determine.
-    ///
-    /// Where they are held they may leave no real value to others, as a mass whose inertia
-    /// is too large for what both turn like: the motion is then not reached, the open
-    /// directions have turned, and others are held from there on.
-    fn solve(
-        &self,
-        task: &FitTask<'_>,
-        stage: &mut FitStage,
-        effort: Effort,
-        choices: usize,
-    ) -> Option<Solved> {
-        let (mut before, mut steps) = (f64::INFINITY, 0);
-        for choice in 1.. {
-            stage.free = (0..task.names.len()).collect();
-            let elimination = stage.eliminate(&stage.linearise(task)?, None);
-            let (_, held) = self.identifiability(task, stage, &elimination, 0.0, &[]);
-            stage.free.retain(|global| !held.contains(global));
-            let (residuals, more) = stage.solve(task, effort)?;
-            steps += more;
-            if choice >= choices || residuals.squares > WORTH * before {
-                return Some(Solved {
-                    residuals,
-                    steps,
-                    held,
-                });
-            }
-            before = residuals.squares;
-        }
-        None
     }
 
     /// Weights of jumps: angles by the deviation of the data, velocities by that times the

@@ -1,6 +1,7 @@
 //! Measured angles against time.
 
-use super::error::IdentificationError;
+use super::error::{IdentificationError, positive};
+use crate::analysis::smoothing::misplaced;
 
 /// Angles of some links, measured at common times. Times may be uneven, and data missing.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -63,11 +64,8 @@ impl AngleRecord {
 
     /// Returns the index of each measured link among all, if the record makes sense.
     pub(super) fn check(&self, links: &[String]) -> Result<Vec<usize>, IdentificationError> {
-        for (index, &value) in self.times.iter().enumerate() {
-            let is_later = index == 0 || value > self.times[index - 1];
-            if !(value.is_finite() && is_later) {
-                return Err(IdentificationError::Time { index, value });
-            }
+        if let Some((index, value)) = misplaced(&self.times) {
+            return Err(IdentificationError::Time { index, value });
         }
         let mut indices: Vec<usize> = Vec::new();
         for measured in &self.links {
@@ -88,7 +86,7 @@ impl AngleRecord {
                     angles: measured.angles.len(),
                 });
             }
-            super::error::positive(&format!("deviation of `{name}`"), measured.deviation)?;
+            positive(&format!("deviation of `{name}`"), measured.deviation)?;
             for (index, angle) in measured.angles.iter().enumerate() {
                 if let Some(value) = angle.filter(|angle| !angle.is_finite()) {
                     return Err(IdentificationError::Datum {

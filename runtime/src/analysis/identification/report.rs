@@ -1,11 +1,9 @@
 //! From the last stage to what users see of it.
 
 use super::covariance::{TimeBlocks, by_curvature};
-use super::elimination::EliminatedChain;
 use super::error::IdentificationError;
 use super::family::Family;
 use super::fit::{AngleErrors, Fit, ParameterEstimate, StageReport};
-use super::identifiability::{Identifiability, Unknowns};
 use super::least_squares::{FitStage, Residuals};
 use super::problem::{Identification, no_motion};
 use super::record::{AngleRecord, MeasuredLink};
@@ -16,30 +14,6 @@ use crate::system::State;
 const BLOCKS: f64 = 30.0;
 
 impl<F: Family> Identification<F> {
-    /// Returns the identifiability where the stage is, and the unknowns to be held.
-    pub(super) fn identifiability(
-        &self,
-        task: &FitTask<'_>,
-        stage: &FitStage,
-        elimination: &EliminatedChain,
-        deviation: f64,
-        held: &[usize],
-    ) -> (Identifiability, Vec<usize>) {
-        let unit = |(index, &value): (usize, &f64)| match task.unknown.get(index) {
-            Some(_) if value != 0.0 => value.abs(),
-            Some(_) => task.scales[index],
-            None => 1.0,
-        };
-        let unknowns = Unknowns {
-            names: &task.names,
-            units: stage.globals.iter().enumerate().map(unit).collect(),
-            scales: &task.scales,
-            triangle: &elimination.globals,
-            deviation,
-        };
-        unknowns.identifiability(held)
-    }
-
     pub(super) fn report(
         &self,
         task: &FitTask<'_>,
@@ -63,7 +37,7 @@ impl<F: Family> Identification<F> {
         let unknown = task.names.len() + task.dimension.min(angles);
         let variance = residuals.squares / data.saturating_sub(unknown).max(1) as f64;
         let (identifiability, held) =
-            self.identifiability(task, &stage, &elimination, variance.sqrt(), held);
+            task.identifiability(&stage.globals, &triangle, variance.sqrt(), held);
         let free = (0..task.names.len()).filter(|index| !held.contains(index));
         let free: Vec<usize> = free.collect();
         let span = times

@@ -6,35 +6,6 @@ use super::family::{AnyFamily, WIDTH, Wide};
 use crate::scalar::Dual;
 use crate::system::{Ode, Workspace};
 
-/// A motion alone.
-pub(super) struct MotionAlone<'a>(Box<dyn Ode<f64> + 'a>);
-
-impl<'a> MotionAlone<'a> {
-    pub(super) fn new(family: &'a dyn AnyFamily, values: &[f64]) -> Self {
-        Self(family.plain(values))
-    }
-}
-
-impl Ode<f64> for MotionAlone<'_> {
-    fn dimension(&self) -> usize {
-        self.0.dimension()
-    }
-
-    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
-        self.0.rates(time, state, rates);
-    }
-
-    fn rates_with(
-        &self,
-        workspace: &mut Workspace<f64>,
-        time: f64,
-        state: &[f64],
-        rates: &mut [f64],
-    ) {
-        self.0.rates_with(workspace, time, state, rates);
-    }
-}
-
 /// A motion y and its derivatives: the state is y, followed by a column ∂y/∂x for each
 /// component x of its start, then one for each free parameter, in units of its scale.
 ///

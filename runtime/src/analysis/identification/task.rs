@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::family::AnyFamily;
 use super::frequencies::Frequency;
-use super::sensitivity::{MotionAlone, Sensitivities};
+use super::sensitivity::Sensitivities;
 use crate::integrate::{Dop853, Options, Tolerance};
 use crate::system::{Ode, State};
 
@@ -78,14 +78,14 @@ impl FitTask<'_> {
         state: &[f64],
         samples: &Range<usize>,
     ) -> Option<(Vec<f64>, Vec<f64>)> {
-        let motion = MotionAlone::new(self.family, &self.parameters(globals));
+        let motion = self.family.plain(&self.parameters(globals));
         let mut residuals = Vec::with_capacity(self.count(samples));
         let options = Options {
             absolute: Tolerance::Uniform(self.tolerance),
             ..Options::with_tolerance(self.tolerance)
         };
         let end = self.follow(
-            &motion,
+            &*motion,
             options,
             state.to_vec(),
             samples,
@@ -156,9 +156,9 @@ impl FitTask<'_> {
     }
 
     /// Integrates over a segment, up to the start of the next one where there is one.
-    fn follow<O: Ode<f64>>(
+    fn follow(
         &self,
-        system: &O,
+        system: &dyn Ode<f64>,
         options: Options<f64>,
         start: Vec<f64>,
         samples: &Range<usize>,
@@ -168,7 +168,7 @@ impl FitTask<'_> {
         let start = State::new(*times.first()?, start);
         let mut sample = samples.start;
         let mut end = Vec::new();
-        let run = Dop853::new(options).sample(system, &start, times, |_, state| {
+        let run = Dop853::new(options).sample(&system, &start, times, |_, state| {
             if sample < samples.end {
                 visit(sample, state);
             }

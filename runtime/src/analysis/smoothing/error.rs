@@ -98,7 +98,8 @@ impl core::error::Error for SmoothingError {}
 /// Smallest number of data: three are met by a parabola.
 const FEWEST: usize = 4;
 
-/// Refuses data that do not belong to the times, are too few, or are not finite.
+/// Refuses data that do not belong to the times, are too few, or are not finite, and times
+/// that are misplaced.
 pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
     if times.len() != data.len() {
         let (times, data) = (times.len(), data.len());
@@ -115,17 +116,23 @@ pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), Smoo
             return Err(SmoothingError::Datum { index, value });
         }
     }
-    Ok(())
+    check_times(times)
+}
+
+/// Finds the first time that is not finite or not later than the one before, with its index.
+pub(in crate::analysis) fn misplaced(times: &[f64]) -> Option<(usize, f64)> {
+    let is_misplaced = |&(index, time): &(usize, &f64)| {
+        !(time.is_finite() && (index == 0 || *time > times[index - 1]))
+    };
+    let found = times.iter().enumerate().find(is_misplaced);
+    found.map(|(index, &time)| (index, time))
 }
 
 pub(super) fn check_times(times: &[f64]) -> Result<(), SmoothingError> {
-    for (index, &value) in times.iter().enumerate() {
-        let is_later = index == 0 || value > times[index - 1];
-        if !(value.is_finite() && is_later) {
-            return Err(SmoothingError::Time { index, value });
-        }
+    match misplaced(times) {
+        Some((index, value)) => Err(SmoothingError::Time { index, value }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 pub(super) fn check_option(name: &'static str, value: Option<f64>) -> Result<(), SmoothingError> {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::error::{SmoothingError, check_data, check_option, check_times, usual_interval};
+use super::error::{SmoothingError, check_data, check_option, usual_interval};
 use super::gaussian::{Gaussian, Innovations, Step};
 use super::likelihood::largest;
 use super::series::{Scale, SmoothedMotion};
@@ -65,11 +65,10 @@ impl KinematicSmoother {
         data: &[Option<f64>],
     ) -> Result<SmoothedMotion<3>, SmoothingError> {
         check_data(times, data)?;
-        check_times(times)?;
         check_option("noise", self.noise)?;
         check_option("jerk", self.jerk)?;
         let unit = usual_interval(times);
-        let problem = Problem { times, data, unit };
+        let problem = JerkFilter { times, data, unit };
         let scale = unit.powi(5);
         let likelihood = |noise: &dyn Fn(f64) -> Option<f64>| {
             let of = |log: f64| {
@@ -108,14 +107,14 @@ const LOG_RATIOS: [f64; 2] = [-60.0, 20.0];
 pub(super) const DIFFUSE: f64 = 1e10;
 
 /// Data with times in units of the usual interval.
-struct Problem<'a> {
+struct JerkFilter<'a> {
     times: &'a [f64],
     data: &'a [Option<f64>],
     /// The usual interval, s.
     unit: f64,
 }
 
-impl Problem<'_> {
+impl JerkFilter<'_> {
     /// Runs the filter with r = q τ⁵/σ², and hands its steps on.
     fn filter(&self, ratio: f64, mut keep: impl FnMut(Step<3>)) -> Innovations {
         let first = self.data.iter().flatten().next().copied().unwrap_or(0.0);

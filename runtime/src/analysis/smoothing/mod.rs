@@ -23,6 +23,7 @@ mod series;
 
 pub use bands::{Bands, bands};
 pub use error::SmoothingError;
+pub(in crate::analysis) use error::misplaced;
 pub use integral::running_integral;
 pub use kinematic::KinematicSmoother;
 pub use model::ModelSmoother;

@@ -93,7 +93,7 @@ impl<const N: usize> ModelSmoother<N> {
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
         self.check(system.dimension(), times, data, guess)?;
-        let problem = Problem {
+        let problem = ModelFilter {
             method,
             system,
             times,
@@ -116,9 +116,7 @@ impl<const N: usize> ModelSmoother<N> {
             innovations,
             ..
         } = solution;
-        let noise = self
-            .noise
-            .unwrap_or_else(|| self.noise_of(&logs, cube, &innovations));
+        let noise = self.noise_of(&logs, cube, &innovations);
         let scale = Scale {
             noise,
             densities: logs
@@ -154,22 +152,11 @@ impl<const N: usize> ModelSmoother<N> {
             return Err(SmoothingError::TooFew { found });
         }
         check_times(times)?;
-        for (index, row) in data.iter().enumerate() {
-            if let Some(&value) = row.iter().flatten().find(|value| !value.is_finite()) {
+        for (index, (data, guess)) in data.iter().zip(guess).enumerate() {
+            let mut all = data.iter().flatten().chain(guess);
+            if let Some(&value) = all.find(|value| !value.is_finite()) {
                 return Err(SmoothingError::Datum { index, value });
             }
-        }
-        if let Some((index, row)) = guess
-            .iter()
-            .enumerate()
-            .find(|(_, row)| !row.iter().all(|x| x.is_finite()))
-        {
-            let value = row
-                .iter()
-                .copied()
-                .find(|x| !x.is_finite())
-                .unwrap_or(f64::NAN);
-            return Err(SmoothingError::Datum { index, value });
         }
         check_option("noise", self.noise)?;
         check_option("acceleration", self.acceleration)
@@ -197,7 +184,7 @@ impl<const N: usize> ModelSmoother<N> {
 
     fn likeliest<const D: usize, L, M>(
         &self,
-        problem: &Problem<'_, N, L, M>,
+        problem: &ModelFilter<'_, N, L, M>,
         guess: &[[f64; D]],
     ) -> Result<Solution<D>, SmoothingError>
     where
@@ -245,7 +232,7 @@ impl<const N: usize> ModelSmoother<N> {
 }
 
 /// Data and the equations of what they were measured on.
-struct Problem<'a, const N: usize, L, M> {
+struct ModelFilter<'a, const N: usize, L, M> {
     method: &'a M,
     system: &'a L,
     times: &'a [f64],
@@ -268,7 +255,7 @@ struct Solution<const D: usize> {
     innovations: Innovations,
 }
 
-impl<const N: usize, L, M> Problem<'_, N, L, M>
+impl<const N: usize, L, M> ModelFilter<'_, N, L, M>
 where
     L: Linearised<f64>,
     M: for<'a> Integrator<f64, Variational<'a, L>>,

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, SVector};
 
-use super::error::{SmoothingError, check_data, check_option, check_times};
-use super::series::{SmoothedMotion, Weights};
+use super::error::{SmoothingError, check_data, check_option};
+use super::series::{DataWeights, SmoothedMotion};
 
 /// A smoother that knows nothing of a motion as a whole: near each time a polynomial is
 /// fitted to the data, with weights that fall off to the ends of its window. A cross-check of
@@ -71,7 +71,6 @@ impl LocalPolynomials {
         data: &[Option<f64>],
     ) -> Result<SmoothedMotion<3>, SmoothingError> {
         check_data(times, data)?;
-        check_times(times)?;
         check_option("noise", self.noise)?;
         let degree = usize::from(self.degree);
         if !(2..=8).contains(&degree) {
@@ -167,7 +166,7 @@ impl Record {
 
     /// Weights of the data of the window about a time in value, first and second derivative
     /// of the polynomial there.
-    fn weights(&self, time: f64, window: usize) -> Weights<3> {
+    fn weights(&self, time: f64, window: usize) -> DataWeights<3> {
         let after = self.points.partition_point(|[other, _]| *other < time);
         let mut first = after.saturating_sub(window);
         while first + window < self.points.len()
@@ -190,7 +189,7 @@ impl Record {
         let solved = solved.unwrap_or_else(|| DMatrix::zeros(columns, window));
         let scales = [1.0, 1.0 / reach, 2.0 / (reach * reach)];
         let of = |column: usize| SVector::from_fn(|row, _| scales[row] * solved[(row, column)]);
-        Weights {
+        DataWeights {
             first,
             weights: (0..window).map(of).collect(),
         }

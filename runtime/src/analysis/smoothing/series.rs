@@ -31,7 +31,7 @@ enum Spread<const D: usize> {
     },
     /// Each state a sum over data of independent errors.
     Sums {
-        rows: Vec<Weights<D>>,
+        rows: Vec<DataWeights<D>>,
         /// Number of data.
         data: usize,
     },
@@ -39,12 +39,12 @@ enum Spread<const D: usize> {
 
 /// Weights of some data, from the one with index `first` on, in a state.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Weights<const D: usize> {
+pub(super) struct DataWeights<const D: usize> {
     pub(super) first: usize,
     pub(super) weights: Vec<SVector<f64, D>>,
 }
 
-impl<const D: usize> Weights<D> {
+impl<const D: usize> DataWeights<D> {
     fn sum(&self, data: &[f64]) -> SVector<f64, D> {
         let terms = self.weights.iter().zip(data.iter().skip(self.first));
         terms.map(|(weight, datum)| weight * *datum).sum()
@@ -101,11 +101,11 @@ impl<const D: usize> SmoothedMotion<D> {
     /// A motion whose states are sums of data with independent errors.
     pub(super) fn by_weights(
         times: &[f64],
-        rows: Vec<Weights<D>>,
+        rows: Vec<DataWeights<D>>,
         data: &[f64],
         noise: f64,
     ) -> Self {
-        let deviation = |row: &Weights<D>| {
+        let deviation = |row: &DataWeights<D>| {
             let squares = row
                 .weights
                 .iter()
@@ -189,7 +189,7 @@ impl<const D: usize> SmoothedMotion<D> {
             Spread::Sums { rows, data } => {
                 let errors: Vec<f64> = (0..*data).map(|_| self.noise * normal()).collect();
                 let states = rows.iter().zip(&self.means);
-                let drawn = |(row, mean): (&Weights<D>, &[f64; D])| {
+                let drawn = |(row, mean): (&DataWeights<D>, &[f64; D])| {
                     (SVector::from(*mean) + row.sum(&errors)).into()
                 };
                 states.map(drawn).collect()

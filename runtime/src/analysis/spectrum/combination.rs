@@ -2,12 +2,12 @@
 
 /// A sum of whole multiples of fundamental frequencies, as 2f_+ − f_−.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Combination {
+pub struct CombinationTone {
     /// Multiple of each fundamental frequency.
     pub multiples: Vec<i32>,
 }
 
-impl Combination {
+impl CombinationTone {
     /// Returns the combination of lowest order, and of that order the nearest, whose
     /// frequency is within `tolerance_hz` of a line's; none up to `order` is.
     ///
@@ -18,13 +18,13 @@ impl Combination {
     /// # Examples
     ///
     /// ```
-    /// use branched_pendulum::analysis::Combination;
+    /// use branched_pendulum::analysis::CombinationTone;
     ///
     /// let fundamentals = [0.8731, 1.5826];
-    /// let line = Combination::find(2.0 * 0.8731 - 1.5826, &fundamentals, 5, 1e-6).unwrap();
+    /// let line = CombinationTone::find(2.0 * 0.8731 - 1.5826, &fundamentals, 5, 1e-6).unwrap();
     /// assert_eq!(line.multiples, [2, -1]);
     /// assert_eq!(line.named(&["f_+", "f_−"]), "2f_+ − f_−");
-    /// assert_eq!(Combination::find(1.0, &fundamentals, 5, 1e-6), None);
+    /// assert_eq!(CombinationTone::find(1.0, &fundamentals, 5, 1e-6), None);
     /// ```
     pub fn find(
         frequency_hz: f64,

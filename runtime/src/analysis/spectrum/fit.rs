@@ -36,14 +36,14 @@ const LARGEST_STEP: f64 = 0.5;
 
 /// A mean and waves beside weighted samples.
 #[derive(Clone, Debug)]
-pub(super) struct Fit<'a> {
+pub(super) struct WaveFit<'a> {
     samples: &'a [f64],
     weights: &'a [f64],
     pub(super) mean: f64,
     pub(super) waves: Vec<Wave>,
 }
 
-impl<'a> Fit<'a> {
+impl<'a> WaveFit<'a> {
     pub(super) fn new(samples: &'a [f64], weights: &'a [f64]) -> Self {
         let mut fit = Self {
             samples,

@@ -2,9 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use super::combination::Combination;
+use super::combination::CombinationTone;
 use super::error::{SpectrumError, check};
-use super::fit::{Fit, Wave, phase_at_start};
+use super::fit::{Wave, WaveFit, phase_at_start};
 use super::transform::at_grid;
 use super::window::Window;
 
@@ -66,7 +66,7 @@ impl Default for LineSearch {
 
 /// One line: amplitude · cos(2π frequency t + phase), t from the first sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
+pub struct SpectralLine {
     /// Frequency in hertz.
     pub frequency_hz: f64,
     /// Standard deviation of the frequency in hertz, if what is left beside the line were
@@ -86,7 +86,7 @@ pub struct Lines {
     /// Mean.
     pub mean: f64,
     /// The lines, the strongest first.
-    pub lines: Vec<Line>,
+    pub lines: Vec<SpectralLine>,
     /// Root mean square of what is left, weighted by the window.
     pub residual: f64,
     /// Distance in hertz within which two lines are taken for one: one cycle over the record.
@@ -97,21 +97,22 @@ impl Lines {
     /// Returns the sum of mean and lines at a time (s) from the first sample.
     pub fn value(&self, time: f64) -> f64 {
         let waves = self.lines.iter();
-        let wave =
-            |line: &Line| line.amplitude * (TAU * line.frequency_hz * time + line.phase).cos();
+        let wave = |line: &SpectralLine| {
+            line.amplitude * (TAU * line.frequency_hz * time + line.phase).cos()
+        };
         self.mean + waves.map(wave).sum::<f64>()
     }
 
-    /// Returns the name of each line as a [`Combination`] of fundamental frequencies, none
+    /// Returns the name of each line as a [`CombinationTone`] of fundamental frequencies, none
     /// where no combination up to `order` is within `tolerance_hz`.
     pub fn named(
         &self,
         fundamentals_hz: &[f64],
         order: u32,
         tolerance_hz: f64,
-    ) -> Vec<Option<Combination>> {
-        let name = |line: &Line| {
-            Combination::find(line.frequency_hz, fundamentals_hz, order, tolerance_hz)
+    ) -> Vec<Option<CombinationTone>> {
+        let name = |line: &SpectralLine| {
+            CombinationTone::find(line.frequency_hz, fundamentals_hz, order, tolerance_hz)
         };
         self.lines.iter().map(name).collect()
     }
@@ -146,7 +147,7 @@ impl LineSearch {
             });
         }
         let weights = self.window.weights(samples.len());
-        let mut fit = Fit::new(samples, &weights);
+        let mut fit = WaveFit::new(samples, &weights);
         let mut left = Left::of(&fit, &weights);
         while fit.waves.len() < self.most {
             let Some(cycles) = left.strongest(&fit.waves, self.smallest) else {
@@ -164,13 +165,13 @@ impl LineSearch {
         Ok(self.lines(&fit, &left, samples.len(), sample_rate_hz))
     }
 
-    fn lines(&self, fit: &Fit<'_>, left: &Left, count: usize, rate: f64) -> Lines {
+    fn lines(&self, fit: &WaveFit<'_>, left: &Left, count: usize, rate: f64) -> Lines {
         let unit = rate / count as f64;
         let unknown = || vec![[f64::NAN; 2]; fit.waves.len()];
         let variances = fit.variances().unwrap_or_else(unknown);
         let line = |(wave, [cycles, amplitude]): (&Wave, [f64; 2])| {
             let noise = left.beside(wave, &fit.waves);
-            Line {
+            SpectralLine {
                 frequency_hz: unit * wave.cycles,
                 deviation_hz: unit * noise * cycles.sqrt(),
                 amplitude: wave.amplitude(),
@@ -178,7 +179,7 @@ impl LineSearch {
                 phase: phase_at_start(wave, count),
             }
         };
-        let mut lines: Vec<Line> = fit.waves.iter().zip(variances).map(line).collect();
+        let mut lines: Vec<SpectralLine> = fit.waves.iter().zip(variances).map(line).collect();
         lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         Lines {
             mean: fit.mean,
@@ -210,7 +211,7 @@ struct Left {
 }
 
 impl Left {
-    fn of(fit: &Fit<'_>, weights: &[f64]) -> Self {
+    fn of(fit: &WaveFit<'_>, weights: &[f64]) -> Self {
         let residual = fit.residual();
         let weighted: Vec<f64> = weights.iter().zip(&residual).map(|(w, r)| w * r).collect();
         let total: f64 = weights.iter().sum();

@@ -4,8 +4,8 @@
 //! - [`Spectrum`]: amplitudes at the Fourier frequencies or at any others,
 //! - [`LineSearch`]: frequencies far closer than the grid of a spectrum tells them, with
 //!   their errors: the lines of a quasi-periodic motion out of a short record,
-//! - [`Combination`]: names of lines, as 2f_+ − f_−,
-//! - [`Passages`]: both of them in one stretch of time after the other, for lines that
+//! - [`CombinationTone`]: names of lines, as 2f_+ − f_−,
+//! - [`Passages`]: spectra or lines in one stretch of time after the other, for lines that
 //!   friction moves.
 
 mod amplitudes;
@@ -18,8 +18,8 @@ mod transform;
 mod window;
 
 pub use amplitudes::{Spectrum, SpectrumOptions};
-pub use combination::Combination;
+pub use combination::CombinationTone;
 pub use error::SpectrumError;
-pub use lines::{Line, LineSearch, Lines};
+pub use lines::{LineSearch, Lines, SpectralLine};
 pub use passages::{Passage, Passages};
 pub use window::Window;

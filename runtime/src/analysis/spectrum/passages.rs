@@ -1,8 +1,6 @@
 //! Spectra of one stretch of time after the other.
 
-use super::amplitudes::{Spectrum, SpectrumOptions};
 use super::error::{SpectrumError, check};
-use super::lines::{LineSearch, Lines};
 
 /// Stretches of a record, for motions whose frequencies change: those that friction damps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,46 +21,37 @@ pub struct Passage<T> {
 }
 
 impl Passages {
-    /// Returns the spectrum of each stretch at given frequencies: a spectrogram.
+    /// Returns what `find` finds in each stretch of samples taken at `sample_rate_hz`: its
+    /// spectrum, for a spectrogram, or its lines.
     ///
     /// # Errors
     ///
-    /// [`SpectrumError`], as [`Spectrum::at_frequencies`].
-    pub fn spectra(
+    /// Those of `find`; [`SpectrumError`] for samples without a spectrum, and for spans and
+    /// steps shorter than a sample.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::analysis::{LineSearch, Passages};
+    ///
+    /// // A frequency that falls by 0.01 Hz a second.
+    /// let phase = |t: f64| std::f64::consts::TAU * (2.0 * t - 0.005 * t * t);
+    /// let samples: Vec<f64> = (0..3000).map(|i| phase(0.01 * f64::from(i)).sin()).collect();
+    /// let passages = Passages { span: 10.0, step: 10.0 };
+    /// let found = passages.each(&samples, 100.0, |part| LineSearch::default().find(part, 100.0))?;
+    /// assert_eq!(found.len(), 3);
+    /// let middle = &found[1];
+    /// assert!((middle.found.lines[0].frequency_hz - (2.0 - 0.01 * middle.middle)).abs() < 1e-3);
+    /// # Ok::<(), branched_pendulum::analysis::SpectrumError>(())
+    /// ```
+    pub fn each<T>(
         &self,
         samples: &[f64],
         sample_rate_hz: f64,
-        frequencies_hz: &[f64],
-        options: SpectrumOptions,
-    ) -> Result<Vec<Passage<Spectrum>>, SpectrumError> {
-        self.each(samples, sample_rate_hz, |part| {
-            Spectrum::at_frequencies(part, sample_rate_hz, frequencies_hz, options)
-        })
-    }
-
-    /// Returns the lines of each stretch.
-    ///
-    /// # Errors
-    ///
-    /// [`SpectrumError`], as [`LineSearch::find`].
-    pub fn lines(
-        &self,
-        samples: &[f64],
-        sample_rate_hz: f64,
-        search: &LineSearch,
-    ) -> Result<Vec<Passage<Lines>>, SpectrumError> {
-        self.each(samples, sample_rate_hz, |part| {
-            search.find(part, sample_rate_hz)
-        })
-    }
-
-    fn each<T>(
-        &self,
-        samples: &[f64],
-        rate: f64,
         mut find: impl FnMut(&[f64]) -> Result<T, SpectrumError>,
     ) -> Result<Vec<Passage<T>>, SpectrumError> {
-        check(samples, rate)?;
+        check(samples, sample_rate_hz)?;
+        let rate = sample_rate_hz;
         for (name, value) in [("span", self.span), ("step", self.step)] {
             if !(value.is_finite() && value * rate >= 1.0) {
                 return Err(SpectrumError::Option { name, value });

@@ -4,7 +4,7 @@ use super::{StatisticsError, check, mean};
 
 /// The standard error of a mean, had blocks of this length been independent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Block {
+pub struct BlockLevel {
     /// Samples in a block.
     pub length: usize,
     /// Number of blocks, of all series.
@@ -43,7 +43,7 @@ pub struct Blocking {
     /// Number of samples.
     pub samples: usize,
     /// Errors by the length of the blocks, single samples first.
-    pub levels: Vec<Block>,
+    pub levels: Vec<BlockLevel>,
 }
 
 impl Blocking {
@@ -66,7 +66,7 @@ impl Blocking {
             let squares = blocks.iter().flatten().map(|value| (value - mean).powi(2));
             let free = (count - 1) as f64;
             let error = (squares.sum::<f64>() / (free * count as f64)).sqrt();
-            levels.push(Block {
+            levels.push(BlockLevel {
                 length,
                 blocks: count,
                 error,
@@ -92,9 +92,9 @@ impl Blocking {
     ///
     /// # Errors
     /// [`StatisticsError::Correlated`] where no blocks are so long.
-    pub fn error(&self) -> Result<Block, StatisticsError> {
+    pub fn error(&self) -> Result<BlockLevel, StatisticsError> {
         let alone = self.levels.first().map_or(0.0, |level| level.error);
-        let long = |level: &&Block| {
+        let long = |level: &&BlockLevel| {
             let ratio = if alone > 0.0 {
                 level.error / alone
             } else {

@@ -11,6 +11,19 @@ pub struct Estimate {
     pub error: f64,
 }
 
+impl Estimate {
+    /// The mean of independent values.
+    pub(crate) fn of_independent(values: &[f64]) -> Self {
+        let count = values.len() as f64;
+        let value = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|other| (other - value).powi(2)).sum();
+        Self {
+            value,
+            error: (squares / (count * (count - 1.0))).sqrt(),
+        }
+    }
+}
+
 /// The error of any function of an ensemble, by leaving out one of its `members` after
 /// the other: √((k − 1)/k Σ (f_i − f̄)²).
 ///

@@ -17,7 +17,7 @@ mod jackknife;
 mod transient;
 
 pub use average::Average;
-pub use blocking::{Block, Blocking};
+pub use blocking::{BlockLevel, Blocking};
 pub use error::StatisticsError;
 pub use jackknife::{Estimate, jackknife};
 pub use transient::{Drift, transient};

@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::error::{TruncationError, check_length};
+use super::small_coordinates;
 use crate::integrate::{Options, Verner98};
 use crate::system::{Pendulum, State, SymmetricCoordinates};
 use crate::transfer_forms::TransferForms;
@@ -44,14 +45,7 @@ impl Background {
         let n = <M as Pendulum<f64>>::LINKS;
         check_length("coordinates of the release", n, release)?;
         let mut start = release.to_vec();
-        for &index in M::SMALL_SECTORS
-            .iter()
-            .flat_map(|sector| sector.coordinates)
-        {
-            if let Some(difference) = start.get_mut(index) {
-                *difference = 0.0;
-            }
-        }
+        small_coordinates::<M>().for_each(|index| start[index] = 0.0);
         let mut largest = start.iter().map(|value| value.abs()).collect::<Vec<_>>();
         largest.resize(2 * n, 0.0);
         Verner98::new(Options::with_tolerance(1e-10)).integrate(

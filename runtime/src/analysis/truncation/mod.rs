@@ -69,8 +69,7 @@ pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};
 pub use trajectories::AlongTrajectories;
 
-use crate::transfer_forms::TransferForm;
-#[cfg(doc)]
+use crate::system::Pendulum;
 use crate::transfer_forms::TransferForms;
 
 /// `count` values from `low` to `high`, both positive, with equal ratios.
@@ -82,18 +81,9 @@ pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Indices of the truncated forms and of the exact one.
-fn split(forms: &[TransferForm]) -> Result<(Vec<usize>, usize), TruncationError> {
-    let exact = forms.iter().position(|form| *form == TransferForm::Exact);
-    let exact = exact.ok_or(TruncationError::NoExactForm)?;
-    Ok((
-        (0..forms.len()).filter(|form| *form != exact).collect(),
-        exact,
-    ))
-}
-
-/// The truncated forms.
-fn truncated(forms: &[TransferForm]) -> Vec<TransferForm> {
-    let truncated = |form: &&TransferForm| **form != TransferForm::Exact;
-    forms.iter().filter(truncated).copied().collect()
+/// Indices of the coordinates that are small differences.
+fn small_coordinates<M: TransferForms<f64>>() -> impl Iterator<Item = usize> {
+    let sectors = M::SMALL_SECTORS.iter();
+    let indices = sectors.flat_map(|sector| sector.coordinates).copied();
+    indices.filter(|&index| index < <M as Pendulum<f64>>::LINKS)
 }

@@ -1,10 +1,9 @@
 //! Amplitudes of small differences, and all forms of W at a state.
 
 use super::error::TruncationError;
-use super::split;
 use crate::model::Transfer;
 use crate::system::Pendulum;
-use crate::transfer_forms::TransferForms;
+use crate::transfer_forms::{TransferForm, TransferForms};
 
 /// Difference at which the restoring acceleration is measured, rad: emitted
 /// code keeps the digits of small differences, and their cubes are lost.
@@ -74,7 +73,7 @@ pub fn amplitude<M: TransferForms<f64>>(
 pub(super) struct Powers<'m, M> {
     model: &'m M,
     /// Indices of the truncated forms.
-    truncated: Vec<usize>,
+    indices: Vec<usize>,
     /// Index of the exact form.
     reference: usize,
     momenta: Vec<f64>,
@@ -82,27 +81,31 @@ pub(super) struct Powers<'m, M> {
     /// W exact, by sector.
     pub(super) exact: Vec<f64>,
     /// W of the truncated forms, by form, then by sector.
-    pub(super) forms: Vec<f64>,
+    pub(super) truncated: Vec<f64>,
 }
 
 impl<'m, M: TransferForms<f64>> Powers<'m, M> {
     pub(super) fn new(model: &'m M) -> Result<Self, TruncationError> {
-        let (truncated, reference) = split(M::TRANSFER_FORMS)?;
+        let is_exact = |form: &usize| M::TRANSFER_FORMS[*form] == TransferForm::Exact;
+        let (exact, indices): (Vec<usize>, Vec<usize>) =
+            (0..M::TRANSFER_FORMS.len()).partition(is_exact);
+        let reference = *exact.first().ok_or(TruncationError::NoExactForm)?;
         let receivers = M::RECEIVERS.len();
         Ok(Self {
             model,
             momenta: vec![0.0; <M as Pendulum<f64>>::LINKS],
             found: vec![Transfer::default(); receivers],
             exact: vec![0.0; receivers],
-            forms: vec![0.0; receivers * truncated.len()],
-            truncated,
+            truncated: vec![0.0; receivers * indices.len()],
+            indices,
             reference,
         })
     }
 
-    /// Number of truncated forms.
-    pub(super) fn count(&self) -> usize {
-        self.truncated.len()
+    /// The truncated forms.
+    pub(super) fn forms(&self) -> Vec<TransferForm> {
+        let forms = self.indices.iter().map(|&form| M::TRANSFER_FORMS[form]);
+        forms.collect()
     }
 
     /// Evaluates all forms at symmetric coordinates and their rates.
@@ -115,7 +118,8 @@ impl<'m, M: TransferForms<f64>> Powers<'m, M> {
             *exact = found.total();
         }
         let receivers = self.found.len().max(1);
-        for (&form, row) in self.truncated.iter().zip(self.forms.chunks_mut(receivers)) {
+        let rows = self.truncated.chunks_mut(receivers);
+        for (&form, row) in self.indices.iter().zip(rows) {
             self.model
                 .transfers_into(form, coordinates, &self.momenta, &mut self.found);
             for (power, found) in row.iter_mut().zip(&self.found) {

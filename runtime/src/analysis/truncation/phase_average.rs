@@ -7,7 +7,7 @@ use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_bounds, check_positive};
 use super::motion::{Powers, sector_frequencies};
 use super::random::Random;
-use super::truncated;
+use super::small_coordinates;
 use crate::system::Pendulum;
 use crate::transfer_forms::TransferForms;
 
@@ -48,22 +48,20 @@ impl PhaseAverage {
         check_amplitudes(&self.amplitudes)?;
         let mut powers = Powers::new(model)?;
         let unit = self.unit_states(model)?;
-        let small = small_coordinates::<M>();
         let mut all = Vec::with_capacity(self.amplitudes.len());
         let n = <M as Pendulum<f64>>::LINKS;
         let mut state = vec![0.0; 2 * n];
         for &amplitude in &self.amplitudes {
-            let mut sums = SquareSums::new(M::RECEIVERS.len(), powers.count());
+            let mut sums = SquareSums::new(M::RECEIVERS.len(), powers.forms().len());
             for unit in unit.chunks_exact(2 * n) {
-                scale(unit, &small, amplitude, &mut state);
+                scale::<M>(unit, amplitude, &mut state);
                 let (coordinates, rates) = state.split_at(n);
                 powers.evaluate(coordinates, rates);
-                sums.add(&powers.exact, &powers.forms);
+                sums.add(&powers.exact, &powers.truncated);
             }
             all.push((amplitude, sums));
         }
-        let forms = truncated(M::TRANSFER_FORMS);
-        Ok(curves(M::RECEIVERS, &forms, &all))
+        Ok(curves(M::RECEIVERS, &powers.forms(), &all))
     }
 
     /// The states of one amplitude (rad) in canonical variables: what a program
@@ -79,11 +77,10 @@ impl PhaseAverage {
     ) -> Result<Vec<CanonicalState>, TruncationError> {
         check_positive("an amplitude", amplitude)?;
         let unit = self.unit_states(model)?;
-        let small = small_coordinates::<M>();
         let n = <M as Pendulum<f64>>::LINKS;
         let canonical = |unit: &[f64]| {
             let mut coordinates = vec![0.0; 2 * n];
-            scale(unit, &small, amplitude, &mut coordinates);
+            scale::<M>(unit, amplitude, &mut coordinates);
             let rates = coordinates.split_off(n);
             let mut momenta = vec![0.0; n];
             model.symmetric_momenta_into(&coordinates, &rates, &mut momenta);
@@ -100,13 +97,13 @@ impl PhaseAverage {
         check_bounds("bounds of the angles", n, angles)?;
         check_bounds("bounds of the rates", n, rates)?;
         let frequencies = sector_frequencies(model)?;
-        let small = small_coordinates::<M>();
+        let small: Vec<usize> = small_coordinates::<M>().collect();
         let mut random = Random::new(self.seed);
         let mut states = Vec::with_capacity(2 * n * self.states);
         for _ in 0..self.states {
             let begin = states.len();
             for (index, bound) in angles.iter().chain(rates).enumerate() {
-                states.push(if small[index % n] {
+                states.push(if small.contains(&(index % n)) {
                     0.0
                 } else {
                     random.within(*bound)
@@ -124,24 +121,11 @@ impl PhaseAverage {
     }
 }
 
-/// Returns true for each coordinate that is a small difference.
-fn small_coordinates<M: TransferForms<f64>>() -> Vec<bool> {
-    let mut small = vec![false; <M as Pendulum<f64>>::LINKS];
-    for &index in M::SMALL_SECTORS
-        .iter()
-        .flat_map(|sector| sector.coordinates)
-    {
-        if let Some(small) = small.get_mut(index) {
-            *small = true;
-        }
-    }
-    small
-}
-
 /// A unit state with its small differences made `amplitude` times as large.
-fn scale(unit: &[f64], small: &[bool], amplitude: f64, out: &mut [f64]) {
-    let small = small.iter().cycle();
-    for ((out, unit), small) in out.iter_mut().zip(unit).zip(small) {
-        *out = if *small { amplitude * unit } else { *unit };
+fn scale<M: TransferForms<f64>>(unit: &[f64], amplitude: f64, out: &mut [f64]) {
+    out.copy_from_slice(unit);
+    for index in small_coordinates::<M>() {
+        out[index] *= amplitude;
+        out[<M as Pendulum<f64>>::LINKS + index] *= amplitude;
     }
 }

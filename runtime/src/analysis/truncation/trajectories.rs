@@ -1,9 +1,9 @@
 //! Errors along exact motions.
 
 use super::curve::{ErrorCurve, SquareSums, curves};
-use super::error::{TruncationError, check_length, check_positive};
+use super::error::{TruncationError, check_amplitudes, check_length, check_positive};
 use super::motion::{Powers, amplitude, sector_frequencies};
-use super::truncated;
+use super::small_coordinates;
 use crate::integrate::{Options, Tolerance, Verner98};
 use crate::system::{Pendulum, State, SymmetricCoordinates};
 use crate::transfer_forms::TransferForms;
@@ -56,11 +56,11 @@ impl AlongTrajectories {
         check_positive("the duration", self.duration)?;
         check_positive("the number of samples per second", self.sampling)?;
         let [low, high] = self.amplitudes;
-        super::error::check_amplitudes(&self.amplitudes)?;
+        check_amplitudes(&self.amplitudes)?;
         let frequencies = sector_frequencies(model)?;
         let mut powers = Powers::new(model)?;
         let per_bin = (high / low).ln() / self.bins as f64;
-        let empty = SquareSums::new(M::RECEIVERS.len(), powers.count());
+        let empty = SquareSums::new(M::RECEIVERS.len(), powers.forms().len());
         let mut bins = vec![empty; self.bins];
         let samples = (self.duration * self.sampling).floor() as u64;
         let times: Vec<f64> = (0..=samples)
@@ -74,14 +74,7 @@ impl AlongTrajectories {
         let method = Verner98::new(options);
         for &disturbance in &self.disturbances {
             let mut start = self.release.clone();
-            for &index in M::SMALL_SECTORS
-                .iter()
-                .flat_map(|sector| sector.coordinates)
-            {
-                if let Some(difference) = start.get_mut(index) {
-                    *difference = disturbance;
-                }
-            }
+            small_coordinates::<M>().for_each(|index| start[index] = disturbance);
             let start = State::at_rest(0.0, &start);
             let visit = |_: f64, state: &[f64]| {
                 let (coordinates, rates) = state.split_at(n);
@@ -92,7 +85,7 @@ impl AlongTrajectories {
                     && let Some(sums) = bins.get_mut(bin as usize)
                 {
                     powers.evaluate(coordinates, rates);
-                    sums.add(&powers.exact, &powers.forms);
+                    sums.add(&powers.exact, &powers.truncated);
                 }
             };
             method.sample(&SymmetricCoordinates(model), &start, &times, visit)?;
@@ -103,7 +96,6 @@ impl AlongTrajectories {
             .enumerate()
             .map(|(bin, sums)| (centre(bin), sums))
             .collect();
-        let forms = truncated(M::TRANSFER_FORMS);
-        Ok(curves(M::RECEIVERS, &forms, &sums))
+        Ok(curves(M::RECEIVERS, &powers.forms(), &sums))
     }
 }

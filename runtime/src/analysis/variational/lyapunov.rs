@@ -3,7 +3,10 @@
 use core::ops::ControlFlow;
 use std::fmt;
 
+use nalgebra::DMatrix;
+
 use super::{Linearised, Variational};
+use crate::analysis::statistics::Estimate;
 use crate::integrate::{IntegrationError, Integrator};
 use crate::system::State;
 
@@ -180,9 +183,7 @@ impl Lyapunov {
             }
             let parts = logarithms.chunks_exact(length).take(PARTS);
             let means: Vec<f64> = parts.map(|rows| mean(rows, index)).collect();
-            let middle = means.iter().sum::<f64>() / PARTS as f64;
-            let squares: f64 = means.iter().map(|m| (m - middle) * (m - middle)).sum();
-            (squares / (PARTS * (PARTS - 1)) as f64).sqrt()
+            Estimate::of_independent(&means).error
         };
         Ok(LyapunovSpectrum {
             exponents: (0..count).map(|index| mean(&logarithms, index)).collect(),
@@ -192,28 +193,14 @@ impl Lyapunov {
     }
 }
 
-/// Gram–Schmidt's process, modified, on vectors of length `n` that follow each
-/// other; the logarithms of the lengths that it takes out. None if one is zero
-/// or not finite.
+/// Makes vectors of length `n` that follow each other orthonormal; returns the logarithms of
+/// the lengths that this takes out, none if one is zero or not finite.
 fn orthonormalise(vectors: &mut [f64], n: usize) -> Option<Vec<f64>> {
-    let mut logarithms = Vec::with_capacity(vectors.len() / n);
-    for index in 0..vectors.len() / n {
-        let (done, rest) = vectors.split_at_mut(index * n);
-        let own = &mut rest[..n];
-        for unit in done.chunks(n) {
-            let part: f64 = unit.iter().zip(&*own).map(|(a, b)| a * b).sum();
-            for (value, direction) in own.iter_mut().zip(unit) {
-                *value -= part * direction;
-            }
-        }
-        let length = own.iter().map(|value| value * value).sum::<f64>().sqrt();
-        if !(length.is_finite() && length > 0.0) {
-            return None;
-        }
-        for value in own {
-            *value /= length;
-        }
-        logarithms.push(length.ln());
-    }
-    Some(logarithms)
+    let factors = DMatrix::from_column_slice(n, vectors.len() / n, vectors).qr();
+    let lengths = factors.r().diagonal().map(f64::abs);
+    let is_length = |length: &f64| length.is_finite() && *length > 0.0;
+    lengths.iter().all(is_length).then(|| {
+        vectors.copy_from_slice(factors.q().as_slice());
+        lengths.iter().map(|length| length.ln()).collect()
+    })
 }

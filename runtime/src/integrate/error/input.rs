@@ -1,14 +1,13 @@
 //! Requests that no method can answer.
 
-use core::fmt;
-
-use crate::scalar::Real;
+use alloc::string::String;
 
 /// A request that no method can answer; nothing was computed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InputError<T> {
     /// A tolerance is negative or not finite, or zero where it must not be.
+    #[error("{} is {value}: it must be finite and {}", tolerance(name, *component), range(name))]
     Tolerance {
         /// `"relative"`, `"absolute"` or `"projection"`.
         name: &'static str,
@@ -18,6 +17,7 @@ pub enum InputError<T> {
         value: T,
     },
     /// Tolerances per component do not fit the state.
+    #[error("{found} {name} tolerances given for a state of {expected} components")]
     ToleranceCount {
         /// `"relative"` or `"absolute"`.
         name: &'static str,
@@ -27,12 +27,17 @@ pub enum InputError<T> {
         found: usize,
     },
     /// Relative and absolute tolerance of a component are both zero.
+    #[error(
+        "relative and absolute tolerance of component {component} are both zero: \
+         at least one must be positive"
+    )]
     NoTolerance {
         /// Index of the component.
         component: usize,
     },
     /// A step size in the options is negative or not finite, or zero where it
     /// must not be.
+    #[error("{name} step is {value}: it must be finite and {}", range(name))]
     Step {
         /// `"initial"`, `"longest"`, `"shortest"` or `"fixed"`.
         name: &'static str,
@@ -40,11 +45,13 @@ pub enum InputError<T> {
         value: T,
     },
     /// The length of a single step is infinite or NaN.
+    #[error("the length of a step is {value}")]
     FixedStep {
         /// The step given.
         value: T,
     },
     /// The shortest step allowed is longer than the longest.
+    #[error("shortest step {shortest} is longer than the longest step {longest}")]
     StepRange {
         /// Shortest step given.
         shortest: T,
@@ -52,16 +59,19 @@ pub enum InputError<T> {
         longest: T,
     },
     /// Beta is outside 0 to 0.2.
+    #[error("beta is {value}: it must be between 0 and 0.2")]
     Beta {
         /// The beta given.
         value: T,
     },
     /// Beta is given to a method whose steps it has no part in.
+    #[error("beta is {value}: this method has no use for it, leave it zero")]
     BetaUnused {
         /// The beta given.
         value: T,
     },
     /// A Taylor method of an order that there is not.
+    #[error("the order is {order}: it must be between {smallest} and {largest}")]
     Order {
         /// The order given.
         order: usize,
@@ -71,8 +81,19 @@ pub enum InputError<T> {
         largest: usize,
     },
     /// Taylor series are asked for where the equations give no coefficients.
+    #[error(
+        "these equations give no Taylor coefficients: a model does so where its description says \
+         `emit(taylor)`; all other methods need rates alone"
+    )]
     NoSeries,
     /// A splitting is asked for where H is not T(p) + U(q).
+    #[error(
+        "the {} {coordinate} depends on the {}, by {change} of its size: H is not T(p) + U(q), so \
+         that a splitting would not be symplectic and hardly consistent; Gauss methods need no such \
+         form",
+        rate.words()[0],
+        rate.words()[1]
+    )]
     NotSeparable {
         /// Index of the coordinate whose rate, or whose momentum's rate, depends
         /// on what it must not.
@@ -83,8 +104,10 @@ pub enum InputError<T> {
         change: T,
     },
     /// The state has no components.
+    #[error("the state has no components")]
     EmptyState,
     /// The state does not fit the equations.
+    #[error("the state has {found} components, the equations have {expected}")]
     Dimension {
         /// Dimension of the equations.
         expected: usize,
@@ -92,6 +115,7 @@ pub enum InputError<T> {
         found: usize,
     },
     /// A checkpoint of another method, or of other equations.
+    #[error("the checkpoint has {found} numbers of a method, this one remembers {expected}")]
     Checkpoint {
         /// Numbers that this method remembers.
         expected: usize,
@@ -100,6 +124,10 @@ pub enum InputError<T> {
     },
     /// A system of an ensemble in lanes has not as many constants as the first
     /// one: [`Cast`](crate::system::Cast) says what it takes.
+    #[error(
+        "the system converts {found} constants, the first of the ensemble {expected}: in lanes all \
+         must have the same"
+    )]
     Constants {
         /// Constants of the first one.
         expected: usize,
@@ -108,13 +136,18 @@ pub enum InputError<T> {
     },
     /// A system of an ensemble in lanes differs from the first one in more than
     /// constants: [`LaneOde::shape`](crate::system::LaneOde::shape).
+    #[error(
+        "the system differs from the first of the ensemble in more than constants: in lanes it cannot"
+    )]
     Shape,
     /// The starting time is infinite or NaN.
+    #[error("the starting time is {value}")]
     StartTime {
         /// The time given.
         value: T,
     },
     /// A component of the starting state is infinite or NaN.
+    #[error("component {component} of the starting state is {value}")]
     StartValue {
         /// Index of the component.
         component: usize,
@@ -122,6 +155,7 @@ pub enum InputError<T> {
         value: T,
     },
     /// A time to integrate to, or to sample at, is infinite or NaN.
+    #[error("requested time {index} is {value}")]
     Time {
         /// Index among the times given; 0 for an end time.
         index: usize,
@@ -129,6 +163,9 @@ pub enum InputError<T> {
         value: T,
     },
     /// Times to sample at turn back: they must run one way from the start.
+    #[error(
+        "requested time {index} is {value}, after {previous}: times must run one way from the start"
+    )]
     TimeOrder {
         /// Index of the offending time.
         index: usize,
@@ -150,131 +187,28 @@ pub enum Inseparable {
     Force,
 }
 
-impl<T: Real> fmt::Display for InputError<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Inseparable {
+    /// The rate, and what it depends on.
+    fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Tolerance {
-                name: "projection",
-                component: _,
-                value,
-            } => write!(
-                f,
-                "tolerance of the projection is {value}: it must be finite and positive"
-            ),
-            Self::Tolerance {
-                name,
-                component,
-                value,
-            } => write!(
-                f,
-                "{name} tolerance of component {component} is {value}: \
-                 it must be finite and not negative"
-            ),
-            Self::ToleranceCount {
-                name,
-                expected,
-                found,
-            } => {
-                write!(
-                    f,
-                    "{found} {name} tolerances given for a state of {expected} components"
-                )
-            }
-            Self::NoTolerance { component } => write!(
-                f,
-                "relative and absolute tolerance of component {component} are both zero: \
-                 at least one must be positive"
-            ),
-            Self::Step {
-                name: "shortest",
-                value,
-            } => {
-                write!(
-                    f,
-                    "shortest step is {value}: it must be finite and not negative"
-                )
-            }
-            Self::Step { name, value } => {
-                write!(f, "{name} step is {value}: it must be finite and positive")
-            }
-            Self::FixedStep { value } => write!(f, "the length of a step is {value}"),
-            Self::StepRange { shortest, longest } => {
-                write!(
-                    f,
-                    "shortest step {shortest} is longer than the longest step {longest}"
-                )
-            }
-            Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
-            Self::BetaUnused { value } => write!(
-                f,
-                "beta is {value}: this method has no use for it, leave it zero"
-            ),
-            Self::Order {
-                order,
-                smallest,
-                largest,
-            } => write!(
-                f,
-                "the order is {order}: it must be between {smallest} and {largest}"
-            ),
-            Self::NoSeries => write!(
-                f,
-                "these equations give no Taylor coefficients: a model does so where its \
-                 description says `emit(taylor)`; all other methods need rates alone"
-            ),
-            Self::NotSeparable {
-                coordinate,
-                rate,
-                change,
-            } => {
-                let (rate, cause) = match rate {
-                    Inseparable::Velocity => ("velocity of coordinate", "coordinates"),
-                    Inseparable::Force => ("rate of momentum", "momenta"),
-                };
-                write!(
-                    f,
-                    "the {rate} {coordinate} depends on the {cause}, by {change} of its size: \
-                     H is not T(p) + U(q), \
-                     so that a splitting would not be symplectic and hardly consistent; \
-                     Gauss methods need no such form"
-                )
-            }
-            Self::EmptyState => write!(f, "the state has no components"),
-            Self::Dimension { expected, found } => {
-                write!(
-                    f,
-                    "the state has {found} components, the equations have {expected}"
-                )
-            }
-            Self::Checkpoint { expected, found } => write!(
-                f,
-                "the checkpoint has {found} numbers of a method, this one remembers {expected}"
-            ),
-            Self::Constants { expected, found } => write!(
-                f,
-                "the system converts {found} constants, the first of the ensemble {expected}: \
-                 in lanes all must have the same"
-            ),
-            Self::Shape => f.write_str(
-                "the system differs from the first of the ensemble in more than constants: in \
-                 lanes it cannot",
-            ),
-            Self::StartTime { value } => write!(f, "the starting time is {value}"),
-            Self::StartValue { component, value } => {
-                write!(f, "component {component} of the starting state is {value}")
-            }
-            Self::Time { index, value } => write!(f, "requested time {index} is {value}"),
-            Self::TimeOrder {
-                index,
-                previous,
-                value,
-            } => write!(
-                f,
-                "requested time {index} is {value}, after {previous}: \
-                 times must run one way from the start"
-            ),
+            Self::Velocity => ["velocity of coordinate", "coordinates"],
+            Self::Force => ["rate of momentum", "momenta"],
         }
     }
 }
 
-impl<T: Real> core::error::Error for InputError<T> {}
+/// A tolerance in a message.
+fn tolerance(name: &str, component: usize) -> String {
+    match name {
+        "projection" => String::from("tolerance of the projection"),
+        _ => alloc::format!("{name} tolerance of component {component}"),
+    }
+}
+
+/// Which numbers a tolerance or a step of this name may be.
+fn range(name: &str) -> &'static str {
+    match name {
+        "relative" | "absolute" | "shortest" => "not negative",
+        _ => "positive",
+    }
+}

@@ -13,12 +13,12 @@ use super::pair::EmbeddedPair;
 use super::stages::{MOST_STAGES, RightHandSide, StepSpan, StepStages, sum, terms};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::lanes::registers::{
-    Numbers, WIDEST, numbers, numbers_in, register, set_lane, smallest_divisor,
+    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, smallest_divisor,
 };
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
 use crate::integrate::steps::StepLimits;
-use crate::scalar::{Lane, Real};
+use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::simd::{Part, outlined};
 use crate::system::{LaneOde, State};
@@ -72,16 +72,6 @@ impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
     fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
         O::rates_of(&self.registers, time, state, rates);
     }
-}
-
-/// Zero where all these numbers are finite and `check` is zero, NaN elsewhere.
-#[inline(always)]
-fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R {
-    for value in values {
-        // Infinity times zero is NaN.
-        check = value.mul_add(R::from_f64(0.0), check);
-    }
-    check
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {

@@ -118,29 +118,10 @@ pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 /// off: the memory of the two is not part of a [`State`].
 ///
 /// [`Report::next_step`]: super::Report::next_step
+#[derive(Clone, Debug)]
 pub struct ExplicitRungeKutta<M, T> {
     pub(super) options: Options<T>,
     pair: PhantomData<M>,
-}
-
-impl<M, T: Clone> Clone for ExplicitRungeKutta<M, T> {
-    fn clone(&self) -> Self {
-        Self {
-            options: self.options.clone(),
-            pair: PhantomData,
-        }
-    }
-}
-
-impl<M, T: core::fmt::Debug> core::fmt::Debug for ExplicitRungeKutta<M, T> {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { options, pair } = self;
-        formatter
-            .debug_struct("ExplicitRungeKutta")
-            .field("options", options)
-            .field("pair", pair)
-            .finish()
-    }
 }
 
 impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {

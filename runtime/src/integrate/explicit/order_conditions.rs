@@ -115,11 +115,11 @@ pub(super) fn order(trees: &[RootedTree], weights: &[(usize, f64)]) -> u32 {
     missed.map_or(highest, |tree| tree.order - 1)
 }
 
-/// Weights of all stages at one fraction of the step, with the sums of the
+/// StageWeights of all stages at one fraction of the step, with the sums of the
 /// magnitudes that they are formed of.
-pub(super) struct Weights(Vec<(f64, f64)>);
+pub(super) struct StageWeights(Vec<(f64, f64)>);
 
-impl Weights {
+impl StageWeights {
     pub(super) fn add(&mut self, stage: usize, value: f64) {
         self.0[stage - 1].0 += value;
         self.0[stage - 1].1 += value.abs();
@@ -128,10 +128,10 @@ impl Weights {
 
 /// Asserts that the dense output whose weights `fill(s, weights)` adds up has
 /// the order `order` at every fraction s of the step.
-pub(super) fn continuous(trees: &[RootedTree], order: u32, fill: impl Fn(f64, &mut Weights)) {
+pub(super) fn continuous(trees: &[RootedTree], order: u32, fill: impl Fn(f64, &mut StageWeights)) {
     for s in [0.1_f64, 0.3, 0.5, 0.7, 0.9, 1.0] {
         for tree in trees.iter().filter(|tree| tree.order <= order) {
-            let mut weights = Weights(std::vec![(0.0, 0.0); tree.stages.len()]);
+            let mut weights = StageWeights(std::vec![(0.0, 0.0); tree.stages.len()]);
             fill(s, &mut weights);
             let both = weights.0.iter().zip(&tree.stages);
             let (sum, size) = both.fold((0.0, 0.0), |(sum, size), (weight, stage)| {

@@ -91,8 +91,8 @@ pub struct StepStages<W> {
     pub(super) dense: Vec<W>,
 }
 
-/// `make_stages!(self, system, span, first, last)` makes these stages of the pair `M`, each in code of its own: rows of tables are constants there, and their
-/// sums are written out.
+/// `make_stages!(self, system, span, first, last)` makes these stages of the pair `M`, each
+/// in code of its own: rows of tables are constants there, and their sums are written out.
 macro_rules! make_stages {
     ($self:ident, $system:ident, $span:ident, $first:expr, $last:expr) => {
         make_stages!($self, $system, $span, $first, $last;

@@ -87,7 +87,6 @@ impl<M: EmbeddedPair, T: Real> PairSteps<M, T> {
 }
 
 impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, T> {
-    #[inline(always)]
     fn step(
         &mut self,
         system: &mut Evaluator<'_, T, O>,

@@ -100,7 +100,6 @@ impl<S, T: Real> GridSteps<S, T> {
 }
 
 impl<S: FixedStep<T, O>, T: Real, O: ?Sized> Steps<T, O> for GridSteps<S, T> {
-    #[inline(always)]
     fn step(
         &mut self,
         system: &mut Evaluator<'_, T, O>,

@@ -5,9 +5,7 @@ use alloc::vec::Vec;
 use crate::integrate::options::Options;
 use crate::scalar::Real;
 use crate::simd::Simd;
-
-/// Numbers in the widest register.
-pub(crate) const WIDEST: usize = 16;
+pub(crate) use crate::simd::WIDEST;
 
 /// One number a lane; those beyond the last lane mean nothing.
 pub(crate) type Numbers<T> = [T; WIDEST];
@@ -49,6 +47,16 @@ pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: 
     let mut changed = numbers(*target);
     changed[lane] = value;
     *target = register(&changed);
+}
+
+/// Zero where all these numbers are finite and `check` is zero, NaN elsewhere.
+#[inline(always)]
+pub(crate) fn check_finite<T: Real, R: Simd<T>>(mut check: R, values: &[R]) -> R {
+    for value in values {
+        // Infinity times zero is NaN.
+        check = value.mul_add(R::from_f64(0.0), check);
+    }
+    check
 }
 
 /// The smallest power of two whose inverse is finite.

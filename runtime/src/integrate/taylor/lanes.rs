@@ -11,7 +11,7 @@ use super::root::least_inverse_roots;
 use crate::integrate::error::InputError;
 use crate::integrate::explicit::StepSpan;
 use crate::integrate::lanes::registers::{
-    Numbers, WIDEST, numbers, numbers_in, register, set_lane, tolerances,
+    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, tolerances,
 };
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
@@ -97,16 +97,10 @@ pub struct TaylorInLanes<'a, P: Cast<T>, T: Lane, R: Simd<T>> {
 }
 
 impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
-    /// Zero where all these numbers are finite, NaN elsewhere.
+    /// Zero in lanes where all these numbers are finite, NaN in others.
     #[inline(always)]
-    fn check(values: &[R]) -> R {
-        let zero = R::from_f64(0.0);
-        let mut check = zero;
-        for value in values {
-            // Infinity times zero is NaN.
-            check = value.mul_add(zero, check);
-        }
-        check
+    fn check(values: &[R]) -> Numbers<T> {
+        numbers(check_finite(R::from_f64(0.0), values))
     }
 
     /// Sizes of the last two terms in units of their tolerances: the largest of
@@ -153,7 +147,7 @@ impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
     fn fail(&self, runs: &mut Runs<T>, lane: usize) {
         let start = self.state(lane, runs.time[lane]);
         // What is not finite further down shows in the end of the step.
-        let place = if numbers(Self::check(&self.coefficients))[lane].is_finite() {
+        let place = if Self::check(&self.coefficients)[lane].is_finite() {
             (runs.end_time[lane], numbers_in(&self.end, lane))
         } else {
             (start.time, start.values.clone())
@@ -204,7 +198,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
             ),
         );
         let n = 2 * P::LINKS;
-        let finite = numbers(Self::check(&self.coefficients[(self.order - 1) * n..]));
+        let finite = Self::check(&self.coefficients[(self.order - 1) * n..]);
         let [before, last] = self.last_two().map(numbers);
         let roots = least_inverse_roots::<T, WIDEST>(
             R::LANES,
@@ -258,7 +252,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
                 self.end[i] = self.start[i] + change;
             }
         }
-        self.finite = numbers(Self::check(&self.end));
+        self.finite = Self::check(&self.end);
     }
 
     #[inline(always)]

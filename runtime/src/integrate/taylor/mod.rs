@@ -147,11 +147,11 @@ fn order_for<T: Real>(tolerance: T) -> usize {
 /// these are all zero.
 fn smallest<T: Real>(options: &Options<T>) -> T {
     let least = |tolerance: &Tolerance<T>| {
-        let values = match tolerance {
-            Tolerance::Uniform(value) => core::slice::from_ref(value),
-            Tolerance::PerComponent(values) => values.as_slice(),
-        };
-        let positive = values.iter().copied().filter(|value| *value > T::ZERO);
+        let positive = tolerance
+            .values()
+            .iter()
+            .copied()
+            .filter(|value| *value > T::ZERO);
         positive.reduce(|least, value| least.min(value))
     };
     least(&options.relative)

@@ -108,7 +108,6 @@ impl<T: Real> TaylorSteps<T> {
 }
 
 impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for TaylorSteps<T> {
-    #[inline(always)]
     fn step(
         &mut self,
         system: &mut Evaluator<'_, T, O>,

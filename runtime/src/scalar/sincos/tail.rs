@@ -3,9 +3,9 @@
 //!
 //! Horner's scheme takes five products for degree five, one after the other. With
 //! adapted coefficients (D. E. Knuth, The Art of Computer Programming 2, 3rd ed.
-//! 1997, §4.6.4) it is four products, three of which wait for each other. Their rounding errors are
-//! larger: too large for the sine, of which this part is a tenth, and nothing in the
-//! cosine, of which it is a fiftieth.
+//! 1997, §4.6.4) it is four products, three of which wait for each other. Their rounding
+//! errors are larger: too large for the sine, of which this part is a tenth, and nothing in
+//! the cosine, of which it is a fiftieth.
 
 // As for the registers.
 #![allow(unreachable_pub)]

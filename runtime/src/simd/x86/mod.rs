@@ -113,7 +113,8 @@ macro_rules! register {
             /// The register whose word `i`, of 32 bits, is `words[i]` of this one.
             #[inline(always)]
             pub(crate) fn permuted(self, words: &[u32; $count]) -> Self {
-                // SAFETY: the register exists where the machine has its instructions alone, and has as many words.
+                // SAFETY: the register exists where the machine has its instructions alone,
+                // and has as many words.
                 Self(unsafe { $words(self.0, words) })
             }
 

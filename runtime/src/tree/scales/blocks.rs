@@ -1,390 +1,296 @@
-//! The scales of a large tree block by block: neighbours of one generation with all below
-//! them have columns of their own, which stay in the cache while all scales are taken
-//! through them.
+//! The pieces of a tree that scales are taken through: all of it, or of a large tree
+//! what is above a generation, and blocks of neighbours of that generation with all below
+//! them. What is formed along a scale stays in the cache while all scales are taken
+//! through a block.
 
-use core::marker::PhantomData;
-
-use super::columns::{
-    CARRIED, DRAG, DRIVE, FLOW, FRICTION, GAIN, MOTION, OUTSIDE, PIVOT, SHIFT, ScaleColumns,
-};
+use super::columns::{BIAS, PIVOT, SHIFT, ScaleColumns, WORKING};
 use super::shape::ScaleShape;
-use super::{ByScale, ScaleEquations, Wanted, field};
+use super::{ByScale, ScaleEquations};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
-use crate::tree::block::WIDEST;
 use crate::tree::memory::take;
 
-/// Columns of which a block has a copy.
-const COPIED: [usize; 10] = [
-    MOTION,
-    MOTION + 1,
-    MOTION + 2,
-    GAIN,
-    GAIN + 1,
-    GAIN + 2,
-    FRICTION,
-    DRAG,
-    DRIVE,
-    OUTSIDE,
-];
-
-/// Parts of which it has.
-const PARTS: [usize; 6] = [
-    field::MOMENT,
-    field::MOMENT + 1,
-    field::OMEGA,
-    field::RISE,
-    field::SIDE,
-    field::SPRING,
-];
-
-/// Values that a link hands its children along a flow.
-const HANDED_DOWN: [usize; 4] = [PIVOT, PIVOT + 1, SHIFT + 2, SHIFT + 3];
-
-/// Numbers of neighbours that are kept for each scale.
-#[derive(Clone, Copy)]
-struct Kept {
-    columns: &'static [usize],
-    /// Place of the first of so many neighbours in a column of the tree.
-    slot: usize,
-    count: usize,
-    /// Place among all that is kept for a scale, and how much that is.
-    place: usize,
-    each: usize,
+/// The pieces of a tree.
+pub(super) struct Pieces {
+    /// The tree, or what is above the blocks and their first generation.
+    above: ScaleShape,
+    /// The shape of a block, and the number of its first generation in the tree.
+    block: Option<(ScaleShape, usize)>,
 }
 
-impl Kept {
-    fn end(self) -> usize {
-        self.place + self.columns.len() * self.count
-    }
-
-    /// Places of some neighbours among all that is kept.
-    fn range(self, scale: usize, index: usize, start: usize, length: usize) -> [usize; 2] {
-        let place = scale * self.each + self.place + index * self.count + start;
-        [place, place + length]
-    }
-
-    /// Keeps the numbers of some neighbours, of columns where they start at a slot.
-    fn keep<T: Scalar>(
-        self,
-        kept: &mut [T],
-        columns: &mut ScaleColumns<'_, T>,
-        scale: usize,
-        [start, length, slot]: [usize; 3],
-    ) {
-        for (index, &column) in self.columns.iter().enumerate() {
-            let numbers = columns.part_mut(column, slot, length);
-            let [place, end] = self.range(scale, index, start, numbers.len());
-            if let Some(place) = kept.get_mut(place..end) {
-                place.copy_from_slice(numbers);
-            }
-        }
-    }
-
-    /// Keeps all numbers, of columns of the tree.
-    fn keep_all<T: Scalar>(self, kept: &mut [T], columns: &mut ScaleColumns<'_, T>, scale: usize) {
-        self.keep(kept, columns, scale, [0, self.count, self.slot]);
-    }
-
-    /// Brings all back.
-    fn recall_all<T: Scalar>(self, kept: &[T], columns: &mut ScaleColumns<'_, T>, scale: usize) {
-        self.recall(kept, columns, scale, [0, self.count, self.slot]);
-    }
-
-    /// Brings the numbers of some neighbours back.
-    fn recall<T: Scalar>(
-        self,
-        kept: &[T],
-        columns: &mut ScaleColumns<'_, T>,
-        scale: usize,
-        [start, length, slot]: [usize; 3],
-    ) {
-        for (index, &column) in self.columns.iter().enumerate() {
-            let numbers = columns.part_mut(column, slot, length);
-            let [place, end] = self.range(scale, index, start, numbers.len());
-            if let Some(place) = kept.get(place..end) {
-                numbers.copy_from_slice(place);
-            }
-        }
-    }
-}
-
-/// Values that are kept at a cut.
-#[derive(Clone, Copy)]
-struct Cut {
-    /// Handed up by the first generation below the cut.
-    up: Kept,
-    /// Handed down by the last one above it.
-    down: Kept,
-    /// Changes of velocities of all links above.
-    shifts: Kept,
-}
-
-impl Cut {
-    fn new(shape: &ScaleShape, generation: usize) -> Self {
-        let (below, above) = (shape.at(generation), shape.at(generation - 1));
-        let kept = |columns: &'static [usize], slot: usize, count: usize, place: usize| Kept {
-            columns,
-            slot,
-            count,
-            place,
-            each: 0,
+impl Pieces {
+    /// None where there are too many generations.
+    pub(super) fn new(copies: &[usize], shape: &ScaleShape) -> Option<Self> {
+        let Some((cut, width)) = shape.cut() else {
+            let (above, block) = (*shape, None);
+            return Some(Self { above, block });
         };
-        let mut up = kept(&[CARRIED, CARRIED + 1], below.slot, below.count, 0);
-        let mut down = kept(&HANDED_DOWN, above.slot, above.count, up.end());
-        let mut shifts = kept(&[SHIFT, SHIFT + 1], 0, below.slot, down.end());
-        let each = shifts.end();
-        for kept in [&mut up, &mut down, &mut shifts] {
-            kept.each = each;
+        let above = copies.get(..=cut)?.iter().copied();
+        let below = copies.get(cut..)?.iter().enumerate();
+        let below = below.map(|(number, &copies)| if number == 0 { width } else { copies });
+        Some(Self {
+            above: ScaleShape::new(above)?,
+            block: Some((ScaleShape::new(below)?, cut)),
+        })
+    }
+
+    /// Numbers that are formed above the blocks, or in a tree without any: along each
+    /// scale by itself, which blocks need later, or along one after the other; and two for
+    /// each link and scale. Then those in a block.
+    fn rooms(&self, scales: usize) -> [[usize; 2]; 2] {
+        let room = |column: usize, sets: usize| [sets * WORKING * column, 2 * scales * column];
+        match &self.block {
+            Some((block, _)) => [room(self.above.column, scales), room(block.column, 1)],
+            None => [room(self.above.column, 1), [0; 2]],
         }
-        Self { up, down, shifts }
+    }
+
+    /// Returns how many numbers are formed along all scales.
+    pub(super) fn room(&self, scales: usize) -> usize {
+        self.rooms(scales).as_flattened().iter().sum()
     }
 }
 
-/// The shape of a block.
-fn below(copies: &[usize], generation: usize, width: usize) -> Option<ScaleShape> {
-    let below = copies.get(generation..)?.iter().enumerate();
-    ScaleShape::new(below.map(|(number, &copies)| if number == 0 { width } else { copies }))
+/// Links of consecutive generations.
+pub(super) struct Piece<'p> {
+    /// The generations as they stand in the piece's own columns.
+    pub(super) own: &'p ScaleShape,
+    /// Number of the first one in the tree, and how many are computed.
+    pub(super) first: usize,
+    pub(super) count: usize,
+    /// The first link in the first generation, and how many links that has in the tree.
+    start: usize,
+    stride: usize,
 }
 
-/// Room for the columns of a block and for its parts.
-fn block_room(shape: &ScaleShape, scales: usize) -> [usize; 2] {
-    [(FLOW + 2 * scales) * shape.column, field::ALL * shape.parts]
+impl Piece<'_> {
+    /// Places of the links of a generation on the way up: of all neighbours.
+    #[inline(always)]
+    pub(super) fn upwards(&self, tree: &ScaleShape, generation: usize, period: usize) -> Places {
+        self.places(tree, generation, period, self.own.at(generation).count)
+    }
+
+    /// Places on the way down: of neighbours whose parents are neighbours.
+    #[inline(always)]
+    pub(super) fn downwards(&self, tree: &ScaleShape, generation: usize) -> Places {
+        let above = self.own.at(generation.saturating_sub(1)).count;
+        self.places(tree, generation, 1, above)
+    }
+
+    #[inline(always)]
+    fn places(&self, tree: &ScaleShape, generation: usize, period: usize, all: usize) -> Places {
+        let (width, count) = (self.own.at(0).count, self.own.at(generation).count);
+        let first = tree.at(self.first + generation).slot;
+        let (length, apart) = match width == self.stride {
+            true => (all, all),
+            false => (width, self.stride),
+        };
+        Places {
+            next: Place {
+                slot: first + self.start,
+                number: 0,
+                part: self.start % period,
+                parent: 0,
+                left: length,
+            },
+            strips: count / length,
+            length,
+            apart,
+            first,
+            period,
+            parents: self.own.at(generation.saturating_sub(1)).count,
+        }
+    }
 }
 
-/// Returns how many numbers are kept at a cut.
-pub(super) fn room(copies: &[usize], shape: &ScaleShape, (cut, width): (usize, usize)) -> usize {
-    let block = match cut {
-        0 => None,
-        _ => below(copies, cut, width),
-    };
-    block.map_or(0, |block| {
-        let [columns, parts] = block_room(&block, shape.count());
-        columns + parts + shape.count() * Cut::new(shape, cut).up.each
-    })
+/// A place among the links of a generation.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    /// In columns of the tree.
+    pub(super) slot: usize,
+    /// In the generation of the piece.
+    pub(super) number: usize,
+    /// Of the link's part among those of its generation in a scale.
+    pub(super) part: usize,
+    /// Of the parent in its generation of the piece.
+    pub(super) parent: usize,
+    /// Number of neighbours from here on.
+    pub(super) left: usize,
 }
 
-/// One way through a part of the tree: which part, and how far.
-#[derive(Clone, Copy, PartialEq)]
-enum Turn {
-    /// Up through a block.
-    BlockUp,
-    /// Up and down above the blocks.
-    Above,
-    /// Up, down and up again through a block, of which what is above is known now.
-    BlockDown,
-    /// Up above the blocks: slopes.
-    Last,
-    /// All of a tree that is not cut.
-    Whole,
+/// Places of registers of neighbours, strip by strip.
+pub(super) struct Places {
+    next: Place,
+    /// Number of strips that are left, length of each, and from one to the next in columns
+    /// of the tree.
+    strips: usize,
+    length: usize,
+    apart: usize,
+    /// Where the generation starts in columns of the tree.
+    first: usize,
+    period: usize,
+    /// Number of links of the generation above.
+    parents: usize,
+}
+
+impl Places {
+    #[inline(always)]
+    pub(super) fn next(&mut self, lanes: usize) -> Option<Place> {
+        if self.strips == 0 {
+            return None;
+        }
+        let (place, next) = (self.next, &mut self.next);
+        if place.left > lanes {
+            next.slot += lanes;
+            next.number += lanes;
+            next.parent += lanes;
+            next.left -= lanes;
+            next.part += lanes;
+            if next.part >= self.period {
+                next.part -= self.period;
+            }
+        } else {
+            self.strips -= 1;
+            next.slot = place.slot + place.left + (self.apart - self.length);
+            next.number = place.number + place.left;
+            next.parent = next.number % self.parents;
+            next.left = self.length;
+            next.part = (next.slot - self.first) % self.period;
+        }
+        Some(place)
+    }
+}
+
+/// Which ways scales are taken through a piece, one after the other.
+#[derive(Clone, Copy)]
+struct Turn {
+    /// The piece is a block that starts with this link of its generation.
+    block: Option<usize>,
+    /// Up: bias forces.
+    eliminates: bool,
+    /// Down: the flow.
+    flows: bool,
+    /// Up: slopes, and sums of products.
+    ends: bool,
+}
+
+impl Turn {
+    /// The turns of a tree of so many blocks, each of so many neighbours: of a large one up
+    /// through the blocks, up and down above them, then down through them and up above
+    /// them. There the way up is taken again: that takes less time than to write down what
+    /// it forms.
+    fn number(turn: usize, blocks: usize, width: usize) -> Self {
+        let of = |block, eliminates, flows, ends| Self {
+            block,
+            eliminates,
+            flows,
+            ends,
+        };
+        match turn {
+            _ if blocks == 0 => of(None, true, true, true),
+            up if up < blocks => of(Some(up * width), true, false, false),
+            above if above == blocks => of(None, true, true, false),
+            down if down <= 2 * blocks => of(Some((down - blocks - 1) * width), true, true, true),
+            _ => of(None, false, false, true),
+        }
+    }
 }
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// Takes all scales through the tree. Of a large one up through the blocks, up and
-    /// down above them, then down through them: there the way up is taken again, which
-    /// takes less time than to write down what it forms.
+    /// Takes all scales through the tree.
     // One loop: what it calls is inlined, and long.
     #[inline(always)]
-    pub(super) fn all_scales<V: Simd<T>>(&mut self) {
-        let (generation, width) = self.shape.cut();
-        let blocks = match generation {
-            0 => 0,
-            _ => self.shape.at(generation).count / width,
+    pub(super) fn all_scales<V: Simd<T>>(&mut self, pieces: &Pieces) {
+        let (blocks, width) = match &pieces.block {
+            Some((block, cut)) => {
+                let width = block.at(0).count;
+                (self.shape.at(*cut).count / width, width)
+            }
+            None => (0, 1),
         };
-        for turn in 0..(2 * blocks + 2) {
-            let (turn, start) = match turn {
-                _ if blocks == 0 && turn > 0 => return,
-                _ if blocks == 0 => (Turn::Whole, 0),
-                up if up < blocks => (Turn::BlockUp, up * width),
-                above if above == blocks => (Turn::Above, 0),
-                down if down <= 2 * blocks => (Turn::BlockDown, (down - blocks - 1) * width),
-                _ => (Turn::Last, 0),
-            };
-            self.turn::<V>(turn, [generation, start, width]);
+        let turns = if blocks == 0 { 1 } else { 2 * blocks + 2 };
+        for turn in 0..turns {
+            self.turn::<V>(pieces, Turn::number(turn, blocks, width));
         }
     }
 
-    /// Takes all scales through a part of the tree.
     #[inline(always)]
-    fn turn<V: Simd<T>>(&mut self, turn: Turn, [generation, start, width]: [usize; 3]) {
+    fn turn<V: Simd<T>>(&mut self, pieces: &Pieces, turn: Turn) {
         let scales = self.shape.count();
-        let cut = (generation > 0).then(|| Cut::new(&self.shape, generation));
-        let in_block = matches!(turn, Turn::BlockUp | Turn::BlockDown);
-        let mut room = &mut *self.kept;
-        let kept = take(&mut room, cut.map_or(0, |cut| scales * cut.up.each));
-        let Wanted::Budget(budget) = &mut self.wanted else {
-            return;
+        let working = core::mem::take(&mut self.working);
+        let mut room = &mut *working;
+        let [[sets, flows], [inner, block_flows]] =
+            (pieces.rooms(scales)).map(|rooms| rooms.map(|length| take(&mut room, length)));
+        let (below, cut) = match &pieces.block {
+            Some((block, cut)) => (block, *cut),
+            None => (&pieces.above, scales),
         };
-        let whole = WholeColumns {
-            shape: &self.shape,
-            generation,
-            start,
-            width,
-        };
-        let (block_columns, block_parts);
-        let (shape, columns, parts, from) = match below(E::COPIES, generation, width) {
-            Some(shape) if in_block => {
-                let [columns, parts] = block_room(&shape, scales);
-                (block_columns, block_parts) = (take(&mut room, columns), take(&mut room, parts));
-                let mut columns = ScaleColumns {
-                    length: shape.column,
-                    numbers: &mut *block_columns,
+        let (piece, flows) = match turn.block {
+            Some(start) => {
+                let piece = Piece {
+                    own: below,
+                    first: cut,
+                    count: scales - cut,
+                    start,
+                    stride: self.shape.at(cut).count,
                 };
-                whole.copy_columns(&self.columns, &shape, &mut columns);
-                for scale in generation + 1..scales {
-                    whole.copy_parts(self.parts, &shape, block_parts, scale);
-                }
-                (shape, columns, &mut *block_parts, Some(&*self.parts))
+                (piece, block_flows)
             }
-            _ => {
-                let columns = ScaleColumns {
-                    length: self.columns.length,
-                    numbers: &mut *self.columns.numbers,
+            None => {
+                let piece = Piece {
+                    own: &pieces.above,
+                    first: 0,
+                    count: cut,
+                    start: 0,
+                    stride: 1,
                 };
-                (self.shape, columns, &mut *self.parts, None)
+                (piece, flows)
             }
         };
-        let (first, end) = match in_block {
-            true => (generation, shape.count()),
-            false => (0, self.end),
+        let mut flows = ScaleColumns {
+            numbers: flows,
+            length: piece.own.column,
         };
-        let mut piece = ByScale::<E, T> {
-            skeleton: self.skeleton,
-            columns,
-            parts,
-            kept: &mut [],
-            first,
-            end,
-            shape,
-            drive: self.drive,
-            theta: self.theta,
-            omega: self.omega,
-            torques: self.torques,
-            wanted: Wanted::Budget(budget),
-            equations: PhantomData,
-        };
+        let set = WORKING * pieces.above.column;
+        let kept = sets.len() / set.max(1);
         for scale in 0..scales {
-            let part = scale.saturating_sub(first);
-            let columns = &mut piece.columns;
-            match (turn, cut) {
-                (Turn::BlockDown, Some(Cut { down, .. })) => {
-                    let above = [start % down.count, width, 0];
-                    down.recall(kept, columns, scale, above);
-                }
-                (Turn::Above, Some(Cut { up, .. })) => up.recall_all(kept, columns, scale),
-                (Turn::Last, Some(Cut { up, shifts, .. })) => {
-                    up.recall_all(kept, columns, scale);
-                    shifts.recall_all(kept, columns, scale);
-                }
-                _ => {}
-            }
-            if let (Some(from), 0) = (from, part) {
-                whole.copy_parts(from, &piece.shape, piece.parts, scale);
-            }
-            if turn != Turn::Last {
-                piece.eliminate::<V>(part);
-            }
-            if matches!(turn, Turn::Above | Turn::Whole) {
-                piece.start_at_rest();
-            }
-            if !matches!(turn, Turn::BlockUp | Turn::Last) {
-                piece.flow::<V>(scale);
-            }
-            if !matches!(turn, Turn::BlockUp | Turn::Above) {
-                piece.slopes::<V>(part, scale);
-            }
-            let columns = &mut piece.columns;
-            match (turn, cut) {
-                (Turn::BlockUp | Turn::BlockDown, Some(Cut { up, .. })) => {
-                    up.keep(kept, columns, scale, [start, width, 0]);
-                }
-                (Turn::Above, Some(Cut { down, shifts, .. })) => {
-                    down.keep_all(kept, columns, scale);
-                    shifts.keep_all(kept, columns, scale);
-                }
-                _ => {}
-            }
-        }
-        if !matches!(turn, Turn::BlockUp | Turn::Above) {
-            piece.products::<V>();
-        }
-    }
-
-    /// Nothing moves the root's pivot along a flow.
-    fn start_at_rest(&mut self) {
-        for column in HANDED_DOWN {
-            let root = self.columns.part_mut(column, 0, 1);
-            root.fill(T::from_f64(0.0));
-        }
-    }
-}
-
-/// The tree that a block is part of, and where the block stands there.
-struct WholeColumns<'a> {
-    shape: &'a ScaleShape,
-    generation: usize,
-    start: usize,
-    width: usize,
-}
-
-impl WholeColumns<'_> {
-    /// Copies what is known before any scale.
-    fn copy_columns<T: Scalar>(
-        &self,
-        from: &ScaleColumns<'_, T>,
-        own: &ScaleShape,
-        to: &mut ScaleColumns<'_, T>,
-    ) {
-        let stride = self.shape.at(self.generation).count;
-        for number in 0..own.count() {
-            let (own, whole) = (own.at(number), self.shape.at(self.generation + number));
-            for run in 0..own.count / self.width {
-                let place = whole.slot + run * stride + self.start;
-                for column in COPIED {
-                    let place = column * from.length + place;
-                    let from = from.numbers.get(place..place + self.width);
-                    let to = to.part_mut(column, own.slot + run * self.width, self.width);
-                    if let Some(from) = from {
-                        to.copy_from_slice(from);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Copies the parts in a scale: of the scales that branch above the block, one takes
-    /// the place of the other.
-    fn copy_parts<T: Scalar>(&self, whole: &[T], own: &ScaleShape, parts: &mut [T], scale: usize) {
-        let part = scale.saturating_sub(self.generation);
-        let stride = self.shape.at(self.generation).count;
-        for number in part..own.count() {
-            let generation = self.generation + number;
-            let (from, to) = (self.shape.part(scale, generation), own.part(part, number));
-            let repeat = self.shape.period(scale, generation);
-            let period = own.period(part, number);
-            // Parts that are the same again within the block's neighbours come over and
-            // over, others run by run.
-            let (first, stride) = match repeat < self.width {
-                true => (0, 0),
-                false => (self.start % repeat, stride),
+            let start = scale % kept.max(1) * set;
+            let mut above = ScaleColumns {
+                numbers: sets.get_mut(start..start + set).unwrap_or_default(),
+                length: pieces.above.column,
             };
-            let piece = repeat.min(self.width);
-            for field in PARTS {
-                let (from, to) = (field * self.shape.parts + from, field * own.parts + to);
-                for run in 0..period / piece {
-                    let from = from + first + run * stride;
-                    let to = to + run * piece;
-                    let from = whole.get(from..from + piece);
-                    let to = parts.get_mut(to..to + piece);
-                    if let (Some(from), Some(to)) = (from, to) {
-                        to.copy_from_slice(from);
-                    }
-                }
-                // What comes behind a period is its beginning.
-                if let Some(parts) = parts.get_mut(to..to + period + WIDEST) {
-                    parts.copy_within(..WIDEST, period);
-                }
+            let mut inner = ScaleColumns {
+                numbers: &mut *inner,
+                length: below.column,
+            };
+            let width = below.at(0).count;
+            if let (Some(start), true) = (turn.block, turn.flows) {
+                let parents = pieces.above.at(cut - 1);
+                let from = (parents.slot + start % parents.count, width);
+                inner.copy_two(PIVOT, 0, &above, from);
+                inner.copy_two(SHIFT + 2, 0, &above, from);
+            }
+            let own = match turn.block {
+                Some(_) => &mut inner,
+                None => &mut above,
+            };
+            if turn.eliminates {
+                self.eliminate::<V>(&piece, own, scale);
+            }
+            if turn.flows {
+                self.flow::<V>(&piece, own, &mut flows, scale);
+            }
+            if turn.ends {
+                self.slopes::<V>(&piece, own, &mut flows, scale);
+            }
+            if let Some(start) = turn.block {
+                let place = pieces.above.at(cut).slot + start;
+                above.copy_two(BIAS, place, &inner, (0, width));
             }
         }
+        if turn.ends {
+            self.products::<V>(&piece, &flows);
+        }
+        self.working = working;
     }
 }

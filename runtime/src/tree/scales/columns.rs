@@ -18,25 +18,31 @@ pub(super) const DRIVE: usize = 7;
 pub(super) const OUTSIDE: usize = 8;
 /// Velocities of centres of mass, then of the children's pivots.
 pub(super) const VELOCITY: usize = 9;
-/// Moments of the momentum of what links carry, then that momentum. Along the flow of a
-/// scale, the bias force and the momentum's change stand in the place of the latter.
+/// Moments of the momentum of what links carry, then that momentum.
 pub(super) const MOMENT: usize = 13;
 pub(super) const CARRIED: usize = 15;
 /// Gain, inverse joint inertia.
 pub(super) const GAIN: usize = 17;
-/// Deficit of articulated inertia; afterwards what is handed down along the flow (two),
-/// and the offset.
+/// Deficit of articulated inertia.
 pub(super) const DEFICIT: usize = 20;
-pub(super) const PIVOT: usize = 20;
-pub(super) const OFFSET: usize = 22;
-/// Changes of velocities along the flow.
-pub(super) const SHIFT: usize = 23;
 /// 1 − cos θ.
-pub(super) const RISE: usize = 27;
+pub(super) const RISE: usize = 23;
 /// Values that are split.
-pub(super) const SPLIT: usize = 28;
-/// Angular velocity along the flow of each scale's energy, and its slope, in turns.
-pub(super) const FLOW: usize = 29;
+pub(super) const SPLIT: usize = 24;
+/// Number of columns of a state.
+pub(super) const ALL: usize = 25;
+
+/// Columns along the flow of one scale: the bias force, and in its place the change of
+/// momentum.
+pub(super) const BIAS: usize = 0;
+/// Offset.
+pub(super) const OFFSET: usize = 2;
+/// What is handed down along the flow.
+pub(super) const PIVOT: usize = 3;
+/// Changes of velocities of centres of mass, then of the children's pivots.
+pub(super) const SHIFT: usize = 5;
+/// Number of columns along the flow of a scale.
+pub(super) const WORKING: usize = 9;
 
 /// The columns.
 pub(super) struct ScaleColumns<'a, T> {
@@ -51,6 +57,21 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         let mut row = [V::from_f64(0.0); N];
         for (index, number) in row.iter_mut().enumerate() {
             *number = load(self.numbers, (first + index) * self.length + place);
+        }
+        row
+    }
+
+    /// Reads the numbers of so many links, and zeros behind them.
+    #[inline(always)]
+    pub(super) fn read_some<V: Simd<T>, const N: usize>(
+        &self,
+        first: usize,
+        place: usize,
+        count: usize,
+    ) -> [V; N] {
+        let (zero, mut row) = (V::from_f64(0.0), self.read::<V, N>(first, place));
+        for number in &mut row {
+            *number = number.in_first_lanes(count, zero);
         }
         row
     }
@@ -101,11 +122,22 @@ impl<T: Scalar> ScaleColumns<'_, T> {
         }
     }
 
-    /// Part of a column.
-    pub(super) fn part_mut(&mut self, number: usize, place: usize, length: usize) -> &mut [T] {
-        let start = number * self.length + place;
-        self.numbers
-            .get_mut(start..start + length)
-            .unwrap_or_default()
+    /// Copies some numbers of two consecutive columns of others, from a place there to one
+    /// here.
+    pub(super) fn copy_two(
+        &mut self,
+        first: usize,
+        place: usize,
+        from: &ScaleColumns<'_, T>,
+        (other, length): (usize, usize),
+    ) {
+        for column in first..first + 2 {
+            let (to, from_place) = (column * self.length + place, column * from.length + other);
+            let own = self.numbers.get_mut(to..to + length);
+            let others = from.numbers.get(from_place..from_place + length);
+            if let (Some(own), Some(others)) = (own, others) {
+                own.copy_from_slice(others);
+            }
+        }
     }
 }

@@ -28,7 +28,8 @@ use crate::sectors::ScaleBudget;
 use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd};
 use crate::system::Workspace;
-use columns::{FLOW, ScaleColumns};
+use blocks::Pieces;
+use columns::{ALL, ScaleColumns};
 use shape::ScaleShape;
 
 /// Quantities whose parts are formed.
@@ -108,32 +109,25 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
     ) {
         let shape = ScaleShape::new(E::COPIES.iter().copied());
         let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
+        let pieces = shape.and_then(|shape| Pieces::new(E::COPIES, &shape));
         wanted.start(
             E::COPIES.len(),
-            match shape {
+            match pieces {
                 Some(_) => T::from_f64(0.0),
                 None => T::from_f64(f64::NAN),
             },
         );
-        let Some(shape) = shape else { return };
-        let columns = match wanted {
-            Wanted::Budget(_) => FLOW + 2 * shape.count(),
-            _ => FLOW,
+        let (Some(shape), Some(pieces)) = (shape, pieces) else {
+            return;
         };
-        let columns = columns * shape.column;
-        let cut = match wanted {
-            Wanted::Budget(_) => shape.cut(),
-            _ => (0, 1),
+        let (columns, parts) = (ALL * shape.column, field::ALL * shape.parts);
+        let working = match wanted {
+            Wanted::Budget(_) => pieces.room(shape.count()),
+            _ => 0,
         };
-        let parts = field::ALL * shape.parts;
-        let kept = blocks::room(E::COPIES, &shape, cut);
-        let mut numbers = workspace.numbers(columns + parts + kept);
+        let mut numbers = workspace.numbers(columns + parts + working);
         let own = take(&mut numbers, columns);
         let parts = take(&mut numbers, parts);
-        let end = match cut.0 {
-            0 => shape.count(),
-            cut => cut,
-        };
         in_widest::<T, _>(ByScale::<E, T> {
             skeleton: &self.skeleton,
             columns: ScaleColumns {
@@ -141,10 +135,9 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
                 length: shape.column,
             },
             parts,
-            kept: numbers,
+            working: numbers,
             shape,
-            first: 0,
-            end,
+            pieces: &pieces,
             drive,
             theta,
             omega,
@@ -179,12 +172,9 @@ struct ByScale<'a, E, T: 'static> {
     columns: ScaleColumns<'a, T>,
     /// Columns of parts.
     parts: &'a mut [T],
-    /// Room for blocks of a large tree, and for what they hand each other.
-    kept: &'a mut [T],
-    /// Generation of the tree that is the first one here, and how many are computed:
-    /// behind them comes what blocks hand up.
-    first: usize,
-    end: usize,
+    /// Room for what is formed along the scales.
+    working: &'a mut [T],
+    pieces: &'a Pieces,
     drive: Option<[T; 3]>,
     theta: &'a [T],
     omega: &'a [T],
@@ -212,7 +202,7 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
         }
         if all {
             self.factors::<V>();
-            self.all_scales::<V>();
+            self.all_scales::<V>(self.pieces);
         }
     }
 }
@@ -223,10 +213,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     fn constants<V: Simd<T>>(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let length = <E::Constants<V> as Row<V>>::LENGTH;
-        let numbers = self
-            .skeleton
-            .constants
-            .get((self.first + generation) * length..);
+        let numbers = self.skeleton.constants.get(generation * length..);
         for (place, &number) in row.as_mut().iter_mut().zip(numbers.unwrap_or_default()) {
             *place = V::splat(number);
         }

@@ -109,12 +109,12 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 place += V::LANES;
             }
         }
-        if let Some(root) = self.columns.part_mut(DRIVE, 0, 1).first_mut() {
-            *root = match E::MOVED {
-                true => *root + torque,
-                false => torque,
-            };
-        }
+        let [moved]: [T; 1] = self.columns.read(DRIVE, 0);
+        let on_root = match E::MOVED {
+            true => moved + torque,
+            false => torque,
+        };
+        self.columns.write(DRIVE, 0, [on_root]);
     }
 
     /// Velocities of centres of mass, from the root to the leaves.

@@ -1,8 +1,8 @@
 //! Transfers between scales and powers on them: sums of products over all links.
 
-use super::columns::{DRAG, DRIVE, FLOW, FRICTION, OUTSIDE, ScaleColumns};
+use super::blocks::Piece;
+use super::columns::{DRAG, DRIVE, FRICTION, OUTSIDE, ScaleColumns};
 use super::energies::in_all_lanes;
-use super::parts::load;
 use super::{ByScale, ScaleEquations, Wanted};
 use crate::scalar::Scalar;
 use crate::sectors::PowerKind;
@@ -12,37 +12,42 @@ use crate::simd::Simd;
 const TOGETHER: usize = 4;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
-    /// Adds what links of a block have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
+    /// Adds what links of a piece have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
     /// and in the powers Σ u_s Q.
     #[inline(always)]
-    pub(super) fn products<V: Simd<T>>(&mut self) {
+    pub(super) fn products<V: Simd<T>>(&mut self, piece: &Piece<'_>, flows: &ScaleColumns<'_, T>) {
         for to in 0..E::COPIES.len() {
             let mut from = 0;
             while from + TOGETHER <= to {
-                self.transfers::<V, TOGETHER>(from, to);
+                self.transfers::<V, TOGETHER>(piece, flows, from, to);
                 from += TOGETHER;
             }
             while from < to {
-                self.transfers::<V, 1>(from, to);
+                self.transfers::<V, 1>(piece, flows, from, to);
                 from += 1;
             }
-            self.powers::<V>(to);
+            self.powers::<V>(piece, flows, to);
         }
     }
 
     /// Transfers from `N` scales to one.
     #[inline(always)]
-    fn transfers<V: Simd<T>, const N: usize>(&mut self, from: usize, to: usize) {
+    fn transfers<V: Simd<T>, const N: usize>(
+        &mut self,
+        piece: &Piece<'_>,
+        flows: &ScaleColumns<'_, T>,
+        from: usize,
+        to: usize,
+    ) {
         let mut sums = [V::from_f64(0.0); N];
-        for generation in 0..self.end {
-            let own = self.shape.at(generation);
+        for generation in 0..piece.count {
+            let own = piece.own.at(generation);
             let mut place = 0;
             while place < own.count {
                 let (slot, left) = (own.slot + place, own.count - place);
-                let [u_s, z_s]: [V; 2] = meant(&self.columns, FLOW + 2 * to, slot, left);
+                let [u_s, z_s]: [V; 2] = flows.read_some(2 * to, slot, left);
                 for (index, sum) in sums.iter_mut().enumerate() {
-                    let column = FLOW + 2 * (from + index);
-                    let [u_r, z_r]: [V; 2] = meant(&self.columns, column, slot, left);
+                    let [u_r, z_r]: [V; 2] = flows.read_some(2 * (from + index), slot, left);
                     *sum = sum.plus_product(z_s, u_r).minus_product(u_s, z_r);
                 }
                 place += V::LANES;
@@ -60,7 +65,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
 
     /// Powers of all that acts on a scale.
     #[inline(always)]
-    fn powers<V: Simd<T>>(&mut self, scale: usize) {
+    fn powers<V: Simd<T>>(&mut self, piece: &Piece<'_>, flows: &ScaleColumns<'_, T>, scale: usize) {
         let columns = [
             (PowerKind::Friction, FRICTION, E::FRICTION),
             (PowerKind::Drag, DRAG, E::DRAG),
@@ -72,22 +77,21 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 continue;
             }
             let mut sum = V::from_f64(0.0);
-            for generation in 0..self.end {
-                let own = self.shape.at(generation);
-                let mut place = 0;
-                while place < own.count {
-                    let (slot, left) = (own.slot + place, own.count - place);
-                    let [flow]: [V; 1] = meant(&self.columns, FLOW + 2 * scale, slot, left);
-                    let [torque]: [V; 1] = meant(&self.columns, column, slot, left);
+            for generation in 0..piece.count {
+                let own = piece.own.at(generation);
+                let mut places = piece.upwards(&self.shape, generation, 1);
+                while let Some(at) = places.next(V::LANES) {
+                    let slot = own.slot + at.number;
+                    let [flow]: [V; 1] = flows.read_some(2 * scale, slot, at.left);
+                    let [torque]: [V; 1] = self.columns.read_some(column, at.slot, at.left);
                     sum = sum.plus_product(flow, torque);
-                    place += V::LANES;
                 }
             }
             self.add_power(kind, scale, in_all_lanes::<T, V>(sum));
         }
         // A torque on the root alone.
-        if let (Some([.., torque]), false, 0) = (self.drive, E::MOVED, self.first) {
-            let [flow]: [T; 1] = self.columns.read(FLOW + 2 * scale, 0);
+        if let (Some([.., torque]), false, 0) = (self.drive, E::MOVED, piece.first) {
+            let [flow]: [T; 1] = flows.read(2 * scale, 0);
             self.add_power(PowerKind::Drive, scale, flow * torque);
         }
     }
@@ -98,20 +102,4 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             budget.add_power(kind, scale, power);
         }
     }
-}
-
-/// The numbers of consecutive columns from a place on, and zero where none is left.
-#[inline(always)]
-fn meant<T: Scalar, V: Simd<T>, const N: usize>(
-    columns: &ScaleColumns<'_, T>,
-    first: usize,
-    place: usize,
-    left: usize,
-) -> [V; N] {
-    let mut row = [V::from_f64(0.0); N];
-    for (index, number) in row.iter_mut().enumerate() {
-        let value: V = load(columns.numbers, (first + index) * columns.length + place);
-        *number = value.in_first_lanes(left, *number);
-    }
-    row
 }

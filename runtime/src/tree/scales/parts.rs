@@ -3,8 +3,7 @@
 
 use super::shape::ScaleShape;
 use crate::scalar::Scalar;
-use crate::simd::Simd;
-use crate::tree::block::WIDEST;
+use crate::simd::{Simd, WIDEST};
 
 /// Splits the values of one generation into their parts in all scales. The values
 /// are overwritten: by the means.

@@ -3,7 +3,7 @@
 //! In a column each generation has room for a register behind its last link: a register
 //! may reach beyond a generation, and what it writes there is never read as a link's.
 
-use crate::tree::block::WIDEST;
+use crate::simd::WIDEST;
 
 /// Most generations: branches of two are then more links than an index counts.
 const MOST: usize = 34;
@@ -32,6 +32,10 @@ pub(super) struct ScaleShape {
     /// Length of a column of all links, and of one of parts.
     pub(super) column: usize,
     pub(super) parts: usize,
+    /// Number of generations that do not fill the widest register, and number of links of
+    /// the first one that does.
+    narrow: usize,
+    filling: usize,
 }
 
 impl ScaleShape {
@@ -44,6 +48,8 @@ impl ScaleShape {
             links: 0,
             column: 0,
             parts: 0,
+            narrow: 0,
+            filling: usize::MAX,
         };
         if copies.len() == 0 || copies.len() > MOST {
             return None;
@@ -59,10 +65,15 @@ impl ScaleShape {
                 slot: shape.column,
                 part: shape.parts,
             };
+            match count < WIDEST {
+                true => shape.narrow += 1,
+                false => shape.filling = shape.filling.min(count),
+            }
             shape.links += count;
             shape.column += (count + WIDEST).next_multiple_of(WIDEST);
-            shape.parts += (0..=number)
-                .map(|scale| shape.stride(scale, number))
+            let scales = 0..=number;
+            shape.parts += scales
+                .map(|scale| shape.period(scale, number) + WIDEST)
                 .sum::<usize>();
         }
         Some(shape)
@@ -90,42 +101,39 @@ impl ScaleShape {
 
     /// Links behind which parts in a scale are the same again: as many as fill a
     /// register, or all.
+    #[inline(always)]
     pub(super) fn period(&self, scale: usize, generation: usize) -> usize {
-        let mut counts = (scale..=generation).map(|number| self.at(number).count);
-        let enough = counts.find(|&count| count >= WIDEST);
-        enough.unwrap_or(self.at(generation).count)
+        let filling = self.at(generation).count.min(self.filling);
+        self.values(scale).max(filling)
     }
 
-    /// Room for parts of a generation in a scale, with those behind a period once more.
-    fn stride(&self, scale: usize, generation: usize) -> usize {
-        self.period(scale, generation) + WIDEST
-    }
-
-    /// Place of the parts of a generation in a scale in a column of parts.
+    /// Place of the parts of a generation in a scale in a column of parts: behind those in
+    /// the scales before, of which each has a register more than its period, which begins
+    /// anew there.
+    #[inline(always)]
     pub(super) fn part(&self, scale: usize, generation: usize) -> usize {
-        let before = (0..scale).map(|scale| self.stride(scale, generation));
-        self.at(generation).part + before.sum::<usize>()
+        let (own, narrow) = (self.at(generation), scale.min(self.narrow));
+        let periods =
+            narrow * own.count.min(self.filling) + (self.at(scale).whole - self.at(narrow).whole);
+        own.part + periods + scale * WIDEST
     }
 
     /// The generation where large trees are cut, and how many neighbours of it make one
     /// block with all below them: one that fits into the second cache, whose
-    /// neighbours' parents are neighbours. Small trees are not cut: 0, 1.
-    pub(super) fn cut(&self) -> (usize, usize) {
-        let wide = (0..self.count).find(|&number| self.at(number).count >= WIDE);
-        let Some(wide) = wide.filter(|_| self.links > WHOLE) else {
-            return (0, 1);
-        };
+    /// neighbours' parents are neighbours. Small trees are not cut.
+    pub(super) fn cut(&self) -> Option<(usize, usize)> {
+        if self.links <= WHOLE {
+            return None;
+        }
+        let wide = (0..self.count).find(|&number| self.at(number).count >= WIDE)?;
         let width = self.at(wide).count;
         let fits = |&number: &usize| {
             let first = self.at(number);
             (self.links - first.whole) / first.count * width <= BLOCK
         };
         let last = self.count - 1;
-        match (wide + 1..self.count).find(fits) {
-            Some(generation) => (generation, width),
-            None if last > wide => (last, width),
-            None => (0, 1),
-        }
+        let cut = (wide + 1..self.count).find(fits).unwrap_or(last);
+        (cut > wide).then_some((cut, width))
     }
 }
 
@@ -133,5 +141,35 @@ impl ScaleShape {
 const WHOLE: usize = 4096;
 const BLOCK: usize = 1536;
 
-/// Neighbours of a block's first generation: pieces that are copied to it are so long.
+/// Neighbours of a block's first generation: they stand side by side in the tree.
 const WIDE: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use super::{ScaleShape, WIDEST};
+
+    /// Parts follow each other without a gap, and have their place.
+    #[test]
+    fn parts_stand_one_behind_the_other() {
+        for copies in [
+            &[1, 2, 2, 2, 2, 2, 2][..],
+            &[1, 3, 3, 3],
+            &[1, 2],
+            &[1, 40, 3],
+            &[16, 2],
+        ] {
+            let shape = ScaleShape::new(copies.iter().copied()).unwrap();
+            let mut end = 0;
+            for generation in 0..shape.count() {
+                for scale in 0..=generation {
+                    assert_eq!(shape.part(scale, generation), end, "{copies:?}");
+                    let period = shape.period(scale, generation);
+                    assert!(period >= WIDEST || period == shape.at(generation).count);
+                    assert_eq!(period % shape.values(scale), 0);
+                    end += period + WIDEST;
+                }
+            }
+            assert_eq!(end, shape.parts);
+        }
+    }
+}

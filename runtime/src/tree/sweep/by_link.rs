@@ -217,7 +217,8 @@ where
                     _ => break,
                 }
             }
-            // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond the parents are as they were.
+            // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond
+            // the parents are as they were.
             unsafe { self.links().sums.write(first.parent + at, &sums) };
             at += V::LANES;
         }

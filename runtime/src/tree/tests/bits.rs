@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use super::super::evaluate::{Given, accelerations as one_state};
+use super::super::evaluate::accelerations as one_state;
+use super::super::small::LinkStates;
 use super::super::sweep::SweepKernel;
 use super::super::{LinkEquations, Tree, states};
 use super::equations::{SHAPES, any, by_generation, by_link, links};
@@ -22,8 +23,8 @@ fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links:
             let kernel = SweepKernel::<E, T>(view, way, PhantomData);
             run_wide(InstructionSet::ALL[SET], kernel);
         },
-        Given {
-            drive: Some(drive()),
+        Some(drive()),
+        LinkStates {
             theta: &theta,
             omega: &omega,
             torques: Some(&torques),

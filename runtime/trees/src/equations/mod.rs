@@ -2,17 +2,14 @@
 //! every property is a parameter (`equations/` beside `src/`): SI units, a row of
 //! constants for each link.
 //!
-//! `branched-pendulum --output src/equations/general.rs equations/general.rs` writes them
-//! anew, and a test tells when that is due.
+//! `branched-pendulum --emit equations --output src/equations/general.rs
+//! equations/general.rs` writes them anew, and a test tells when that is due.
 
 #[rustfmt::skip]
-#[allow(dead_code, unreachable_pub)]
 mod general;
 #[rustfmt::skip]
-#[allow(dead_code, unreachable_pub)]
 mod rough;
 #[rustfmt::skip]
-#[allow(dead_code, unreachable_pub)]
 mod straight;
 
 pub(crate) use general::GeneralEquations;

@@ -14,20 +14,14 @@ fn mistakes_are_marked_in_the_text() {
 upper: rod(mass = 0.2, length = 0.3) [
     lower: rod(mas = 0.1, length = 0.2),
 ]";
-    let expected = "error: unknown property `mas` of `lower`
+    let expected = "error: a `rod` has no property `mas`
  --> 3:16
   |
 3 |     lower: rod(mas = 0.1, length = 0.2),
-  |                ^^^ no property of this link
+  |                ^^^ unknown property
 help: did you mean `mass`?";
     let found = message(text);
-    // The words are those of the compiler's catalogue.
-    let frame = |text: &str| -> Vec<String> {
-        let lines = text.lines().skip(1).take(3);
-        lines.map(str::to_owned).collect()
-    };
-    assert_eq!(frame(&found), frame(expected), "{found}");
-    assert!(found.ends_with("did you mean `mass`?"), "{found}");
+    assert_eq!(found, expected);
     let TreeError::Description(error) = PendulumTree::parse(text).unwrap_err() else {
         panic!("{found}");
     };

@@ -1,6 +1,6 @@
 //! Steps, ends and samples are those of the plain methods but for rounding.
 
-use super::{AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, System};
+use super::{AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, LopsidedOde};
 use super::{lopsided, outcomes, plain, starts, times, with_each};
 use crate::integrate::{
     Dop853, Dopri5, InputError, IntegrationError, Options, StopReason, Taylor, Tolerance, Verner98,
@@ -13,8 +13,8 @@ struct ThePlainMethodIsMet;
 impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<System<f64>, f64>,
-        M: Integrator<f64, System<f64>>,
+        M: LaneMethod<LopsidedOde<f64>, f64>,
+        M: Integrator<f64, LopsidedOde<f64>>,
     {
         let starts = starts::<f64>();
         let (forwards, model) = (times::<f64>(), lopsided());
@@ -83,8 +83,8 @@ fn the_plain_methods_are_met_to_the_tolerance() {
 /// Evaluations of an accepted step and of a rejected one, in lanes and not.
 fn evaluations_are_counted<M>(method: &M, [accepted, rejected]: [u64; 2])
 where
-    M: LaneMethod<System<f64>, f64>,
-    M: Integrator<f64, System<f64>>,
+    M: LaneMethod<LopsidedOde<f64>, f64>,
+    M: Integrator<f64, LopsidedOde<f64>>,
 {
     let (model, starts) = (lopsided(), starts());
     let cases = Cases::Starts(&model, &starts);
@@ -127,8 +127,8 @@ struct ZeroNeedsNoAbsoluteTolerance;
 impl Each<f64> for ZeroNeedsNoAbsoluteTolerance {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<System<f64>, f64>,
-        M: Integrator<f64, System<f64>>,
+        M: LaneMethod<LopsidedOde<f64>, f64>,
+        M: Integrator<f64, LopsidedOde<f64>>,
     {
         let still = AbsoluteAngles(Lopsided {
             drive: 0.0,

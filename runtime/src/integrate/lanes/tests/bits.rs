@@ -3,7 +3,7 @@
 use core::num::NonZeroUsize;
 use core::slice::from_ref;
 
-use super::{Cases, END, Each, LaneMethod, System, assert_same, lopsided, outcomes};
+use super::{Cases, END, Each, LaneMethod, LopsidedOde, assert_same, lopsided, outcomes};
 use super::{starts, times, with_each};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options, Taylor};
@@ -12,7 +12,7 @@ use crate::scalar::{InstructionSet, Lane};
 struct NeitherPlaceNorNeighbours;
 
 impl<T: Lane> Each<T> for NeitherPlaceNorNeighbours {
-    fn each<M: LaneMethod<System<T>, T>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<LopsidedOde<T>, T>>(&mut self, method: &M) {
         let (mut starts, times, end) = (starts::<T>(), times(), T::from_f64(END));
         // Bad neighbours: no number, far beyond the common range of sine and cosine,
         // beyond the wall, soon beyond the wall, behind the times.

@@ -2,7 +2,7 @@
 
 use std::mem::discriminant;
 
-use super::{Cases, END, Each, End, Integrator, LaneMethod, System};
+use super::{Cases, END, Each, End, Integrator, LaneMethod, LopsidedOde};
 use super::{lopsided, outcomes, plain, starts, strict_options, with_each};
 use crate::integrate::{InputError, IntegrationError, Options, StopReason, Taylor};
 use crate::scalar::InstructionSet;
@@ -47,8 +47,8 @@ struct StopsOfBoth(Vec<State<f64>>, Vec<StopReason>);
 impl Each<f64> for StopsOfBoth {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<System<f64>, f64>,
-        M: Integrator<f64, System<f64>>,
+        M: LaneMethod<LopsidedOde<f64>, f64>,
+        M: Integrator<f64, LopsidedOde<f64>>,
     {
         let (Self(starts, seen), model) = (self, lopsided());
         for end in [END, f64::INFINITY] {
@@ -95,7 +95,7 @@ fn errors_are_those_of_the_plain_methods() {
 struct FailureSaysWhere;
 
 impl Each<f64> for FailureSaysWhere {
-    fn each<M: LaneMethod<System<f64>, f64>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<LopsidedOde<f64>, f64>>(&mut self, method: &M) {
         let (mut starts, model) = (starts::<f64>(), lopsided());
         starts[5].values[3] = 60.0;
         starts[30].values[1] = 9.0;
@@ -129,7 +129,7 @@ fn a_failure_says_where() {
 struct FailureKeepsItsSamples;
 
 impl Each<f64> for FailureKeepsItsSamples {
-    fn each<M: LaneMethod<System<f64>, f64>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<LopsidedOde<f64>, f64>>(&mut self, method: &M) {
         let (mut starts, model) = (starts::<f64>(), lopsided());
         starts[5].values[3] = 30.0;
         let times: Vec<f64> = (0..=400).map(|i| 0.1875 + 0.01 * f64::from(i)).collect();

@@ -8,7 +8,7 @@ mod models;
 
 use core::ops::ControlFlow;
 
-use self::model::{Lopsided, System, lopsided};
+use self::model::{Lopsided, LopsidedOde, lopsided};
 use super::{Cases, LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
     DenseStep, Dop853, Dopri5, IntegrationError, Integrator, Options, Solution, Taylor, Verner98,
@@ -24,8 +24,8 @@ type End<T> = Result<Solution<T>, IntegrationError<T>>;
 trait Each<T: Lane> {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<System<T>, T>,
-        M: Integrator<T, System<T>>;
+        M: LaneMethod<LopsidedOde<T>, T>,
+        M: Integrator<T, LopsidedOde<T>>;
 }
 
 /// Does it with all methods, with these options.
@@ -86,10 +86,10 @@ fn strict_options() -> Vec<Options<f64>> {
 }
 
 /// Every case through the times, and to the end.
-fn outcomes<T: Lane, M: LaneMethod<System<T>, T>>(
+fn outcomes<T: Lane, M: LaneMethod<LopsidedOde<T>, T>>(
     instructions: InstructionSet,
     method: &M,
-    cases: Cases<'_, System<T>, T>,
+    cases: Cases<'_, LopsidedOde<T>, T>,
     times: &[T],
     end: T,
 ) -> Vec<Outcome<T>> {
@@ -112,9 +112,9 @@ fn outcomes<T: Lane, M: LaneMethod<System<T>, T>>(
 }
 
 /// The end by the plain method.
-fn plain<M>(method: &M, model: &System<f64>, start: &State<f64>, end: f64) -> End<f64>
+fn plain<M>(method: &M, model: &LopsidedOde<f64>, start: &State<f64>, end: f64) -> End<f64>
 where
-    M: Integrator<f64, System<f64>>,
+    M: Integrator<f64, LopsidedOde<f64>>,
 {
     let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     method.integrate(model, start, end, go_on)

@@ -20,7 +20,7 @@ pub(super) struct Lopsided<T> {
 }
 
 /// In absolute angles.
-pub(super) type System<T> = AbsoluteAngles<Lopsided<T>>;
+pub(super) type LopsidedOde<T> = AbsoluteAngles<Lopsided<T>>;
 
 struct Pair;
 
@@ -36,7 +36,7 @@ const WEIGHTS: [f64; 2] = [9.0, 4.0];
 const LATERAL: [f64; 2] = [0.5, -0.2];
 const PACE: f64 = 2.0;
 
-pub(super) fn lopsided<T: Scalar>() -> System<T> {
+pub(super) fn lopsided<T: Scalar>() -> LopsidedOde<T> {
     let model = Lopsided {
         wall: 7.0,
         inertia: 0.6,

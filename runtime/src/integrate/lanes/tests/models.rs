@@ -5,7 +5,7 @@ use core::slice::from_ref;
 
 use super::failures::stop_of_both;
 use super::{
-    AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, System, assert_same,
+    AbsoluteAngles, Cases, END, Each, Integrator, LaneMethod, Lopsided, LopsidedOde, assert_same,
 };
 use super::{outcomes, plain, starts, times, with_each};
 use crate::ensemble::Ensemble;
@@ -14,7 +14,7 @@ use crate::scalar::{InstructionSet, Lane, Scalar};
 use crate::system::{Cast, Pendulum, State};
 
 /// Models no two of which are the same, from the starts of the other tests.
-fn releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
+fn releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
     let model = |i: usize| {
         let part = i as f64 / 43.0;
         let model = Lopsided {
@@ -35,7 +35,7 @@ fn releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
 /// are in line.
 const BAD: [usize; 3] = [3, 13, 29];
 
-fn bad_releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
+fn bad_releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
     let mut releases = releases::<T>();
     releases[3].0.0.friction = T::NAN;
     releases[13].0.0.wall = T::from_f64(0.1);
@@ -46,7 +46,7 @@ fn bad_releases<T: Lane>() -> Vec<(System<T>, State<T>)> {
 struct BitsAreThoseOfTheModelAlone;
 
 impl<T: Lane> Each<T> for BitsAreThoseOfTheModelAlone {
-    fn each<M: LaneMethod<System<T>, T>>(&mut self, method: &M) {
+    fn each<M: LaneMethod<LopsidedOde<T>, T>>(&mut self, method: &M) {
         let (releases, times, end) = (bad_releases::<T>(), times(), T::from_f64(END));
         for set in InstructionSet::ALL {
             let together = outcomes(set, method, Cases::Pairs(&releases), &times, end);
@@ -79,8 +79,8 @@ struct ThePlainMethodIsMet(Vec<StopReason>);
 impl Each<f64> for ThePlainMethodIsMet {
     fn each<M>(&mut self, method: &M)
     where
-        M: LaneMethod<System<f64>, f64>,
-        M: Integrator<f64, System<f64>>,
+        M: LaneMethod<LopsidedOde<f64>, f64>,
+        M: Integrator<f64, LopsidedOde<f64>>,
     {
         let releases = bad_releases();
         let cases = Cases::Pairs(&releases);
@@ -137,7 +137,7 @@ fn ends_and_samples_stand_in_the_order_of_the_releases() {
             }
         }
     }
-    let none: &[(System<f64>, State<f64>)] = &[];
+    let none: &[(LopsidedOde<f64>, State<f64>)] = &[];
     let ends = Ensemble::new().integrate_models_in_lanes(&method, none, END);
     assert!(ends.is_empty());
 }

@@ -1,0 +1,363 @@
+//! How the programs end: closed pipes, full disks, folders that cannot be
+//! written, Ctrl-C at any moment, and runs repeated from their records. Each
+//! drives real processes.
+
+use std::fs::{self, File};
+use std::io::Read;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+use super::{folder, text};
+
+/// A program in a short form.
+struct Program {
+    path: &'static str,
+    arguments: &'static [&'static str],
+}
+
+const PROGRAMS: [Program; 13] = [
+    Program {
+        path: env!("CARGO_BIN_EXE_branched-double"),
+        arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_cascade"),
+        arguments: &["--onset", "1"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_advise"),
+        arguments: &["--horizon", "1", "--right", "angles:1e-3"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_analyse"),
+        arguments: &["--duration", "1", "--draws", "50"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_identify"),
+        arguments: &["--duration", "5", "--laws", "viscous"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_transfer-orders"),
+        arguments: &["--states", "10"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_stability-map"),
+        arguments: &["--map", "friction"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_swaying-branch"),
+        arguments: &["--duration", "2", "--storm", "2"],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_work-precision"),
+        arguments: &[],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_integration-speed"),
+        arguments: &[],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_evaluation-speed"),
+        arguments: &[],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_critical-angle"),
+        arguments: &[
+            "--angles",
+            "43:45:0.5",
+            "--horizons",
+            "4",
+            "--quality",
+            "150",
+        ],
+    },
+    Program {
+        path: env!("CARGO_BIN_EXE_release-map"),
+        arguments: &["--step", "30", "--span", "4"],
+    },
+];
+
+impl Program {
+    fn name(&self) -> &str {
+        Path::new(self.path).file_name().unwrap().to_str().unwrap()
+    }
+
+    fn command(&self, folder: &Path) -> Command {
+        let mut command = Command::new(self.path);
+        command.args(self.arguments).arg("--output").arg(folder);
+        command.stdin(Stdio::null());
+        command
+    }
+}
+
+fn stderr(output: &Output) -> &str {
+    text(&output.stderr)
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).map(|entries| {
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.collect()
+    });
+    let mut names: Vec<String> = entries.unwrap_or_default();
+    names.sort();
+    names
+}
+
+/// Each file is what its name says, to its end, and the record lists them all.
+fn assert_whole(folder: &Path, ended: &[&str]) {
+    let names = names(folder);
+    assert!(
+        names.iter().all(|name| !name.ends_with(".part")),
+        "{names:?}"
+    );
+    let mut columns = None;
+    for name in &names {
+        let bytes = fs::read(folder.join(name)).unwrap();
+        match name.rsplit('.').next() {
+            Some("csv") => {
+                let text = std::str::from_utf8(&bytes).unwrap();
+                assert!(text.ends_with('\n'), "{name}");
+                let count = |line: &str| line.split(',').count();
+                let first = *columns.insert(count(text.lines().next().unwrap()));
+                // Names of methods have commas, in quotes.
+                let plain = text.lines().filter(|line| !line.contains('"'));
+                assert!(plain.map(count).all(|count| count == first), "{name}");
+            }
+            Some("svg") => assert!(bytes.trim_ascii_end().ends_with(b"</svg>"), "{name}"),
+            Some("png") => assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{name}"),
+            Some("json") => {
+                let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+                if name != "run.json" {
+                    continue;
+                }
+                let found = record["ended"].as_str().unwrap();
+                assert!(ended.contains(&found), "{found}");
+                let listed = record["files"].as_array().unwrap();
+                let mut listed: Vec<&str> = listed.iter().map(|f| f.as_str().unwrap()).collect();
+                listed.push("run.json");
+                listed.sort_unstable();
+                assert_eq!(listed, names);
+            }
+            _ => panic!("{name}"),
+        }
+    }
+}
+
+fn interrupt(child: &Child) {
+    let pid = child.id().to_string();
+    let sent = Command::new("sh")
+        .args(["-c", "kill -INT \"$0\"", &pid])
+        .status();
+    assert!(sent.unwrap().success());
+}
+
+/// At ten moments of each program, from its first instant to its end. The ten runs of a
+/// program go side by side: most of their time is waiting.
+#[test]
+fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
+    let mut random = SplitMix64::seed_from_u64(2026);
+    for program in &PROGRAMS {
+        std::thread::scope(|scope| {
+            for moment in 0..10 {
+                // Moments spread over many sizes: programs take from 0.1 s to minutes.
+                let share = random.next_u64() as f64 / u64::MAX as f64;
+                let after = Duration::from_secs_f64(0.02 * 60.0_f64.powf(share));
+                scope.spawn(move || interrupted(program, moment, after));
+            }
+        });
+    }
+}
+
+/// Runs a program and interrupts it after a time.
+fn interrupted(program: &Program, moment: u32, after: Duration) {
+    let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
+    let mut command = program.command(&folder);
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    std::thread::sleep(after);
+    interrupt(&child);
+    let output = child.wait_with_output().unwrap();
+    let stderr = text(&output.stderr);
+    let case = format!("{} {moment}: {stderr}", program.name());
+    match (output.status.code(), output.status.signal()) {
+        // Done before.
+        (Some(0), _) => assert_whole(&folder, &["finished"]),
+        // Before it could say anything.
+        (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
+        (Some(130), _) => {
+            assert_eq!(stderr.lines().count(), 1, "{case}");
+            let start = format!("{}: interrupted; ", program.name());
+            assert!(stderr.starts_with(&start), "{case}");
+            if folder.exists() {
+                assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
+                assert!(stderr.contains(folder.to_str().unwrap()), "{case}");
+            } else {
+                assert!(stderr.contains("no file was finished"), "{case}");
+            }
+            // It may just have finished.
+            assert_whole(&folder, &["interrupted", "finished"]);
+        }
+        other => panic!("{other:?}: {case}"),
+    }
+    let _ = fs::remove_dir_all(&folder);
+}
+
+/// The programs that end within some seconds: the first ones.
+fn quick() -> impl Iterator<Item = &'static Program> {
+    PROGRAMS.iter().take(5)
+}
+
+/// `| head -1`: the first line is read, then the pipe is closed.
+#[test]
+fn a_closed_pipe_costs_no_file_and_one_line() {
+    for program in quick() {
+        let folder = folder(&format!("pipe-{}", program.name()));
+        let mut command = program.command(&folder);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // Closed before anything is written: no pipe holds the whole text then.
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let line = stderr(&output);
+        assert_eq!(line.lines().count(), 1, "{line}");
+        assert!(line.contains("standard output was closed; "), "{line}");
+        assert!(line.contains(folder.to_str().unwrap()), "{line}");
+        assert_whole(&folder, &["finished"]);
+    }
+}
+
+#[test]
+fn a_program_without_files_ends_with_its_reader() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_integration-speed"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(
+        stderr(&output),
+        "integration-speed: standard output was closed\n"
+    );
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_told_in_one_line() {
+    for program in quick() {
+        let folder = folder(&format!("full-{}", program.name()));
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let output = program.command(&folder).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let line = stderr(&output);
+        assert_eq!(line.lines().count(), 1, "{line}");
+        assert!(
+            line.contains("cannot write to the standard output: No space left on device"),
+            "{line}"
+        );
+        assert!(names(&folder).iter().all(|name| !name.ends_with(".part")));
+        let help = File::options().write(true).open("/dev/full").unwrap();
+        let mut help = Command::new(program.path)
+            .arg("--help")
+            .stdout(help)
+            .spawn()
+            .unwrap();
+        assert_eq!(help.wait().unwrap().code(), Some(1));
+    }
+}
+
+/// A folder in place of a file: the rename fails, after the part was written.
+#[test]
+fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
+    for program in quick() {
+        let folder = folder(&format!("taken-{}", program.name()));
+        let name = match program.name() {
+            "branched-double" => "samples-40.0deg.csv",
+            "advise" => "advice.csv",
+            "analyse" => "estimate.csv",
+            "identify" => "parameters.json",
+            _ => "onset.csv",
+        };
+        fs::create_dir_all(folder.join(name)).unwrap();
+        let output = program.command(&folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(1));
+        let line = stderr(&output);
+        assert_eq!(line.lines().count(), 1, "{line}");
+        assert!(line.contains(&format!("cannot write {}", folder.join(name).display())));
+        assert_eq!(names(&folder), [name]);
+    }
+}
+
+#[test]
+fn a_run_is_repeated_from_its_record() {
+    repeated(quick());
+    let other = Command::new(env!("CARGO_BIN_EXE_cascade"))
+        .arg("--repeat")
+        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("first-branched-double/run.json"))
+        .output()
+        .unwrap();
+    assert_eq!(other.status.code(), Some(2));
+    assert!(stderr(&other).contains("records a run of branched-double"));
+}
+
+#[test]
+#[ignore = "takes minutes unoptimised: cargo test --release --test programs -- --ignored"]
+fn a_long_run_is_repeated_from_its_record() {
+    repeated(PROGRAMS[5..6].iter());
+}
+
+/// Repeats runs. Same bytes in every file, the record included, but for times: what
+/// `advise` has measured, and costs in the legends of the charts of `transfer-orders`.
+fn repeated(programs: impl Iterator<Item = &'static Program>) {
+    for program in programs {
+        let (first, again) = (
+            folder(&format!("first-{}", program.name())),
+            folder(&format!("again-{}", program.name())),
+        );
+        let record = first.join("run.json");
+        let output = program.command(&first).output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+        let repeat = |more: &[&str]| {
+            let mut command = Command::new(program.path);
+            command
+                .arg("--repeat")
+                .arg(&record)
+                .arg("--output")
+                .arg(&again);
+            command.args(more).output().unwrap()
+        };
+        let option = program.arguments[0];
+        let refused = repeat(&[option, program.arguments[1]]);
+        assert_eq!(refused.status.code(), Some(2));
+        let named = format!("`--repeat` takes the value of `{}`", &option[2..]);
+        assert!(stderr(&refused).contains(&named), "{}", stderr(&refused));
+        let output = repeat(&[]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert_eq!(names(&first), names(&again));
+        for name in names(&first) {
+            let read = |folder: &Path| {
+                let mut bytes = Vec::new();
+                let mut file = File::open(folder.join(&name)).unwrap();
+                file.read_to_end(&mut bytes).unwrap();
+                bytes
+            };
+            let arguments = |bytes: Vec<u8>| {
+                let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+                record["arguments"].clone()
+            };
+            let (one, other) = (read(&first), read(&again));
+            match (program.name(), name.as_str()) {
+                ("advise", "run.json") => assert_eq!(arguments(one), arguments(other)),
+                ("advise", _) => {}
+                ("transfer-orders", name) if !name.ends_with("csv") && name != "run.json" => {}
+                _ => assert!(one == other, "{name}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+"""Pendulum trees, described in text, and compiled models of them.
+
+SI units; angles are absolute, in radians from the downward vertical. A state is the angles
+followed by the angular velocities.
+"""
+
+from . import models
+from ._native import (
+    DescriptionError,
+    IntegrationError,
+    Pendulum,
+    Solution,
+    Tree,
+    __version__,
+)
+
+__all__ = [
+    "DescriptionError",
+    "IntegrationError",
+    "Pendulum",
+    "Solution",
+    "Tree",
+    "__version__",
+    "models",
+]

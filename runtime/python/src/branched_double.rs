@@ -1,0 +1,158 @@
+//! The class `BranchedDouble`: the compiled model of the paper.
+
+use std::sync::Arc;
+
+use branched_pendulum::system::AbsoluteAngles;
+use branched_pendulum::{Transfer, TransferForms};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{AnyShape, Table, by_state};
+use crate::motions::Model;
+use crate::pendulum::Pendulum;
+use paper::Paper;
+
+/// The paper's scene as the tool wrote it: the repository checks that it is up to date.
+#[allow(dead_code, missing_docs)]
+#[rustfmt::skip]
+#[path = "../../../tests/fixtures/expanded/paper.rs"]
+mod paper;
+
+/// Links, and half the numbers of a state.
+const LINKS: usize = <Paper as branched_pendulum::Pendulum<f64>>::LINKS;
+
+/// Forms of W that the model has.
+const FORMS: &[branched_pendulum::TransferForm] = <Paper as TransferForms<f64>>::TRANSFER_FORMS;
+
+/// The paper's branched double pendulum as a compiled model: a parent with two equal children,
+/// `parent`, `child_1`, `child_2`, of the published masses (kg), lengths (m) and moments of
+/// inertia (kg m²).
+///
+/// Beside the motions it has the energy of the antiphase mode and the transfer W into it in
+/// every form (`FORMS`).
+#[pyclass(frozen, extends = Pendulum, module = "branched_pendulum.models")]
+pub(crate) struct BranchedDouble {
+    model: Paper,
+}
+
+impl Model for AbsoluteAngles<Paper> {
+    fn link_names(&self) -> Vec<String> {
+        let names = <Paper as branched_pendulum::Pendulum<f64>>::LINK_NAMES;
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+
+    fn state_energy(&self, state: &[f64]) -> f64 {
+        match halves(state) {
+            Some([theta, omega]) => {
+                self.0.kinetic_energy(theta, omega) + self.0.potential_energy(theta)
+            }
+            None => f64::NAN,
+        }
+    }
+}
+
+fn halves(state: &[f64]) -> Option<[&[f64; LINKS]; 2]> {
+    let (theta, omega) = state.split_at_checked(LINKS)?;
+    Some([theta.try_into().ok()?, omega.try_into().ok()?])
+}
+
+impl BranchedDouble {
+    /// Symmetric coordinates (rad) and their momenta (kg m²/s) of a state.
+    fn canonical(&self, state: &[f64]) -> [[f64; LINKS]; 2] {
+        let Some([theta, omega]) = halves(state) else {
+            return [[f64::NAN; LINKS]; 2];
+        };
+        let coordinates = self.model.to_symmetric(theta);
+        let rates = self.model.to_symmetric(omega);
+        [
+            coordinates,
+            self.model.symmetric_momenta(&coordinates, &rates),
+        ]
+    }
+
+    fn transfer_by(&self, form: usize, state: &[f64]) -> Transfer<f64> {
+        let [coordinates, momenta] = self.canonical(state);
+        let mut transfers = [Transfer::default()];
+        self.model
+            .transfers_into(form, &coordinates, &momenta, &mut transfers);
+        let [transfer] = transfers;
+        transfer
+    }
+}
+
+/// The index of a form by its name.
+fn form(name: &str) -> PyResult<usize> {
+    let names: Vec<String> = FORMS.iter().map(ToString::to_string).collect();
+    let found = names.iter().position(|own| own == name);
+    found.ok_or_else(|| {
+        let names = names.join("`, `");
+        PyValueError::new_err(format!(
+            "there is no form `{name}` of W: there are `{names}`"
+        ))
+    })
+}
+
+#[pymethods]
+impl BranchedDouble {
+    #[new]
+    fn new() -> PyClassInitializer<Self> {
+        let model = Paper::new();
+        let motions = Arc::new(AbsoluteAngles(model));
+        PyClassInitializer::from(Pendulum { motions }).add_subclass(Self { model })
+    }
+
+    /// Names of the forms of W.
+    #[classattr]
+    #[pyo3(name = "FORMS")]
+    fn forms() -> Vec<String> {
+        FORMS.iter().map(ToString::to_string).collect()
+    }
+
+    /// Returns symmetric coordinates (rad) and their momenta (kg m²/s) of each state of an
+    /// array whose last axis is that of the components: θ of the parent, mean and half the
+    /// difference of the children, then p of each.
+    fn canonical_variables<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+        by_state(py, &y, 2 * LINKS, |state| {
+            let [[a, b, c], [p, q, r]] = self.canonical(state);
+            [a, b, c, p, q, r]
+        })
+    }
+
+    /// Returns the energy H_d (J) of the antiphase mode of each state.
+    fn antiphase_energy<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+        by_state(py, &y, 2 * LINKS, |state| {
+            let [coordinates, momenta] = self.canonical(state);
+            [self.model.antiphase_energy(&coordinates, &momenta)]
+        })
+    }
+
+    /// Returns the energy transfer W (W) into the antiphase mode of each state, by one of the
+    /// `FORMS`: "angle order 1" is the published one, "exact" leaves nothing out.
+    #[pyo3(signature = (y, form = "exact"))]
+    fn transfer<'py>(&self, py: Python<'py>, y: AnyShape<'py>, form: &str) -> PyResult<Table<'py>> {
+        let form = self::form(form)?;
+        by_state(py, &y, 2 * LINKS, |state| {
+            [self.transfer_by(form, state).total()]
+        })
+    }
+
+    /// Returns the parts W_K and W_P (W) of that transfer, from the kinetic and from the
+    /// potential energy of the rest, along the last axis.
+    #[pyo3(signature = (y, form = "exact"))]
+    fn transfer_parts<'py>(
+        &self,
+        py: Python<'py>,
+        y: AnyShape<'py>,
+        form: &str,
+    ) -> PyResult<Table<'py>> {
+        let form = self::form(form)?;
+        by_state(py, &y, 2 * LINKS, |state| {
+            let Transfer { kinetic, potential } = self.transfer_by(form, state);
+            [kinetic, potential]
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        "BranchedDouble()".to_owned()
+    }
+}

@@ -1,0 +1,365 @@
+//! The class `Pendulum`: what trees and compiled models have in common.
+
+use std::cell::RefCell;
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
+use branched_pendulum::integrate::{
+    AnyIntegrator, Crossing, Event, Method, Occurrence, Options, Report, Tolerance,
+};
+use branched_pendulum::system::State;
+use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::IntegrationError;
+use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
+use crate::motions::Motions;
+use crate::solution::Solution;
+
+/// A pendulum whose motions can be followed: a tree that a text describes, or a compiled model.
+///
+/// SI units; angles are absolute, in radians from the downward vertical. A state is the angles
+/// (rad) followed by the angular velocities (rad/s), both in the order of `names`.
+#[pyclass(frozen, subclass, module = "branched_pendulum")]
+pub(crate) struct Pendulum {
+    pub(crate) motions: Arc<dyn Motions>,
+}
+
+fn failed(error: impl std::fmt::Display) -> PyErr {
+    IntegrationError::new_err(error.to_string())
+}
+
+/// A method by its name, with its tolerances or its step.
+struct Choice<'a> {
+    name: &'a str,
+    rtol: f64,
+    atol: Option<f64>,
+    step: Option<f64>,
+}
+
+impl Choice<'_> {
+    fn method(&self) -> PyResult<AnyIntegrator<f64>> {
+        let method: Method = self
+            .name
+            .parse()
+            .map_err(|error| PyValueError::new_err(format!("{error}")))?;
+        if !method.is_adaptive() && self.step.is_none() {
+            let text = format!("`{method}` goes by steps of one length: give step=...");
+            return Err(PyValueError::new_err(text));
+        }
+        Ok(method.with_options(self.options()))
+    }
+
+    fn options(&self) -> Options<f64> {
+        let mut options = Options::with_tolerance(self.rtol);
+        if let Some(atol) = self.atol {
+            options.absolute = Tolerance::Uniform(atol);
+        }
+        options.initial_step = self.step;
+        options
+    }
+}
+
+/// A function of Python whose zeros are looked for, as SciPy's: with `terminal` and
+/// `direction` as attributes.
+struct Watched<'py> {
+    function: Bound<'py, PyAny>,
+    crossing: Crossing,
+    terminal: bool,
+}
+
+impl<'py> Watched<'py> {
+    fn of(function: Bound<'py, PyAny>) -> PyResult<Self> {
+        let direction = match function.getattr_opt("direction")? {
+            Some(direction) => direction.extract::<f64>()?,
+            None => 0.0,
+        };
+        let terminal = match function.getattr_opt("terminal")? {
+            Some(terminal) => terminal.is_truthy()?,
+            None => false,
+        };
+        let crossing = match direction {
+            up if up > 0.0 => Crossing::Rising,
+            down if down < 0.0 => Crossing::Falling,
+            _ => Crossing::Either,
+        };
+        Ok(Self {
+            function,
+            crossing,
+            terminal,
+        })
+    }
+
+    fn value(&self, time: f64, state: &[f64]) -> PyResult<f64> {
+        let state = PyArray1::from_slice(self.function.py(), state);
+        self.function.call1((time, state))?.extract()
+    }
+}
+
+/// Events that came: times and states of each, the end of the run and its account.
+struct Came {
+    found: Vec<(Vec<f64>, Vec<f64>)>,
+    end: f64,
+    report: Report<f64>,
+}
+
+impl Pendulum {
+    /// Looks for events; the functions are Python's, so that its other threads wait.
+    fn look(
+        &self,
+        method: &AnyIntegrator<f64>,
+        start: &State<f64>,
+        end: f64,
+        watched: &[Watched<'_>],
+    ) -> PyResult<Came> {
+        let error = RefCell::new(None);
+        let first = &error;
+        let functions = watched.iter().map(|watched| {
+            move |time: f64, state: &[f64]| match watched.value(time, state) {
+                Ok(value) => value,
+                Err(own) => {
+                    first.borrow_mut().get_or_insert(own);
+                    // It ends the run.
+                    f64::NAN
+                }
+            }
+        });
+        let functions: Vec<_> = functions.collect();
+        let events = functions.iter().zip(watched);
+        let events: Vec<Event<'_, f64>> = events
+            .map(|(function, watched)| Event::new(watched.crossing, function))
+            .collect();
+        let mut found = vec![(Vec::new(), Vec::new()); watched.len()];
+        let mut visit = |came: Occurrence<'_, f64>| {
+            if let Some((times, states)) = found.get_mut(came.event) {
+                times.push(came.time);
+                states.extend_from_slice(came.state);
+            }
+            match watched.get(came.event).is_some_and(|event| event.terminal) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let run = self.motions.events(method, start, end, &events, &mut visit);
+        if let Some(error) = error.take() {
+            return Err(error);
+        }
+        let solution = run.map_err(failed)?;
+        Ok(Came {
+            found,
+            end: solution.state.time,
+            report: solution.report,
+        })
+    }
+}
+
+#[pymethods]
+impl Pendulum {
+    /// Names of the links, in the order of the angles.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.motions.names()
+    }
+
+    fn __len__(&self) -> usize {
+        self.motions.names().len()
+    }
+
+    /// Returns the rates of the state `y` at the time `t` (s), as `scipy.integrate.solve_ivp`
+    /// asks for them: angular velocities (rad/s), angular accelerations (rad/s²).
+    fn rhs<'py>(&self, py: Python<'py>, t: f64, y: Values<'py>) -> PyResult<Row<'py>> {
+        let state = numbers("y", &y, self.motions.dimension())?;
+        let mut rates = vec![0.0; state.len()];
+        self.motions.rates(t, &state, &mut rates);
+        Ok(rates.into_pyarray(py))
+    }
+
+    /// Returns the energy (J) of a state, or of each state of an array of any shape whose last
+    /// axis is that of the components.
+    fn energy<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+        let motions = &self.motions;
+        by_state(py, &y, motions.dimension(), |state| [motions.energy(state)])
+    }
+
+    /// Follows the motion from the state `y0` at `t[0]`, at the times `t` (s).
+    ///
+    /// `method` is one of the runtime's: "dop853", "dopri5" and "verner98" take the tolerances
+    /// `rtol` and `atol` (by default a thousandth of `rtol`), and `step` as the first step that
+    /// is tried; "rk4", "gauss2" to "gauss8" and "animation" go by steps of the length `step`
+    /// (s). With `dense_output=True` the solution has its state at any time: `solution(t)`.
+    ///
+    /// `events` are functions `f(t, y)` whose zeros are found, as SciPy's are: with
+    /// `f.terminal = True` the motion ends at the first, `f.direction` above or below zero
+    /// counts rising or falling ones alone. Without events other threads of Python run
+    /// meanwhile.
+    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false))]
+    #[allow(clippy::too_many_arguments)]
+    fn integrate<'py>(
+        &self,
+        py: Python<'py>,
+        y0: Values<'py>,
+        t: Values<'py>,
+        method: &str,
+        rtol: f64,
+        atol: Option<f64>,
+        step: Option<f64>,
+        events: Option<Vec<Bound<'py, PyAny>>>,
+        dense_output: bool,
+    ) -> PyResult<Solution> {
+        let choice = Choice {
+            name: method,
+            rtol,
+            atol,
+            step,
+        };
+        let method = choice.method()?;
+        let mut times = t.as_array().to_vec();
+        let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+            return Err(PyValueError::new_err("t has no times"));
+        };
+        let dimension = self.motions.dimension();
+        let start = State::new(first, numbers("y0", &y0, dimension)?);
+        let watched = events.unwrap_or_default().into_iter().map(Watched::of);
+        let watched = watched.collect::<PyResult<Vec<_>>>()?;
+        let came = match watched.is_empty() {
+            true => None,
+            false => Some(self.look(&method, &start, last, &watched)?),
+        };
+        let end = came.as_ref().map_or(last, |came| came.end);
+        times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
+        // The motion goes its way again: the search for events keeps no states, and calls of
+        // Python take most of its time.
+        let motions = &*self.motions;
+        let (states, report, trajectory) = py.detach(|| match dense_output {
+            false => {
+                let (states, report) = motions.sample(&method, &start, &times).map_err(failed)?;
+                Ok::<_, PyErr>((states, report, None))
+            }
+            true => {
+                let kept = motions.trajectory(&method, &start, end);
+                let (trajectory, report) = kept.map_err(failed)?;
+                let mut states = Vec::with_capacity(times.len() * dimension);
+                for &time in &times {
+                    states.extend(trajectory.at(time).map_err(failed)?);
+                }
+                Ok((states, report, Some(trajectory)))
+            }
+        })?;
+        let (report, found) = match came {
+            Some(came) => (came.report, came.found),
+            None => (report, Vec::new()),
+        };
+        let (mut t_events, mut y_events) = (Vec::new(), Vec::new());
+        for (times, states) in found {
+            t_events.push(times.into_pyarray(py).unbind());
+            y_events.push(matrix(py, states, dimension)?.unbind());
+        }
+        Ok(Solution {
+            t: times.into_pyarray(py).unbind(),
+            y: matrix(py, states, dimension)?.unbind(),
+            t_events,
+            y_events,
+            report,
+            trajectory,
+            names: motions.names(),
+        })
+    }
+
+    /// Follows many motions, one from each row of `starts`, in vector registers on all cores or
+    /// as many threads as are given: states by start, time and component, NaN from where a
+    /// motion could not be followed. Methods are "dop853", "dopri5" and "verner98". Other
+    /// threads of Python run meanwhile.
+    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn ensemble<'py>(
+        &self,
+        py: Python<'py>,
+        starts: AnyShape<'py>,
+        t: Values<'py>,
+        method: &str,
+        rtol: f64,
+        atol: Option<f64>,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let choice = Choice {
+            name: method,
+            rtol,
+            atol,
+            step: None,
+        };
+        let chosen = choice.method()?;
+        let times = t.as_array().to_vec();
+        let Some(&first) = times.first() else {
+            return Err(PyValueError::new_err("t has no times"));
+        };
+        let dimension = self.motions.dimension();
+        let starts = starts.as_array();
+        let [_, columns] = starts.shape() else {
+            return Err(PyValueError::new_err(
+                "starts must have two axes: starts, components",
+            ));
+        };
+        if *columns != dimension {
+            return Err(PyValueError::new_err(format!(
+                "a start has {columns} numbers, must have {dimension}"
+            )));
+        }
+        let rows = starts.rows().into_iter();
+        let starts: Vec<State<f64>> = rows.map(|row| State::new(first, row.to_vec())).collect();
+        let samples = py.detach(|| self.motions.ensemble(&chosen, threads, &starts, &times));
+        let Some(samples) = samples else {
+            return Err(PyValueError::new_err(format!(
+                "ensembles go by `dop853`, `dopri5` or `verner98`, not by `{method}`"
+            )));
+        };
+        let length = dimension * times.len();
+        let mut values = Vec::with_capacity(length * samples.len());
+        for sample in &samples {
+            let begin = values.len();
+            let states = sample.states();
+            states.for_each(|state| values.extend_from_slice(state));
+            values.resize(begin + length, f64::NAN);
+        }
+        let shape = [samples.len(), times.len(), dimension];
+        values.into_pyarray(py).reshape(shape)
+    }
+
+    /// Returns the `count` largest Lyapunov exponents (1/s) of the motion from `y0` at `t0`
+    /// (s), and their standard errors: deviations are made orthonormal every `interval` (s),
+    /// and counted over `intervals` of them after `settling` others. Other threads of Python
+    /// run meanwhile.
+    #[pyo3(signature = (y0, count = 1, interval = 0.5, settling = 20, intervals = 200, t0 = 0.0, rtol = 1e-9))]
+    #[allow(clippy::too_many_arguments)]
+    fn lyapunov<'py>(
+        &self,
+        py: Python<'py>,
+        y0: Values<'py>,
+        count: usize,
+        interval: f64,
+        settling: u32,
+        intervals: u32,
+        t0: f64,
+        rtol: f64,
+    ) -> PyResult<(Row<'py>, Row<'py>)> {
+        let start = State::new(t0, numbers("y0", &y0, self.motions.dimension())?);
+        let exponents = Lyapunov {
+            count,
+            interval,
+            settling,
+            intervals,
+        };
+        let options = Options::with_tolerance(rtol);
+        let spectrum = py.detach(|| self.motions.lyapunov(&exponents, options, &start));
+        let spectrum = spectrum.map_err(|error| match error {
+            LyapunovError::Count { .. } | LyapunovError::Interval { .. } => {
+                PyValueError::new_err(error.to_string())
+            }
+            _ => failed(error),
+        })?;
+        let [exponents, errors] = [spectrum.exponents, spectrum.standard_errors];
+        Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
+    }
+}
