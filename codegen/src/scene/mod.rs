@@ -19,6 +19,7 @@ mod expand;
 mod friction;
 mod layout;
 mod link_properties;
+mod methods;
 mod names;
 mod observable_text;
 mod observables;
@@ -48,10 +49,10 @@ pub use drive::{Drive, Signal, TimeFunction};
 pub use friction::{FrictionLaw, NonlinearFriction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
+pub use methods::is_method;
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,
-    is_method,
 };
 pub use quantity::Quantity;
 pub use requested::{BudgetRequest, Requests, Solve, TransferRequest};

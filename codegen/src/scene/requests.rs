@@ -7,9 +7,9 @@ use proc_macro2::{Ident, Span};
 
 use super::expand::ExpandedTree;
 use super::small_sectors::acting;
-use super::{BudgetRequest, LinkId, Requests, Solve, TransferRequest};
+use super::{BudgetRequest, LinkId, Requests, TransferRequest};
 use crate::description::{Request, RequestForm};
-use crate::report::{OutputMessage, Report, SyntaxMessage, UnequalUse, nearest};
+use crate::report::{OutputMessage, Report, UnequalUse, nearest};
 
 /// All outputs.
 const OUTPUTS: &[&str] = &[
@@ -144,21 +144,6 @@ pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Res
         wanted.momenta = true;
     }
     resolved
-}
-
-/// Reads `solve = ...`.
-pub(super) fn resolve_solve(
-    written: Option<&(Ident, Ident)>,
-    report: &mut Report,
-) -> Option<Solve> {
-    let (_, value) = written?;
-    let name = value.to_string();
-    let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
-    if found.is_none() {
-        let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
-        report.error(value.span(), SyntaxMessage::UnknownSolve { name, nearest });
-    }
-    found
 }
 
 /// A form in parentheses behind an output.
