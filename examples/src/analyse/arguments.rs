@@ -169,7 +169,7 @@ mod tests {
         assert!(parse("--every", "0").is_err());
         // All of a list stands in the record of a run.
         let words = ["analyse", "swing.csv", "--columns", "a,b,c"].map(Into::into);
-        let (_, recorded) = program::parse::<Arguments>(words).unwrap();
-        assert_eq!(recorded["columns"], "a,b,c");
+        let read = program::parse::<Arguments>(words).unwrap();
+        assert_eq!(read.values["columns"], "a,b,c");
     }
 }

@@ -23,7 +23,7 @@ struct Program {
 const PROGRAMS: [Program; 13] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
-        arguments: &["--angles", "40:43:0.2", "--duration", "4", "--rate", "50"],
+        arguments: &["--angles", "40:43:0.5", "--duration", "4", "--rate", "50"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_cascade"),
