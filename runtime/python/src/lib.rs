@@ -2,6 +2,7 @@
 
 mod arrays;
 mod branched_double;
+mod events;
 mod motions;
 mod pendulum;
 mod solution;

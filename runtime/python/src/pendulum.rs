@@ -1,21 +1,18 @@
 //! The class `Pendulum`: what trees and compiled models have in common.
 
-use std::cell::RefCell;
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
-use branched_pendulum::integrate::{
-    AnyIntegrator, Crossing, Event, Method, Occurrence, Options, Report, Tolerance,
-};
+use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
 use branched_pendulum::system::State;
-use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods};
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::IntegrationError;
 use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
+use crate::events::{Came, Watched, look};
 use crate::motions::Motions;
 use crate::solution::Solution;
 
@@ -28,7 +25,7 @@ pub(crate) struct Pendulum {
     pub(crate) motions: Arc<dyn Motions>,
 }
 
-fn failed(error: impl std::fmt::Display) -> PyErr {
+pub(crate) fn failed(error: impl std::fmt::Display) -> PyErr {
     IntegrationError::new_err(error.to_string())
 }
 
@@ -60,99 +57,6 @@ impl Choice<'_> {
         }
         options.initial_step = self.step;
         options
-    }
-}
-
-/// A function of Python whose zeros are looked for, as SciPy's: with `terminal` and
-/// `direction` as attributes.
-struct Watched<'py> {
-    function: Bound<'py, PyAny>,
-    crossing: Crossing,
-    terminal: bool,
-}
-
-impl<'py> Watched<'py> {
-    fn of(function: Bound<'py, PyAny>) -> PyResult<Self> {
-        let direction = match function.getattr_opt("direction")? {
-            Some(direction) => direction.extract::<f64>()?,
-            None => 0.0,
-        };
-        let terminal = match function.getattr_opt("terminal")? {
-            Some(terminal) => terminal.is_truthy()?,
-            None => false,
-        };
-        let crossing = match direction {
-            up if up > 0.0 => Crossing::Rising,
-            down if down < 0.0 => Crossing::Falling,
-            _ => Crossing::Either,
-        };
-        Ok(Self {
-            function,
-            crossing,
-            terminal,
-        })
-    }
-
-    fn value(&self, time: f64, state: &[f64]) -> PyResult<f64> {
-        let state = PyArray1::from_slice(self.function.py(), state);
-        self.function.call1((time, state))?.extract()
-    }
-}
-
-/// Events that came: times and states of each, the end of the run and its account.
-struct Came {
-    found: Vec<(Vec<f64>, Vec<f64>)>,
-    end: f64,
-    report: Report<f64>,
-}
-
-impl Pendulum {
-    /// Looks for events; the functions are Python's, so that its other threads wait.
-    fn look(
-        &self,
-        method: &AnyIntegrator<f64>,
-        start: &State<f64>,
-        end: f64,
-        watched: &[Watched<'_>],
-    ) -> PyResult<Came> {
-        let error = RefCell::new(None);
-        let first = &error;
-        let functions = watched.iter().map(|watched| {
-            move |time: f64, state: &[f64]| match watched.value(time, state) {
-                Ok(value) => value,
-                Err(own) => {
-                    first.borrow_mut().get_or_insert(own);
-                    // It ends the run.
-                    f64::NAN
-                }
-            }
-        });
-        let functions: Vec<_> = functions.collect();
-        let events = functions.iter().zip(watched);
-        let events: Vec<Event<'_, f64>> = events
-            .map(|(function, watched)| Event::new(watched.crossing, function))
-            .collect();
-        let mut found = vec![(Vec::new(), Vec::new()); watched.len()];
-        let mut visit = |came: Occurrence<'_, f64>| {
-            if let Some((times, states)) = found.get_mut(came.event) {
-                times.push(came.time);
-                states.extend_from_slice(came.state);
-            }
-            match watched.get(came.event).is_some_and(|event| event.terminal) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        };
-        let run = self.motions.events(method, start, end, &events, &mut visit);
-        if let Some(error) = error.take() {
-            return Err(error);
-        }
-        let solution = run.map_err(failed)?;
-        Ok(Came {
-            found,
-            end: solution.state.time,
-            report: solution.report,
-        })
     }
 }
 
@@ -226,10 +130,12 @@ impl Pendulum {
         let watched = watched.collect::<PyResult<Vec<_>>>()?;
         let came = match watched.is_empty() {
             true => None,
-            false => Some(self.look(&method, &start, last, &watched)?),
+            false => Some(look(&*self.motions, &method, &start, last, &watched)?),
         };
         let end = came.as_ref().map_or(last, |came| came.end);
-        times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
+        if came.as_ref().is_some_and(Came::is_stopped) {
+            times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
+        }
         // The motion goes its way again: the search for events keeps no states, and calls of
         // Python take most of its time.
         let motions = &*self.motions;

@@ -199,6 +199,9 @@ def test_mistakes():
         tree.integrate(START, np.linspace(0, 1, 3), method="taylor")
     with pytest.raises(ValueError, match="ensembles go by"):
         tree.ensemble([START], [0, 1], method="taylor")
+    for dense_output in [False, True]:
+        with pytest.raises(bp.IntegrationError):
+            tree.integrate(START, [0, 5, 3], dense_output=dense_output)
     failed = tree.ensemble([START, START * np.nan], [0, 1])
     assert np.isnan(failed[1]).all() and not np.isnan(failed[0]).any()
 
