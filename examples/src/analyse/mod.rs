@@ -25,8 +25,11 @@ pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
 pub use subject::{Subject, TwoLinks};
 
+use branched_pendulum::Parametric;
+
 use crate::branched_double::Apparatus;
 use crate::failure::Failure;
+use crate::identify::scene::Chain;
 use crate::program::Job;
 use arguments::Tree;
 use spectrogram::Spectrogram;
@@ -48,7 +51,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
         Tree::Chain => {
             let read = arguments.parameters.as_deref().map(parameters::read);
-            let chain = TwoLinks::new(&read.transpose()?.unwrap_or_else(parameters::fitted))?;
+            let values = read.transpose()?.unwrap_or_else(parameters::fitted);
+            if let Err(error) = Chain::<f64>::check_parameters(|index| values[index]) {
+                job.print(&format!(
+                    "No pendulum is such, but taken as it is: {error}.\n"
+                ))?;
+            }
+            let chain = TwoLinks::new(&values);
             let file = arguments.measured.file.as_deref().unwrap_or("".as_ref());
             analyse(arguments, job, &chain, &Source::open(file, arguments)?)
         }

@@ -4,7 +4,7 @@ use branched_pendulum::analysis::variational::{Linearised, linearised};
 use branched_pendulum::analysis::{ModelSmoother, SmoothedMotion, SmoothingError};
 use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::{Cast, ParameterError, Parametric};
+use branched_pendulum::{Cast, Parametric};
 
 use crate::branched_double::Apparatus;
 use crate::branched_double::apparatus::EXACT;
@@ -189,15 +189,12 @@ pub struct TwoLinks {
 }
 
 impl TwoLinks {
-    /// The chain with these values of its parameters, in the order of the [`Chain`].
-    ///
-    /// # Errors
-    /// Parameters that no pendulum has.
-    pub fn new(values: &[f64]) -> Result<Self, ParameterError> {
-        Chain::<f64>::check_parameters(|index| values[index])?;
+    /// The chain with these values of its parameters, in the order of the [`Chain`], taken as
+    /// they are: a fit may have found some that no pendulum has.
+    pub fn new(values: &[f64]) -> Self {
         let model = Chain::<f64>::with_parameters(|index| values[index]);
         let dual = model.cast(Dual::constant);
-        Ok(Self { model, dual })
+        Self { model, dual }
     }
 }
 

@@ -197,7 +197,7 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
         "/../runtime/tests/identification/double-pendulum.csv"
     );
     let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain"]);
-    let chain = TwoLinks::new(&fitted()).unwrap();
+    let chain = TwoLinks::new(&fitted());
     let mut source: Source<2> = Source::open(file.as_ref(), &arguments).unwrap();
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
@@ -250,7 +250,7 @@ fn friction_of_the_chain_by_all_laws() {
         values[place] = value;
     }
     let of = |name: &str| values[names.iter().position(|own| *own == name).unwrap()];
-    let chain = TwoLinks::new(&values).unwrap();
+    let chain = TwoLinks::new(&values);
     let lost = |[viscous, coulomb, quadratic]: [f64; 3], rate: f64| {
         let size = rate.hypot(0.05);
         viscous * rate * rate + (coulomb / size + quadratic * size) * rate * rate

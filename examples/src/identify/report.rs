@@ -110,22 +110,24 @@ pub fn report(
              the real one; the motion is the same all the same."
         ));
     }
-    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
-    for (where_from, margin) in [("all", 0.0), ("those 0.1 s from the ends", MARGIN)] {
+    let compared = |margin: f64| {
         let Mismatch {
             rms,
             largest: [largest, time],
             deviation,
         } = energies.mismatch(margin);
-        line(format!(
-            "Energies of the fitted motion and of the measured one, at {where_from}: they differ by \
-             {} of that\n  at the start (rms), by {} at most: at {time:.2} s, where smoothness \
-             knows the measured\n  one to {}.",
-            percent(rms),
-            percent(largest),
-            percent(deviation)
-        ));
-    }
+        let [rms, largest, deviation] = [rms, largest, deviation].map(|part| 100.0 * part);
+        format!(
+            "by {rms:.2} % (rms), by {largest:.2} % at most: at {time:.2} s, where smoothness \
+             tells the latter to {deviation:.2} %"
+        )
+    };
+    line(format!(
+        "Energy of the fitted motion and of the measured one differ, of that at the start,\n  {};\n  \
+         {MARGIN} s and more from the ends {}.",
+        compared(0.0),
+        compared(MARGIN)
+    ));
     text
 }
 

@@ -127,6 +127,8 @@ const PADDED: usize = 4;
 /// Distances from a line, in cycles over the record, at which the strength of what is left
 /// beside it is looked at.
 const BESIDE: [f64; 2] = [1.0, 5.0];
+/// Degrees of freedom of that strength, beyond which it is used and not that of all that is left.
+const FEWEST: f64 = 4.0;
 
 impl LineSearch {
     /// Finds the lines of samples taken at `sample_rate_hz`.
@@ -167,10 +169,12 @@ impl LineSearch {
 
     fn lines(&self, fit: &WaveFit<'_>, left: &Left, count: usize, rate: f64) -> Lines {
         let unit = rate / count as f64;
+        let squares: Vec<f64> = self.window.weights(count).iter().map(|w| w * w).collect();
+        let alike = at_grid(&squares, PADDED * count);
         let unknown = || vec![[f64::NAN; 2]; fit.waves.len()];
         let variances = fit.variances().unwrap_or_else(unknown);
         let line = |(wave, [cycles, amplitude]): (&Wave, [f64; 2])| {
-            let noise = left.beside(wave, &fit.waves);
+            let noise = left.beside(wave, &fit.waves, &alike);
             SpectralLine {
                 frequency_hz: unit * wave.cycles,
                 deviation_hz: unit * noise * cycles.sqrt(),
@@ -252,8 +256,11 @@ impl Left {
         Some(cycles(best) + if is_peak { shift / PADDED as f64 } else { 0.0 })
     }
 
-    /// Standard deviation of white noise as strong as what is left beside a wave.
-    fn beside(&self, wave: &Wave, waves: &[Wave]) -> f64 {
+    /// Standard deviation of white noise as strong as what is left beside a wave. It is known
+    /// from few amplitudes, so that errors over it follow Student's distribution: it is larger
+    /// by as much as that is wider than the normal one. `alike` is the correlation of
+    /// amplitudes by their distance, but for a factor.
+    fn beside(&self, wave: &Wave, waves: &[Wave], alike: &[f64]) -> f64 {
         let [near, far] = BESIDE;
         let cycles = |bin: usize| bin as f64 / PADDED as f64;
         let is_free = |bin: &usize| {
@@ -263,13 +270,23 @@ impl Left {
                 .map(|other| (other.cycles - cycles(*bin)).abs());
             distance <= far && others.fold(f64::INFINITY, f64::min) >= near
         };
-        let squares: Vec<f64> = (0..self.amplitudes.len())
-            .filter(is_free)
-            .map(|bin| self.amplitudes[bin].powi(2) / self.noise)
-            .collect();
-        match squares.len() {
-            0 => self.mean_square.sqrt(),
-            count => (squares.iter().sum::<f64>() / count as f64).sqrt(),
+        let bins: Vec<usize> = (0..self.amplitudes.len()).filter(is_free).collect();
+        let squares = bins
+            .iter()
+            .map(|&bin| self.amplitudes[bin].powi(2) / self.noise);
+        let mean = squares.sum::<f64>() / bins.len() as f64;
+        let pairs = bins
+            .iter()
+            .flat_map(|a| bins.iter().map(|b| a.abs_diff(*b)));
+        let together: f64 = pairs
+            .map(|distance| (alike[distance] / alike[0]).powi(2))
+            .sum();
+        // Two squares of normal numbers an independent amplitude.
+        let freedom = 2.0 * (bins.len() as f64).powi(2) / together;
+        if freedom > FEWEST {
+            (mean * freedom / (freedom - 2.0)).sqrt()
+        } else {
+            self.mean_square.sqrt()
         }
     }
 }
