@@ -40,8 +40,8 @@ impl Emission<'_> {
         }
     }
 
-    /// What is made of the call of a function at slices that are called as its arguments are,
-    /// or `failure`.
+    /// Hands the call of a function at slices, which are called as its arguments are, to `made`;
+    /// `failure` where their lengths are wrong.
     pub(super) fn at_slices(
         &self,
         purpose: Purpose,
@@ -81,7 +81,7 @@ impl Emission<'_> {
         self.at_slices(purpose, write, quote!(false))
     }
 
-    /// The same of two arrays that a function gives.
+    /// Writes two arrays that a function gives into slices.
     pub(super) fn both_written_at_slices(
         &self,
         outputs: [&str; 2],

@@ -112,7 +112,7 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// What the functions are called after, as far as the description tells.
+/// Names that functions are called after, as far as the description tells them.
 fn naming(description: &Description) -> Naming {
     // Where there are several differences, each has its functions.
     let places = places(description).into_iter();

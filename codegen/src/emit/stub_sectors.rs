@@ -1,4 +1,4 @@
-//! What a wrong description says of its sectors.
+//! Sectors of a wrong description, as far as it tells them.
 
 use super::stub::is_plain;
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};

@@ -162,8 +162,8 @@ pub struct TransferFormulas {
     pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<TransferParts>,
-    /// The same as what the mean tree does and what the mismatch adds, between copies that
-    /// differ; the first in velocities of the mean tree.
+    /// The rate between copies that differ, as what the mean tree does, in its velocities, and
+    /// what the mismatch adds.
     pub split: Option<[TransferParts; 2]>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,

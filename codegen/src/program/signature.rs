@@ -24,7 +24,7 @@ pub struct Signature {
     pub shape: ResultShape,
 }
 
-/// What the functions of a model are called after, and how long their arrays are.
+/// Names that the functions of a model are called after, and lengths of their arrays.
 #[derive(Clone, Debug)]
 pub struct Naming {
     /// True if there is a drive: functions of all forces take the time then.

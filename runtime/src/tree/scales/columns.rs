@@ -37,7 +37,7 @@ pub(super) const ALL: usize = 25;
 pub(super) const BIAS: usize = 0;
 /// Offset.
 pub(super) const OFFSET: usize = 2;
-/// What is handed down along the flow.
+/// Motion of pivots, handed down along the flow.
 pub(super) const PIVOT: usize = 3;
 /// Changes of velocities of centres of mass, then of the children's pivots.
 pub(super) const SHIFT: usize = 5;
