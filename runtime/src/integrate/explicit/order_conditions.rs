@@ -115,7 +115,7 @@ pub(super) fn order(trees: &[RootedTree], weights: &[(usize, f64)]) -> u32 {
     missed.map_or(highest, |tree| tree.order - 1)
 }
 
-/// StageWeights of all stages at one fraction of the step, with the sums of the
+/// Weights of all stages at one fraction of the step, with the sums of the
 /// magnitudes that they are formed of.
 pub(super) struct StageWeights(Vec<(f64, f64)>);
 

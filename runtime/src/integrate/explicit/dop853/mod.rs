@@ -45,5 +45,5 @@ impl EmbeddedPair for DormandPrince8 {
     }
 }
 
-/// StageWeights of the solution of order 8 minus those of the one of order 3.
+/// Weights of the solution of order 8 minus those of the one of order 3.
 const B_MINUS_THIRD: TableRow<8> = difference(&B, &B_THIRD);

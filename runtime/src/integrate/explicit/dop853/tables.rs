@@ -113,7 +113,7 @@ pub(super) const A12: TableRow<9> = [
     (11, 6.43392746015763530355970484046e-1),
 ];
 
-/// StageWeights of the solution of order 8.
+/// Weights of the solution of order 8.
 pub(super) const B: TableRow<8> = [
     (1, 5.42937341165687622380535766363e-2),
     (6, 4.45031289275240888144113950566e0),
@@ -125,14 +125,14 @@ pub(super) const B: TableRow<8> = [
     (12, 4.47106157277725905176885569043e-2),
 ];
 
-/// StageWeights of the embedded solution of order 3.
+/// Weights of the embedded solution of order 3.
 pub(super) const B_THIRD: TableRow<3> = [
     (1, 0.244094488188976377952755905512e+00),
     (9, 0.733846688281611857341361741547e+00),
     (12, 0.220588235294117647058823529412e-01),
 ];
 
-/// StageWeights of the solution of order 8 minus those of the embedded one of
+/// Weights of the solution of order 8 minus those of the embedded one of
 /// order 5.
 pub(super) const E_FIFTH: TableRow<8> = [
     (1, 0.1312004499419488073250102996e-01),
@@ -176,7 +176,7 @@ pub(super) const A16: TableRow<8> = [
     (15, -9.15095847217987001081870187138e0),
 ];
 
-/// StageWeights of the four highest coefficients of the dense output.
+/// Weights of the four highest coefficients of the dense output.
 pub(super) const D: [TableRow<12>; 4] = [
     [
         (1, -0.84289382761090128651353491142e+01),

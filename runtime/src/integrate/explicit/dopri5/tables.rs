@@ -34,7 +34,7 @@ pub(super) const A6: TableRow<5> = [
     (5, -5103.0 / 18656.0),
 ];
 
-/// StageWeights of the solution of order 5; also the row of stage 7.
+/// Weights of the solution of order 5; also the row of stage 7.
 pub(super) const B: TableRow<5> = [
     (1, 35.0 / 384.0),
     (3, 500.0 / 1113.0),
@@ -43,7 +43,7 @@ pub(super) const B: TableRow<5> = [
     (6, 11.0 / 84.0),
 ];
 
-/// StageWeights of the solution of order 5 minus those of the embedded one of
+/// Weights of the solution of order 5 minus those of the embedded one of
 /// order 4.
 pub(super) const E: TableRow<6> = [
     (1, 71.0 / 57600.0),
@@ -54,7 +54,7 @@ pub(super) const E: TableRow<6> = [
     (7, -1.0 / 40.0),
 ];
 
-/// StageWeights of the highest coefficient of the dense output.
+/// Weights of the highest coefficient of the dense output.
 pub(super) const D: TableRow<6> = [
     (1, -12715105075.0 / 11282082432.0),
     (3, 87487479700.0 / 32700410799.0),

@@ -144,7 +144,7 @@ pub(super) const A16: TableRow<9> = [
     (13, 1.0989155531654418),
 ];
 
-/// StageWeights of the solution of order 9; also the row of stage 17.
+/// Weights of the solution of order 9; also the row of stage 17.
 pub(super) const B: TableRow<9> = [
     (1, 0.015006690149797247),
     (8, -1.0551809927463813),
@@ -157,7 +157,7 @@ pub(super) const B: TableRow<9> = [
     (15, 0.030800101683194355),
 ];
 
-/// StageWeights of the embedded solution of order 8.
+/// Weights of the embedded solution of order 8.
 pub(super) const B_EIGHTH: TableRow<8> = [
     (1, 0.018972105324811014),
     (8, 3.4081103145494938),

@@ -19,7 +19,7 @@ pub(super) struct GaussTable {
     pub(super) nodes: &'static [f64],
     /// Rows of the matrix a, one after the other.
     pub(super) matrix: &'static [Split],
-    /// StageWeights b.
+    /// Weights b.
     pub(super) weights: &'static [Split],
     /// Integral from 0 to x of the Lagrange polynomial of each node: the
     /// coefficients of x, x², …, one row a node.
