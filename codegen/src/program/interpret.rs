@@ -61,11 +61,21 @@ enum Step {
 }
 
 impl Interpreter {
-    /// Returns the outputs.
+    /// Returns the outputs, each product and sum rounded.
     ///
-    /// `sin_cos` and `mul_add`, x · y + z, are those that emitted code would use, `input`
-    /// supplies the elements of the arguments. Linear in the length of the entry point.
+    /// `sin_cos` is the sine and cosine that emitted code would use, `input` supplies the
+    /// elements of the arguments. Linear in the length of the entry point.
     pub fn evaluate(
+        &self,
+        sin_cos: impl Fn(f64) -> (f64, f64),
+        input: impl Fn(Argument, usize) -> f64,
+    ) -> Vec<f64> {
+        self.evaluate_fused(sin_cos, |x, y, z| x * y + z, input)
+    }
+
+    /// Returns the outputs, as [`evaluate`](Self::evaluate), with a multiply-add
+    /// x · y + z of the caller's wherever emitted code has a fused one.
+    pub fn evaluate_fused(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),
         mul_add: impl Fn(f64, f64, f64) -> f64,
@@ -128,11 +138,8 @@ impl Program {
         })
     }
 
-    /// Returns the outputs of an entry point, evaluated once, without fused sums.
-    ///
-    /// `parameters` are the scene's parameters in order, `input` supplies the
-    /// elements of the arguments, and `sin_cos` is the sine and cosine that
-    /// emitted code would use. Linear in the length of the program.
+    /// Returns the outputs of an entry point, evaluated once:
+    /// [`interpreter`](Self::interpreter) and [`Interpreter::evaluate`].
     pub fn evaluate(
         &self,
         sin_cos: impl Fn(f64) -> (f64, f64),
@@ -140,8 +147,7 @@ impl Program {
         parameters: &[f64],
         input: impl Fn(Argument, usize) -> f64,
     ) -> Option<Vec<f64>> {
-        let unfused = |x: f64, y: f64, z: f64| x * y + z;
         let interpreter = self.interpreter(entry, parameters)?;
-        Some(interpreter.evaluate(sin_cos, unfused, input))
+        Some(interpreter.evaluate(sin_cos, input))
     }
 }
