@@ -23,13 +23,13 @@ mod methods;
 mod names;
 mod observable_text;
 mod observables;
+mod outputs;
 mod prescribed;
 mod probe;
 mod properties;
 mod quantity;
 mod reduced_body;
 mod reduction;
-mod requested;
 mod requests;
 mod resolve;
 mod rule;
@@ -54,8 +54,8 @@ pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,
 };
+pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use quantity::Quantity;
-pub use requested::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};

@@ -6,16 +6,16 @@ use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
 use super::prescribed::resolve_prescribed;
 use super::reduction::reduce;
-use super::requested::resolve_solve;
 use super::requests::{check_symmetry, resolve_requests};
 use super::rule::resolve_code;
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
 use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
-use super::{CratePath, Quantity, Scene, Sign};
+use super::{CratePath, Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, Value};
-use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage, ValueMessage};
+use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
+use proc_macro2::Ident;
 
 /// Checks a description and writes it out link by link.
 ///
@@ -216,4 +216,16 @@ fn crate_path(description: &Description) -> CratePath {
                 .collect(),
         },
     }
+}
+
+/// Reads `solve = ...`.
+fn resolve_solve(written: Option<&(Ident, Ident)>, report: &mut Report) -> Option<Solve> {
+    let (_, value) = written?;
+    let name = value.to_string();
+    let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
+    if found.is_none() {
+        let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
+        report.error(value.span(), SyntaxMessage::UnknownSolve { name, nearest });
+    }
+    found
 }

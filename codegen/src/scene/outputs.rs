@@ -1,9 +1,6 @@
 //! Outputs that are asked for.
 
-use proc_macro2::Ident;
-
 use crate::named_members::named_members;
-use crate::report::{Report, SyntaxMessage, nearest};
 
 named_members! {
     /// Method by which the accelerations in absolute angles are solved for.
@@ -95,19 +92,4 @@ pub struct TransferRequest {
     pub amplitude_orders: Vec<u32>,
     /// The form without truncation.
     pub exact: bool,
-}
-
-/// Reads `solve = ...`.
-pub(super) fn resolve_solve(
-    written: Option<&(Ident, Ident)>,
-    report: &mut Report,
-) -> Option<Solve> {
-    let (_, value) = written?;
-    let name = value.to_string();
-    let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
-    if found.is_none() {
-        let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
-        report.error(value.span(), SyntaxMessage::UnknownSolve { name, nearest });
-    }
-    found
 }
