@@ -27,7 +27,6 @@ fn signal(time: f64) -> [f64; 3] {
 /// In how many of all cases angle and rate lie within 1.96 deviations. (Those of the second
 /// derivative are too wide: the signal is smoother than the integral of a white jerk.)
 fn coverage(
-    draws: u64,
     smooth: impl Fn(&[f64], &[Option<f64>]) -> SmoothedMotion<3>,
     times: &[f64],
     noise: f64,
@@ -35,7 +34,7 @@ fn coverage(
     looked_at: impl Fn(usize) -> bool,
 ) -> [f64; 2] {
     let (mut inside, mut count) = ([0_u32; 2], 0_u32);
-    for seed in 1..=draws {
+    for seed in 1..=100 {
         let mut normal = Normal(seed * 0x9e37_79b9);
         let data: Vec<Option<f64>> = times
             .iter()
@@ -78,7 +77,7 @@ fn bars_hold_what_they_say() {
         .collect();
     for times in [even, uneven] {
         for noise in [3e-4, 3e-3] {
-            let all = coverage(100, by_smoothness, &times, noise, |_| false, |_| true);
+            let all = coverage(by_smoothness, &times, noise, |_| false, |_| true);
             assert!(
                 all.iter().all(|part| (0.93..0.995).contains(part)),
                 "{noise}: {all:?}"
@@ -86,7 +85,7 @@ fn bars_hold_what_they_say() {
         }
         // A gap of 12 pictures, and every seventh picture lost.
         let lost = |index: usize| (200..212).contains(&index) || index % 7 == 3;
-        let within = coverage(100, by_smoothness, &times, 1e-3, lost, |index| {
+        let within = coverage(by_smoothness, &times, 1e-3, lost, |index| {
             (200..212).contains(&index)
         });
         assert!(
@@ -106,7 +105,7 @@ fn bars_of_polynomials_hold_nearly_what_they_say() {
     for times in [even, uneven] {
         for noise in [3e-4, 3e-3] {
             let lost = |index: usize| index % 7 == 3;
-            let all = coverage(30, by_polynomials, &times, noise, lost, |_| true);
+            let all = coverage(by_polynomials, &times, noise, lost, |_| true);
             assert!(
                 all.iter().all(|part| (0.9..0.995).contains(part)),
                 "{noise}: {all:?}"

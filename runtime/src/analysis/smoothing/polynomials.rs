@@ -144,7 +144,7 @@ impl Record {
         let (mut foretold, mut squares) = (0.0, 0.0);
         let mut freedom = 0.0;
         for (index, [time, value]) in self.points.iter().enumerate() {
-            let weights = self.weights(*time, window);
+            let weights = self.weights::<1>(*time, window);
             let near = self.points[weights.first..].iter().zip(&weights.weights);
             let (mean, square) = near.fold((0.0, 0.0), |(mean, square), ([_, value], weight)| {
                 (mean + weight[0] * value, square + weight[0] * weight[0])
@@ -164,9 +164,9 @@ impl Record {
         }
     }
 
-    /// Weights of the data of the window about a time in value, first and second derivative
-    /// of the polynomial there.
-    fn weights(&self, time: f64, window: usize) -> DataWeights<3> {
+    /// Weights of the data of the window about a time in the first `D` of value, first and
+    /// second derivative of the polynomial there.
+    fn weights<const D: usize>(&self, time: f64, window: usize) -> DataWeights<D> {
         let after = self.points.partition_point(|[other, _]| *other < time);
         let mut first = after.saturating_sub(window);
         while first + window < self.points.len()
@@ -180,18 +180,33 @@ impl Record {
         let reach = reach.fold(0.0, f64::max) * (1.0 + 1.0 / window as f64);
         let places = near.iter().map(|[other, _]| (other - time) / reach);
         let places: Vec<f64> = places.collect();
+        // The normal equations hold moments alone.
+        let mut moments = vec![0.0; 2 * self.degree + 1];
+        for place in &places {
+            let mut power = 1.0 - place * place;
+            for moment in &mut moments {
+                *moment += power;
+                power *= place;
+            }
+        }
         let columns = self.degree + 1;
-        let basis = DMatrix::from_fn(window, columns, |row, power| places[row].powi(power as i32));
-        let weighted = DMatrix::from_fn(columns, window, |power, column| {
-            (1.0 - places[column] * places[column]) * basis[(column, power)]
-        });
-        let solved = (&weighted * basis).cholesky().map(|f| f.solve(&weighted));
-        let solved = solved.unwrap_or_else(|| DMatrix::zeros(columns, window));
+        let normal = DMatrix::from_fn(columns, columns, |row, column| moments[row + column]);
+        // Of their inverse the rows that are asked for.
+        let asked = DMatrix::identity(columns, D);
+        let solved = normal.cholesky().map(|f| f.solve(&asked));
+        let solved = solved.unwrap_or_else(|| DMatrix::zeros(columns, D));
         let scales = [1.0, 1.0 / reach, 2.0 / (reach * reach)];
-        let of = |column: usize| SVector::from_fn(|row, _| scales[row] * solved[(row, column)]);
+        let coefficients =
+            |power: usize| SVector::<f64, D>::from_fn(|row, _| scales[row] * solved[(power, row)]);
+        let coefficients: Vec<_> = (0..columns).map(coefficients).collect();
+        let weight = |place: &f64| {
+            let horner = |sum: SVector<f64, D>, power: &SVector<f64, D>| sum * *place + power;
+            let polynomial = coefficients.iter().rev().fold(SVector::zeros(), horner);
+            polynomial * (1.0 - place * place)
+        };
         DataWeights {
             first,
-            weights: (0..window).map(of).collect(),
+            weights: places.iter().map(weight).collect(),
         }
     }
 }
