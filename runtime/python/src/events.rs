@@ -49,28 +49,28 @@ impl<'py> Watched<'py> {
     }
 }
 
-/// Events that came: times and states of each, the end of the run and its account.
-pub(crate) struct Came {
-    pub(crate) found: Vec<(Vec<f64>, Vec<f64>)>,
+/// Times and states of each event, the end of the run and its account.
+pub(crate) struct FoundEvents {
+    pub(crate) crossings: Vec<(Vec<f64>, Vec<f64>)>,
     pub(crate) end: f64,
     pub(crate) report: Report<f64>,
 }
 
-impl Came {
+impl FoundEvents {
     /// Returns true if the run ended at a terminal event.
     pub(crate) fn is_stopped(&self) -> bool {
         self.report.stop == StopReason::StoppedByEvent
     }
 }
 
-/// Looks for events; the functions are Python's, so that its other threads wait.
-pub(crate) fn look(
+/// Finds events along a motion; the functions are Python's, so that its other threads wait.
+pub(crate) fn find_events(
     motions: &dyn Motions,
     method: &AnyIntegrator<f64>,
     start: &State<f64>,
     end: f64,
     watched: &[Watched<'_>],
-) -> PyResult<Came> {
+) -> PyResult<FoundEvents> {
     let error = RefCell::new(None);
     let first = &error;
     let functions = watched.iter().map(|watched| {
@@ -88,13 +88,16 @@ pub(crate) fn look(
     let events: Vec<Event<'_, f64>> = events
         .map(|(function, watched)| Event::new(watched.crossing, function))
         .collect();
-    let mut found = vec![(Vec::new(), Vec::new()); watched.len()];
-    let mut visit = |came: Occurrence<'_, f64>| {
-        if let Some((times, states)) = found.get_mut(came.event) {
-            times.push(came.time);
-            states.extend_from_slice(came.state);
+    let mut crossings = vec![(Vec::new(), Vec::new()); watched.len()];
+    let mut visit = |occurrence: Occurrence<'_, f64>| {
+        if let Some((times, states)) = crossings.get_mut(occurrence.event) {
+            times.push(occurrence.time);
+            states.extend_from_slice(occurrence.state);
         }
-        match watched.get(came.event).is_some_and(|event| event.terminal) {
+        match watched
+            .get(occurrence.event)
+            .is_some_and(|event| event.terminal)
+        {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
@@ -104,8 +107,8 @@ pub(crate) fn look(
         return Err(error);
     }
     let solution = run.map_err(failed)?;
-    Ok(Came {
-        found,
+    Ok(FoundEvents {
+        crossings,
         end: solution.state.time,
         report: solution.report,
     })

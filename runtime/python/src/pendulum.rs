@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 
 use crate::IntegrationError;
 use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
-use crate::events::{Came, Watched, look};
+use crate::events::{FoundEvents, Watched, find_events};
 use crate::motions::Motions;
 use crate::solution::Solution;
 
@@ -128,12 +128,12 @@ impl Pendulum {
         let start = State::new(first, numbers("y0", &y0, dimension)?);
         let watched = events.unwrap_or_default().into_iter().map(Watched::of);
         let watched = watched.collect::<PyResult<Vec<_>>>()?;
-        let came = match watched.is_empty() {
+        let found = match watched.is_empty() {
             true => None,
-            false => Some(look(&*self.motions, &method, &start, last, &watched)?),
+            false => Some(find_events(&*self.motions, &method, &start, last, &watched)?),
         };
-        let end = came.as_ref().map_or(last, |came| came.end);
-        if came.as_ref().is_some_and(Came::is_stopped) {
+        let end = found.as_ref().map_or(last, |found| found.end);
+        if found.as_ref().is_some_and(FoundEvents::is_stopped) {
             times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
         }
         // The motion goes its way again: the search for events keeps no states, and calls of
@@ -154,12 +154,12 @@ impl Pendulum {
                 Ok((states, report, Some(trajectory)))
             }
         })?;
-        let (report, found) = match came {
-            Some(came) => (came.report, came.found),
+        let (report, crossings) = match found {
+            Some(found) => (found.report, found.crossings),
             None => (report, Vec::new()),
         };
         let (mut t_events, mut y_events) = (Vec::new(), Vec::new());
-        for (times, states) in found {
+        for (times, states) in crossings {
             t_events.push(times.into_pyarray(py).unbind());
             y_events.push(matrix(py, states, dimension)?.unbind());
         }
