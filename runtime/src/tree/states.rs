@@ -11,7 +11,9 @@
 
 use super::block::SubtreeBlock;
 use super::equations::LinkEquations;
+use super::links;
 use super::memory::{Room, take};
+use super::partition::Policy;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
 use super::sweep::{Output, Passes, Sweep};
@@ -66,72 +68,79 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     torque: impl Fn(usize) -> V,
     mut alpha: impl FnMut(usize, V),
 ) {
-    let (plan, room) = (&tree.states, &mut room);
+    let plan = &tree.states;
     let top_room = Room::new(&plan.top(), tree.sizes, 1);
-    let [lasting, passing] = [top_room.lasting(), top_room.passing()];
-    let [lasting, passing] = [take(room, lasting), take(room, passing)];
-    let mut top = sweep(tree, plan.top(), &top_room, [lasting, passing]);
-    top.torque = drive.map(|drive| drive.torque);
-    let [x, y] = tree.root;
-    top.root = Some(RootDrive::above([V::splat(x), V::splat(y)], drive));
+    let top_lasting = take(&mut room, top_room.lasting());
+    let top_passing = take(&mut room, top_room.passing());
     let above = plan.top().generations.last();
     let slot = above.map_or(0, |generation| generation.slot);
 
-    let mut blocks: &mut [V] = &mut [];
-    let mut block_passing: &mut [V] = &mut [];
-    let mut block_room = None;
-    if let Some(partition) = plan.partitions.first() {
-        let own = Room::new(&partition.largest(), tree.sizes, 1);
-        block_passing = take(room, own.passing());
-        blocks = core::mem::take(room);
-        block_room = Some((partition, own));
-    }
-    if let Some((partition, own)) = &block_room {
-        let mut rest = &mut *blocks;
-        for block in partition.windows(&(0..partition.count)) {
-            let lasting = take(&mut rest, own.lasting());
-            let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
-            form(&mut sweep, &[], &[], &theta, &omega, &torque);
-            if let Some(view) = sweep.view() {
-                Passes::<E, T, V, V>::of(&view).up();
+    // Where the equations say it, what a tree is without is not compiled: order and
+    // parents if it has generations, blocks if these are small.
+    let (order, parents) = match E::COPIES.is_empty() {
+        true => (&*plan.order, &*plan.parents),
+        false => (&[][..], &[][..]),
+    };
+    let partition = match links(E::COPIES) > Policy::STATES.whole {
+        true => plan.partitions.first(),
+        false => None,
+    };
+    let partition = partition.map(|all| (all, Room::new(&all.largest(), tree.sizes, 1)));
+    let blocks = partition.as_ref().map_or(0, |(all, _)| all.count);
+    let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
+    let passing = take(&mut room, passing);
+    // Blocks up, the top up and down, blocks down: one body for all, which is compiled
+    // with every set of equations for every register.
+    for step in 0..=2 * blocks {
+        let [rises, falls] = [step <= blocks, step >= blocks];
+        let index = step.min(2 * blocks - step);
+        let mut top = sweep(
+            tree,
+            plan.top(),
+            &top_room,
+            [&mut *top_lasting, &mut *top_passing],
+        );
+        let (mut own, mut top) = match &partition {
+            Some((partition, own)) if index < blocks => {
+                let start = index * own.lasting();
+                let Some(lasting) = room.get_mut(start..start + own.lasting()) else {
+                    return;
+                };
+                let block = partition.window(index);
+                let block = sweep(tree, block, own, [lasting, &mut *passing]);
+                (block, Some(top))
             }
-            let count = tree.sizes.responses;
-            hand_over(&mut sweep, 0, &mut top, slot + block.start, count);
+            _ => {
+                top.torque = drive.map(|drive| drive.torque);
+                let root = tree.root.map(V::splat);
+                top.root = Some(RootDrive::above(root, drive));
+                (top, None)
+            }
+        };
+        if rises {
+            form(&mut own, order, parents, &theta, &omega, &torque);
         }
-    }
-    form(
-        &mut top,
-        &plan.order,
-        &plan.parents,
-        &theta,
-        &omega,
-        &torque,
-    );
-    if let Some(view) = top.view() {
-        let passes = Passes::<E, T, V, V>::of(&view);
-        passes.up();
-        passes.down(&mut Told {
-            alpha: &mut alpha,
-            start: 0,
-            order: &plan.order,
-        });
-    }
-    if let Some((partition, own)) = &block_room {
-        for index in (0..partition.count).rev() {
-            let block = partition.window(index);
-            let start = index * own.lasting();
-            let Some(lasting) = blocks.get_mut(start..start + own.lasting()) else {
-                return;
-            };
-            let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
-            hand_over(&mut top, slot + index, &mut sweep, 0, 2);
-            if let Some(view) = sweep.view() {
-                Passes::<E, T, V, V>::of(&view).down(&mut Told {
-                    alpha: &mut alpha,
-                    start: index,
-                    order: &[],
+        if let (Some(top), true) = (&mut top, falls) {
+            hand_over(top, slot + index, &mut own, 0, 2);
+        }
+        let start = own.block.start;
+        if let Some(view) = own.view() {
+            let passes = Passes::<E, T, V, V>::of(&view);
+            if rises {
+                passes.up();
+            }
+            if falls {
+                let alpha = &mut alpha;
+                passes.down(&mut Told {
+                    alpha,
+                    start,
+                    order,
                 });
             }
+        }
+        if let (Some(top), true) = (&mut top, rises) {
+            let count = tree.sizes.responses;
+            hand_over(&mut own, 0, top, slot + index, count);
         }
     }
 }
