@@ -212,7 +212,8 @@ fn form<T: Scalar, V: Simd<T>>(
         while index < generation.length {
             // The last one may come alone, and is formed twice then.
             let both = [index, (index + 1).min(generation.length - 1)];
-            let places = [0, 1].map(|i: usize| first + both[i] * generation.step);
+            let [one, other] = both;
+            let places = [first + one * generation.step, first + other * generation.step];
             let angles = [theta(link(order, places[0])), theta(link(order, places[1]))];
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..STEP {
