@@ -13,7 +13,8 @@ const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) 
 impl Emission<'_> {
     /// Returns true if a spring is at rest beside its parent's line.
     pub(super) fn has_rest_angles(&self) -> bool {
-        self.scene.links.iter().any(|link| link.rest.is_some())
+        let mut links = self.scene.links.iter();
+        links.any(|link| !link.passive.rest.is_zero())
     }
 
     /// The state of potential energy zero, for docs.

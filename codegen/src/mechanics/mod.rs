@@ -42,7 +42,7 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
-pub use friction::{BrakingTorque, FrictionPlace, TorqueSource};
+pub use friction::{BrakingTorque, TorqueSource};
 pub use inverse_mass::Counting;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;

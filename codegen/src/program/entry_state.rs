@@ -50,7 +50,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
         constant(lowering, value)
     };
     let joints = &mechanics.articulation.joints;
-    let mut orbits: Vec<OrbitValues> = sectors
+    let orbits: Vec<OrbitValues> = sectors
         .orbits
         .iter()
         .zip(joints)
@@ -62,12 +62,8 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             moment: series(&joint.inertia),
             gravity: series(&orbit.gravity),
             lateral_gravity: series(&orbit.lateral_gravity),
-            spring: series(&joint.spring),
-            rest: series(&joint.rest),
-            friction: series(&joint.friction),
-            drag: series(&joint.drag),
             drive: orbit.drive.each_ref().map(&mut series),
-            laws: [LawValues::default(), LawValues::default()],
+            passive: joint.passive.map(&mut series),
         })
         .collect();
     let couplings = sectors
@@ -80,9 +76,6 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             sine: series(&coupling.sine),
         })
         .collect();
-    for (values, joint) in orbits.iter_mut().zip(joints) {
-        values.laws = joint.laws.each_ref().map(|law| law_values(lowering, law));
-    }
     ConstantValues { orbits, couplings }
 }
 

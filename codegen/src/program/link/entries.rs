@@ -19,7 +19,10 @@ impl EntryList<'_, '_> {
             unreachable!("trees in loops come with the balance of a link");
         };
         let table = self.lowering.strip_table(scene, balance);
-        let joints = scene.links.iter().any(crate::scene::Link::has_joint_torque);
+        let joints = scene
+            .links
+            .iter()
+            .any(|link| link.passive.has_joint_torque());
         let functions = Functions {
             table: &table,
             joints,

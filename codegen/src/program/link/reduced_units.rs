@@ -2,12 +2,11 @@
 //! link measures its turning by the acceleration of the pivot that it carries,
 //! and mass and length are those of the commonest leaf.
 
-use crate::mechanics::expression::Expr;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
-use crate::scene::{LinkId, Scene};
+use crate::scene::{LinkId, PassiveTorques, Scene};
 
 /// Constants of the links of one orbit, with L the link's own unit of length
 /// and m, l the tree's units of mass and length.
@@ -24,13 +23,8 @@ pub(super) struct Unit {
     pub(super) per_torque: ValueId,
     /// (ℓ + i w)/L of the parent.
     pub(super) place: Pair,
-    /// Friction, drag and stiffness of the spring as they are.
-    pub(super) forces: [ValueId; 3],
-    /// Angle at which the spring is at rest.
-    pub(super) rest: ValueId,
-    /// Constants of friction that is not viscous as they are: C, q and ε in the pivot,
-    /// q and ε against the ground; where links stand in loops.
-    pub(super) laws: [ValueId; 5],
+    /// Friction and spring as they are.
+    pub(super) passive: PassiveTorques<ValueId>,
 }
 
 /// All constants of the recursion.
@@ -50,12 +44,7 @@ pub(super) struct Given {
     pub(super) inertia: ValueId,
     pub(super) moment: Pair,
     pub(super) pivot: Pair,
-    /// Friction, drag and stiffness of the spring.
-    pub(super) forces: [ValueId; 3],
-    /// Angle at which the spring is at rest.
-    pub(super) rest: ValueId,
-    /// As in [`Unit`].
-    pub(super) laws: [ValueId; 5],
+    pub(super) passive: PassiveTorques<ValueId>,
 }
 
 impl Lowering<'_> {
@@ -64,15 +53,12 @@ impl Lowering<'_> {
         let mechanics = self.mechanics;
         let mut given = Vec::new();
         for joint in &mechanics.articulation.joints {
-            let mut at = |expr| self.expr(environment, expr);
+            let mut at = |expr: &_| self.expr(environment, expr);
             given.push(Given {
                 inertia: at(&joint.inertia),
                 moment: [at(&joint.moment[0]), at(&joint.moment[1])],
                 pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
-                forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
-                rest: at(&joint.rest),
-                // Their torques are symbols.
-                laws: [at(&Expr::zero()); 5],
+                passive: joint.passive.map(at),
             });
         }
         let gravity = self.expr(environment, &mechanics.articulation.gravity);
@@ -127,9 +113,7 @@ impl Units {
                 inverse_length: called(tree_length, own, "inverse_reduced_length"),
                 per_torque: builder.div(one, torque),
                 place: given.pivot.map(|component| builder.div(component, carrier)),
-                forces: given.forces,
-                rest: given.rest,
-                laws: given.laws,
+                passive: given.passive,
             }
         });
         let links = links.collect();
