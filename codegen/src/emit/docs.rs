@@ -2,8 +2,8 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use crate::mechanics::Counting;
-use crate::program::{Argument, Cause, Entry, EntryState, Purpose};
+use crate::functions::{Argument, Cause, Counting, EntryState, Purpose};
+use crate::program::Entry;
 use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
 

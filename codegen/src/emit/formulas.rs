@@ -1,9 +1,9 @@
 //! The formulas behind each entry point, for its docs.
 
 use super::Emission;
+use crate::functions::{Cause, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
 use crate::mechanics::{BrakingTorque, Frame, TransferFormulas, TransferParts, WrittenOut};
-use crate::program::{Cause, Purpose};
 
 impl Emission<'_> {
     pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {

@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::docs::wrapped_names;
-use crate::program::Purpose;
+use crate::functions::Purpose;
 use crate::scene::{LinkId, PrescribedSet};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

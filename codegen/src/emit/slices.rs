@@ -3,7 +3,8 @@
 
 use super::Emission;
 use super::tokens::ident;
-use crate::program::{Argument, Entry, Purpose};
+use crate::functions::{Argument, Purpose};
+use crate::program::Entry;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 

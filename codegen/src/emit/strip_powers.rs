@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use crate::program::Purpose;
+use crate::functions::Purpose;
 use proc_macro2::TokenStream;
 use quote::quote;
 

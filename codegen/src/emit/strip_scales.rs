@@ -2,8 +2,8 @@
 //! model.
 
 use super::Emission;
+use crate::functions::{Purpose, ScaleFunction};
 use crate::mechanics::expression::NamedFormula;
-use crate::program::{Purpose, ScaleFunction};
 use crate::scene::{Layout, Link};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -2,8 +2,8 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
+use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
-use crate::program::Purpose;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 

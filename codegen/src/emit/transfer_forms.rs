@@ -2,8 +2,8 @@
 //! ones beside the exact one.
 
 use super::Emission;
-use crate::mechanics::Counting;
-use crate::program::{Entry, EntryState, Purpose};
+use crate::functions::{Counting, EntryState, Purpose};
+use crate::program::Entry;
 use crate::scene::{SectorVariables, sectors};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

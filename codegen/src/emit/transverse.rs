@@ -1,9 +1,9 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
+use crate::functions::Purpose;
 use crate::mechanics::TransverseFormulas;
 use crate::mechanics::expression::{Expr, NamedFormula};
-use crate::program::Purpose;
 use crate::scene::TransverseCopies;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -4,7 +4,7 @@ use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::{DerivedFrame, MassMatrix};
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::{self, SubHamiltonian};
@@ -12,6 +12,7 @@ use super::{
     Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, TransferFormulas,
     TransferParts, Truncated, WrittenOut,
 };
+use crate::functions::Counting;
 use crate::scene::TransferRequest;
 use crate::scene::coordinates::{self, Coordinate};
 

@@ -43,7 +43,6 @@ pub use articulation::{Articulation, Joint};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use friction::{BrakingTorque, TorqueSource};
-pub use inverse_mass::Counting;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
@@ -58,6 +57,7 @@ pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
+use crate::functions::Counting;
 use crate::scene::{Coordinate, Scene};
 use derivation::Derivation;
 use expression::{Expr, SymbolId, Symbols};

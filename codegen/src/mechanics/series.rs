@@ -10,9 +10,10 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
 use super::print::latex_name;
 use super::transfer::{DerivedParts, SubHamiltonian};
+use crate::functions::Counting;
 use crate::scene::Coordinate;
 
 /// Velocities of one order as symbols, and what defines them.

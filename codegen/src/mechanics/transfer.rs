@@ -5,7 +5,8 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
+use crate::functions::Counting;
 use crate::scene::{Coordinate, CoordinateKind, LinkId, OrbitId};
 
 /// W split into what the kinetic and what the potential energy of the rest of

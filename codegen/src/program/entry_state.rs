@@ -1,13 +1,14 @@
 //! States in means and differences, as entry points receive them.
 
+use super::ValueId;
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
     ConstantValues, CouplingValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic,
     SymmetricMotion, SymmetricTree, TruncatedSeries,
 };
-use super::{Argument, EntryState, ValueId};
+use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
+use crate::mechanics::{Mechanics, OrbitMechanics};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.

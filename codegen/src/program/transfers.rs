@@ -1,9 +1,9 @@
 //! The entry points of the energy transfer into one difference.
 
+use super::ValueId;
 use super::entries::EntryList;
-use super::entry::CANONICAL;
 use super::lower::Environment;
-use super::{Argument, Cause, EntryState, Purpose, ValueId};
+use crate::functions::{Argument, CANONICAL, Cause, EntryState, Purpose};
 use crate::mechanics::{Frame, MeanTree, TransferFormulas, TransferParts};
 use crate::scene::{LinkId, Scene};
 

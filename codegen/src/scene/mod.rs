@@ -18,7 +18,6 @@ mod drive;
 mod expand;
 mod layout;
 mod link_properties;
-mod methods;
 mod names;
 mod observable_text;
 mod observables;
@@ -48,7 +47,6 @@ pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
-pub use methods::is_method;
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,

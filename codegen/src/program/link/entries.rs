@@ -3,9 +3,10 @@
 use super::columns::Column;
 use super::functions::Functions;
 use super::strips::LoopTree;
+use crate::functions::{Argument, LinkFunction, Purpose, ResultShape};
 use crate::mechanics::Mechanics;
 use crate::program::entries::EntryList;
-use crate::program::{Argument, LinkFunction, Op, Purpose, ResultShape, ValueId};
+use crate::program::{Entry, Op, ValueId};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
@@ -43,7 +44,7 @@ impl EntryList<'_, '_> {
                 LinkFunction::AccelerateLeaf => ResultShape::Scalar,
                 _ => ResultShape::Vector,
             };
-            self.entries.push(signature.entry(purpose, outputs));
+            self.entries.push(Entry::new(signature, purpose, outputs));
         }
         if let Some(scales) = &mechanics.scales {
             self.scale_functions(&functions, &balance.symbols, scales);

@@ -4,13 +4,13 @@ use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Elimination, Link, Response};
 use super::functions::{Functions, Kind, Motion};
-use super::scale_function::ScaleFunction;
+use crate::functions::{Argument, Purpose, ScaleFunction};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
+use crate::program::ValueId;
 use crate::program::entries::EntryList;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
-use crate::program::{Argument, Purpose, ValueId};
 use crate::scene::{Layout, Scene};
 
 impl EntryList<'_, '_> {
