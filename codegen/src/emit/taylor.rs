@@ -177,7 +177,7 @@ impl Emission<'_> {
                 let (coefficients, _) = coefficients.as_chunks_mut::<2>();
                 self.taylor_coefficients(#argument theta, omega, coefficients, work)
             }),
-            quote!(coefficients.fill(T::from_f64(f64::NAN))),
+            self.unknown(&["coefficients"]),
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {

@@ -356,8 +356,23 @@ fn row(
     let area = builder.mul(tree_length, tree_length);
     let torque = builder.mul(tree_mass, area);
     let per_torque = builder.div(one, torque);
-    let passive = &unit.passive;
-    let [joint, ground] = &passive.laws;
+    let [joint, ground] = &unit.passive.laws;
+    let [
+        friction,
+        drag,
+        spring,
+        coulomb,
+        quadratic_friction,
+        quadratic_drag,
+    ] = [
+        unit.passive.friction,
+        unit.passive.drag,
+        unit.passive.spring,
+        joint.coulomb,
+        joint.quadratic,
+        ground.quadratic,
+    ]
+    .map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
         Column::Moment => unit.moment[0],
@@ -370,14 +385,14 @@ fn row(
         Column::InverseInertia => inverse,
         Column::Along => along,
         Column::Across => across,
-        Column::Friction => builder.div(passive.friction, torque),
-        Column::Drag => builder.div(passive.drag, torque),
-        Column::Spring => builder.div(passive.spring, torque),
-        Column::Rest => passive.rest,
-        Column::Coulomb => builder.div(joint.coulomb, torque),
-        Column::QuadraticFriction => builder.div(joint.quadratic, torque),
+        Column::Friction => friction,
+        Column::Drag => drag,
+        Column::Spring => spring,
+        Column::Rest => unit.passive.rest,
+        Column::Coulomb => coulomb,
+        Column::QuadraticFriction => quadratic_friction,
         Column::FrictionWidth => joint.width,
-        Column::QuadraticDrag => builder.div(ground.quadratic, torque),
+        Column::QuadraticDrag => quadratic_drag,
         Column::DragWidth => ground.width,
         Column::PerTorque => per_torque,
         _ => zero,
