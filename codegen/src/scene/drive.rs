@@ -1,10 +1,9 @@
 //! The drive: torque and motion from outside, as functions of time.
 
-use std::fmt::{self, Display, Formatter};
-
 use super::values::{Usage, Values};
-use super::{Parameter, Quantity, Sign};
+use super::{Quantity, Sign};
 use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
+use crate::named_members::named_members;
 use crate::report::{Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torque on the root and a motion of its pivot; at least one of them.
@@ -37,20 +36,19 @@ pub enum Signal {
     Function(TimeFunction, Box<Signal>),
 }
 
-/// The functions that a drive may use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TimeFunction {
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
+named_members! {
+    /// The functions that a drive may use.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum TimeFunction {
+        /// Sine.
+        Sin = "sin",
+        /// Cosine.
+        Cos = "cos",
+    }
 }
 
 /// The parts of a drive.
 const PARTS: &[&str] = &["torque", "x", "y"];
-
-/// The functions by name.
-const FUNCTIONS: &[&str] = &["sin", "cos"];
 
 /// Reads the drive; what is wrong goes to `report`.
 pub(super) fn resolve_drive(
@@ -179,17 +177,14 @@ fn part(
         ExpressionKind::Call { function, argument } => {
             let argument = inner(argument);
             let name = function.to_string();
-            let function = match name.as_str() {
-                "sin" => TimeFunction::Sin,
-                "cos" => TimeFunction::Cos,
-                _ => {
-                    let nearest = nearest(&name, FUNCTIONS);
-                    let span = function.span();
-                    report.error(span, ValueMessage::DriveFunction { name, nearest });
-                    return None;
-                }
+            let mut functions = TimeFunction::ALL.into_iter();
+            let Some(known) = functions.find(|known| known.name() == name) else {
+                let nearest = nearest(&name, &TimeFunction::ALL.map(TimeFunction::name));
+                let span = function.span();
+                report.error(span, ValueMessage::DriveFunction { name, nearest });
+                return None;
             };
-            Signal::Function(function, Box::new(argument?))
+            Signal::Function(known, Box::new(argument?))
         }
     })
 }
@@ -230,67 +225,5 @@ impl Drive {
         parts
             .into_iter()
             .filter_map(|(name, signal, unit)| Some((name, signal.as_ref()?, unit)))
-    }
-}
-
-impl Signal {
-    /// The function as text in the attribute's own notation, every operand in
-    /// parentheses that is no name, number or function. `parameters` are those
-    /// of the scene.
-    pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl Display + 'a {
-        ShownSignal {
-            signal: self,
-            parameters,
-        }
-    }
-}
-
-/// A signal on its way to text.
-struct ShownSignal<'a> {
-    signal: &'a Signal,
-    parameters: &'a [Parameter],
-}
-
-impl ShownSignal<'_> {
-    fn operand(&self, signal: &Signal, f: &mut Formatter<'_>) -> fmt::Result {
-        let shown = signal.display(self.parameters);
-        match signal {
-            Signal::Constant(Quantity::Exact(_) | Quantity::Parameter(_))
-            | Signal::Time
-            | Signal::Function(..) => write!(f, "{shown}"),
-            _ => write!(f, "({shown})"),
-        }
-    }
-
-    fn joined(&self, operands: &[Signal], operator: &str, f: &mut Formatter<'_>) -> fmt::Result {
-        for (index, operand) in operands.iter().enumerate() {
-            if index > 0 {
-                f.write_str(operator)?;
-            }
-            self.operand(operand, f)?;
-        }
-        Ok(())
-    }
-}
-
-impl Display for ShownSignal<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.signal {
-            Signal::Constant(value) => write!(f, "{}", value.display(self.parameters)),
-            Signal::Time => f.write_str(TIME),
-            Signal::Sum(members) => self.joined(members, " + ", f),
-            Signal::Product(factors) => self.joined(factors, " * ", f),
-            Signal::Power(base, exponent) => {
-                self.operand(base, f)?;
-                write!(f, "^{exponent}")
-            }
-            Signal::Function(function, argument) => {
-                let name = match function {
-                    TimeFunction::Sin => "sin",
-                    TimeFunction::Cos => "cos",
-                };
-                write!(f, "{name}({})", argument.display(self.parameters))
-            }
-        }
     }
 }

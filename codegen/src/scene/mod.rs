@@ -19,7 +19,7 @@ mod expand;
 mod layout;
 mod link_properties;
 mod names;
-mod observable_text;
+mod notation;
 mod observables;
 mod outputs;
 mod passive;
