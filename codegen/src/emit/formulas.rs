@@ -3,7 +3,7 @@
 use super::Emission;
 use crate::functions::{Cause, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
-use crate::mechanics::{BrakingTorque, Frame, TransferFormulas, TransferParts, WrittenOut};
+use crate::mechanics::{BrakingTorque, EnergyParts, Frame, TransferFormulas, WrittenOut};
 
 impl Emission<'_> {
     pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
@@ -173,7 +173,7 @@ impl Emission<'_> {
     fn transfer(
         &self,
         transfer: &TransferFormulas,
-        form: fn(&TransferFormulas) -> &Option<TransferParts>,
+        form: fn(&TransferFormulas) -> &Option<EnergyParts>,
     ) -> Vec<NamedFormula> {
         let Some(parts) = form(transfer) else {
             return Vec::new();
@@ -189,7 +189,7 @@ impl Emission<'_> {
         formulas
     }
 
-    fn transfer_parts(parts: &TransferParts) -> Vec<NamedFormula> {
+    fn transfer_parts(parts: &EnergyParts) -> Vec<NamedFormula> {
         let named = |name: &str, expr: &Expr| {
             NamedFormula::new(name, format!("W_{{{}}}", &name[2..]), expr)
         };

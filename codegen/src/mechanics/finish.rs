@@ -7,10 +7,10 @@ use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::DerivedExpansion;
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
-use super::transfer::{self, SubHamiltonian};
+use super::transfer::SubHamiltonian;
 use super::{
-    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, TransferFormulas,
-    TransferParts, Truncated, WrittenOut,
+    Constant, Correction, EnergyParts, Frame, MassExpansion, MatrixEntry, Mechanics,
+    TransferFormulas, Truncated, WrittenOut,
 };
 use crate::functions::Counting;
 use crate::scene::TransferRequest;
@@ -153,7 +153,7 @@ impl Derivation<'_> {
             stiffness: requests.modes.then(|| self.entries(&self.stiffness(frame))),
             energies: requests.energies.then(|| {
                 let kinetic: Formula = frame.kinetic_terms().map(|(_, _, term)| term).sum();
-                Energies {
+                EnergyParts {
                     kinetic: self.expr(&kinetic.expand()),
                     potential: self.expr(&frame.potential),
                 }
@@ -292,7 +292,7 @@ impl Derivation<'_> {
             .then(|| self.exact_transfer(frame, expansion, energy));
         TransferFormulas {
             coordinate,
-            energy: TransferParts {
+            energy: EnergyParts {
                 kinetic: self.expr(&energy.kinetic),
                 potential: self.expr(&energy.potential),
             },
@@ -308,11 +308,8 @@ impl Derivation<'_> {
         }
     }
 
-    fn parts(&self, parts: &transfer::DerivedParts) -> TransferParts {
-        TransferParts {
-            kinetic: self.expr(&parts.kinetic),
-            potential: self.expr(&parts.potential),
-        }
+    fn parts(&self, parts: &EnergyParts<Formula>) -> EnergyParts {
+        parts.map(|part| self.expr(part))
     }
 
     /// The velocities' series, one for each counting of which orders beyond
@@ -340,7 +337,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         coordinate: usize,
-        parts: &transfer::DerivedParts,
+        parts: &EnergyParts<Formula>,
     ) -> Option<[Expr; 3]> {
         let (q, p) = (frame.coordinates[coordinate], frame.momenta[coordinate]);
         let whole = &parts.kinetic + &parts.potential;

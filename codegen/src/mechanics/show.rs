@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
+    DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -290,7 +290,7 @@ impl Mechanics {
         &self,
         f: &mut fmt::Formatter<'_>,
         name: &str,
-        parts: &Option<TransferParts>,
+        parts: &Option<EnergyParts>,
     ) -> fmt::Result {
         match parts {
             Some(parts) => {

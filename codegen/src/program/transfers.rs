@@ -4,7 +4,7 @@ use super::ValueId;
 use super::entries::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, CANONICAL, Cause, EntryState, Purpose};
-use crate::mechanics::{Frame, MeanTree, TransferFormulas, TransferParts};
+use crate::mechanics::{EnergyParts, Frame, MeanTree, TransferFormulas};
 use crate::scene::{LinkId, Scene};
 
 impl EntryList<'_, '_> {
@@ -82,7 +82,7 @@ impl EntryList<'_, '_> {
         &mut self,
         number: usize,
         state: EntryState,
-        ([growth, forcing], mean_tree): (&[TransferParts; 2], &MeanTree),
+        ([growth, forcing], mean_tree): (&[EnergyParts; 2], &MeanTree),
         environment: &mut Environment<'_>,
     ) {
         let forcing = self.parts(environment, forcing);
@@ -103,7 +103,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    fn parts(&mut self, environment: &mut Environment<'_>, parts: &TransferParts) -> Vec<ValueId> {
+    fn parts(&mut self, environment: &mut Environment<'_>, parts: &EnergyParts) -> Vec<ValueId> {
         let kinetic = self.lowering.expr(environment, &parts.kinetic);
         let potential = self.lowering.expr(environment, &parts.potential);
         vec![kinetic, potential]
