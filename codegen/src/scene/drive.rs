@@ -7,33 +7,33 @@ use crate::named_members::named_members;
 use crate::report::{Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torque on the root and a motion of its pivot; at least one of them.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Drive {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Drive<V = Quantity> {
     /// Torque on the root, against the ground, N m.
-    pub torque: Option<Signal>,
+    pub torque: Option<Signal<V>>,
     /// Position of the root's pivot in the direction in which positive angles
     /// move a link's end, m.
-    pub x: Option<Signal>,
+    pub x: Option<Signal<V>>,
     /// Position of the root's pivot upwards, m.
-    pub y: Option<Signal>,
+    pub y: Option<Signal<V>>,
 }
 
 /// A function of time that is smooth at every time: nothing that depends on
 /// time is divided by.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Signal {
+pub enum Signal<V = Quantity> {
     /// A value that does not change.
-    Constant(Quantity),
+    Constant(V),
     /// Time, s.
     Time,
     /// A sum of two or more members.
-    Sum(Vec<Signal>),
+    Sum(Vec<Signal<V>>),
     /// A product of two or more factors.
-    Product(Vec<Signal>),
+    Product(Vec<Signal<V>>),
     /// A power, not negative.
-    Power(Box<Signal>, u32),
+    Power(Box<Signal<V>>, u32),
     /// A function of an angle in rad.
-    Function(TimeFunction, Box<Signal>),
+    Function(TimeFunction, Box<Signal<V>>),
 }
 
 named_members! {
@@ -64,7 +64,11 @@ pub(super) fn resolve_drive(
     if parts.is_empty() && !damaged {
         report.error(name.span(), ValueMessage::EmptyDrive);
     }
-    let mut resolved = Drive::default();
+    let mut resolved = Drive {
+        torque: None,
+        x: None,
+        y: None,
+    };
     let mut seen: Vec<String> = Vec::new();
     for Property { name, value, .. } in parts {
         let (text, span) = (name.to_string(), name.span());
@@ -212,6 +216,34 @@ fn divisor(
         product = quotient;
     }
     Some((!divisors.is_empty()).then_some(Signal::Constant(product)))
+}
+
+impl<V> Drive<V> {
+    /// The drive with constants that are formed of its own.
+    pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Drive<W> {
+        let map = |part: &Option<Signal<V>>| part.as_ref().map(|signal| signal.map(formed));
+        Drive {
+            torque: map(&self.torque),
+            x: map(&self.x),
+            y: map(&self.y),
+        }
+    }
+}
+
+impl<V> Signal<V> {
+    /// The function with constants that are formed of its own.
+    pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Signal<W> {
+        let all = |parts: &[Self]| parts.iter().map(|part| part.map(formed)).collect();
+        let one = |part: &Self| Box::new(part.map(formed));
+        match self {
+            Self::Constant(value) => Signal::Constant(formed(value)),
+            Self::Time => Signal::Time,
+            Self::Sum(members) => Signal::Sum(all(members)),
+            Self::Product(factors) => Signal::Product(all(factors)),
+            Self::Power(base, exponent) => Signal::Power(one(base), *exponent),
+            Self::Function(function, angle) => Signal::Function(*function, one(angle)),
+        }
+    }
 }
 
 impl Drive {
