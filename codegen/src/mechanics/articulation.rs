@@ -7,19 +7,31 @@ use super::expression::Expr;
 use super::frame::DerivedFrame;
 use crate::scene::{LinkId, PassiveTorques};
 
-/// Constants of the links of one orbit; each is an expression in named
-/// constants, parameters and numbers, zero where the scene has no such thing.
+/// Constants of the links of one orbit, zero where the scene has no such thing: expressions
+/// in named constants, parameters and numbers, or values of a program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct Joint<V = Expr> {
     /// Diagonal entry M of the mass matrix.
-    pub inertia: Expr,
+    pub inertia: V,
     /// First moment (h, e) of the mass that the link carries, about its pivot,
     /// along and across.
-    pub moment: [Expr; 2],
+    pub moment: [V; 2],
     /// The link's pivot (ℓ, w) from its parent's, along and across.
-    pub pivot: [Expr; 2],
+    pub pivot: [V; 2],
     /// Friction and spring in the pivot, and drag against the ground.
-    pub passive: PassiveTorques<Expr>,
+    pub passive: PassiveTorques<V>,
+}
+
+impl<V> Joint<V> {
+    /// The joint with constants that are formed of its own.
+    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> Joint<W> {
+        Joint {
+            inertia: formed(&self.inertia),
+            moment: self.moment.each_ref().map(&mut formed),
+            pivot: self.pivot.each_ref().map(&mut formed),
+            passive: self.passive.map(formed),
+        }
+    }
 }
 
 /// The quantities from which the articulated recursion is formed.

@@ -3,12 +3,12 @@
 use super::ValueId;
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, CouplingValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic,
-    SymmetricMotion, SymmetricTree, TruncatedSeries,
+    ConstantValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic, SymmetricMotion,
+    SymmetricTree, TruncatedSeries,
 };
 use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, OrbitMechanics};
+use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.
@@ -70,7 +70,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
     let couplings = sectors
         .couplings
         .iter()
-        .map(|coupling| CouplingValues {
+        .map(|coupling| OrbitCoupling {
             row: coupling.row,
             column: coupling.column,
             cosine: series(&coupling.cosine),

@@ -2,6 +2,7 @@
 //! link measures its turning by the acceleration of the pivot that it carries,
 //! and mass and length are those of the commonest leaf.
 
+use crate::mechanics::Joint;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::lower::{Environment, Lowering};
@@ -39,40 +40,26 @@ pub(super) struct Units {
     pub(super) gravity: ValueId,
 }
 
-/// Constants of one orbit in SI units.
-pub(super) struct Given {
-    pub(super) inertia: ValueId,
-    pub(super) moment: Pair,
-    pub(super) pivot: Pair,
-    pub(super) passive: PassiveTorques<ValueId>,
-}
-
 impl Lowering<'_> {
     /// Those of a tree that is written out.
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
-        let mut given = Vec::new();
-        for joint in &mechanics.articulation.joints {
-            let mut at = |expr: &_| self.expr(environment, expr);
-            given.push(Given {
-                inertia: at(&joint.inertia),
-                moment: [at(&joint.moment[0]), at(&joint.moment[1])],
-                pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
-                passive: joint.passive.map(at),
-            });
-        }
+        let joints = mechanics.articulation.joints.iter();
+        let given: Vec<Joint<ValueId>> = joints
+            .map(|joint| joint.map(|expr| self.expr(environment, expr)))
+            .collect();
         let gravity = self.expr(environment, &mechanics.articulation.gravity);
         Units::of(&mut self.builder, scene, &given, gravity, true)
     }
 }
 
 impl Units {
-    /// Of constants by orbit. `own` says whether a link with children has a unit of
+    /// Of constants by orbit in SI units. `own` says whether a link with children has a unit of
     /// length of its own, or that of the tree.
     pub(super) fn of(
         builder: &mut Builder,
         scene: &Scene,
-        given: &[Given],
+        given: &[Joint<ValueId>],
         gravity: ValueId,
         own: bool,
     ) -> Self {
@@ -131,7 +118,7 @@ impl Units {
 fn commonest_pivot(
     builder: &mut Builder,
     scene: &Scene,
-    given: &[Given],
+    given: &[Joint<ValueId>],
     children: &[usize],
 ) -> Option<ValueId> {
     let mut pivots: Vec<(Pair, usize)> = Vec::new();
@@ -150,7 +137,7 @@ fn commonest_pivot(
 }
 
 /// The centre of oscillation, M/h.
-fn oscillation(builder: &mut Builder, scene: &Scene, given: &Given) -> Option<ValueId> {
+fn oscillation(builder: &mut Builder, scene: &Scene, given: &Joint<ValueId>) -> Option<ValueId> {
     let divides = builder.is_never_zero(given.moment[0], scene);
     divides.then(|| builder.div(given.inertia, given.moment[0]))
 }
@@ -160,7 +147,7 @@ fn commonest_leaf(
     builder: &mut Builder,
     scene: &Scene,
     children: &[Vec<usize>],
-    given: &[Given],
+    given: &[Joint<ValueId>],
 ) -> Option<(ValueId, ValueId)> {
     let leaves = scene.orbits.iter().enumerate().filter(|(number, orbit)| {
         children[orbit.links[0].0].is_empty()

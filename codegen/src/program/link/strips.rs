@@ -2,10 +2,10 @@
 //! rule.
 
 use super::columns::Column;
-use super::reduced_units::{Given, Unit, Units};
+use super::reduced_units::{Unit, Units};
 use crate::exact::Rational;
-use crate::mechanics::LinkBalance;
 use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{Joint, LinkBalance};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
@@ -159,7 +159,7 @@ impl Lowering<'_> {
                 Some(number) if number.is_one() => self.builder.integer(1),
                 _ => self.value_of(quantity),
             });
-            given.push(Given {
+            given.push(Joint {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
                 pivot: self.values_of(&link.pivot),

@@ -4,6 +4,7 @@
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
 use super::series::TruncatedSeries;
+use crate::mechanics::OrbitCoupling;
 use crate::scene::PassiveTorques;
 
 /// Values of the constants of one orbit; zeros are empty series.
@@ -19,18 +20,10 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) passive: PassiveTorques<TruncatedSeries>,
 }
 
-/// Values of a coupling's constants, and the orbits that it couples.
-pub(in crate::program) struct CouplingValues {
-    pub(in crate::program) row: usize,
-    pub(in crate::program) column: usize,
-    pub(in crate::program) cosine: TruncatedSeries,
-    pub(in crate::program) sine: TruncatedSeries,
-}
-
 /// The constants of a scene.
 pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
-    pub(in crate::program) couplings: Vec<CouplingValues>,
+    pub(in crate::program) couplings: Vec<OrbitCoupling<TruncatedSeries>>,
 }
 
 /// One field for each orbit: a vector with one component for each link.
@@ -66,7 +59,7 @@ impl SymmetricTree<'_> {
             .collect();
         let mut entries = Vec::new();
         for coupling in &values.couplings {
-            let CouplingValues { row, column, .. } = *coupling;
+            let OrbitCoupling { row, column, .. } = *coupling;
             let own = directions[row].clone();
             let cos_above = self.lift(&directions[column].cos, row);
             let sin_above = self.lift(&directions[column].sin, row);
