@@ -62,9 +62,7 @@ impl Emission<'_> {
         let mut forms: BTreeMap<ListedForm, Vec<TokenStream>> = BTreeMap::new();
         for entry in &self.program.entries {
             let form = match entry.purpose {
-                Purpose::AngleTransfer(_) => truncated(Counting::Angle, 1),
-                Purpose::AmplitudeTransfer(_) => truncated(Counting::Amplitude, 2),
-                Purpose::HigherTransfer(_, counting, order) => truncated(counting, order),
+                Purpose::TruncatedTransfer(_, counting, order) => truncated(counting, order),
                 Purpose::ExactTransfer(_, EntryState::Momenta(_)) => ListedForm::Exact,
                 _ => continue,
             };

@@ -94,3 +94,13 @@ named_members! {
         Amplitude = "amplitude",
     }
 }
+
+impl Counting {
+    /// Order of W that a Poisson bracket gives; others come from the velocities' series.
+    pub fn bracket_order(self) -> u32 {
+        match self {
+            Self::Angle => 1,
+            Self::Amplitude => 2,
+        }
+    }
+}

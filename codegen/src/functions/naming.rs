@@ -82,7 +82,7 @@ impl Naming {
                 P::AntiphaseOutsidePower(transfer),
             ]);
             let truncated = orders.clone();
-            all.extend(truncated.map(|(of, order)| P::HigherTransfer(transfer, of, order)));
+            all.extend(truncated.map(|(of, order)| P::TruncatedTransfer(transfer, of, order)));
             for state in [CANONICAL, EntryState::Rates] {
                 all.push(P::ExactTransfer(transfer, state));
                 all.extend(Cause::ALL.map(|cause| P::SplitTransfer(transfer, cause, state)));

@@ -102,12 +102,8 @@ purposes! { naming:
     SubHamiltonian(transfer: usize) => {
         plain(naming.about("antiphase_energy", transfer), &CANONICAL.arguments(), Scalar)
     };
-    /// W to first order in the difference angles.
-    AngleTransfer(transfer: usize) => naming.transfer("angle_1", transfer, CANONICAL);
-    /// W to second order in the amplitude.
-    AmplitudeTransfer(transfer: usize) => naming.transfer("amplitude_2", transfer, CANONICAL);
-    /// W through another order.
-    HigherTransfer(transfer: usize, counting: Counting, order: u32) => {
+    /// W through an order.
+    TruncatedTransfer(transfer: usize, counting: Counting, order: u32) => {
         naming.transfer(&format!("{}_{order}", counting.name()), transfer, CANONICAL)
     };
     /// The coefficients of that quadratic form.

@@ -151,15 +151,12 @@ pub struct TransferFormulas {
     pub coordinate: usize,
     /// H_d, its kinetic and its potential part.
     pub energy: EnergyParts,
-    /// W to first order in the difference angles (the paper's W_K, W_P).
-    pub angle: Option<EnergyParts>,
-    /// W to second order in the amplitude.
-    pub amplitude: Option<EnergyParts>,
-    /// The coefficients of p_d², p_d θ_d, θ_d² in `amplitude`, if it is a
-    /// quadratic form in this difference alone.
+    /// W through the orders asked for: to first order in the difference angles (the paper's
+    /// W_K, W_P), to second order in the amplitude, then others.
+    pub truncated: Vec<Truncated>,
+    /// The coefficients of p_d², p_d θ_d, θ_d² in W to second order in the amplitude, if it
+    /// is a quadratic form in this difference alone.
     pub quadratic_form: Option<[Expr; 3]>,
-    /// W to other orders, in the order asked for.
-    pub higher: Vec<Truncated>,
     /// W without truncation.
     pub exact: Option<EnergyParts>,
     /// The rate between copies that differ, as what the mean tree does, in its velocities, and
@@ -171,6 +168,15 @@ pub struct TransferFormulas {
     pub drive: Expr,
     /// ∂H_d/∂p_d, by which torques on the difference have power.
     pub velocity: Expr,
+}
+
+impl TransferFormulas {
+    /// W through an order, if it is asked for.
+    pub fn truncated(&self, counting: Counting, order: u32) -> Option<&EnergyParts> {
+        let mut all = self.truncated.iter();
+        let found = all.find(|form| (form.counting, form.order) == (counting, order));
+        found.map(|form| &form.parts)
+    }
 }
 
 /// W cut off at an order.

@@ -4,7 +4,7 @@ use super::ValueId;
 use super::entries::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, CANONICAL, Cause, EntryState, Purpose};
-use crate::mechanics::{EnergyParts, Frame, MeanTree, TransferFormulas};
+use crate::mechanics::{EnergyParts, Frame, MeanTree, TransferFormulas, Truncated};
 use crate::scene::{LinkId, Scene};
 
 impl EntryList<'_, '_> {
@@ -22,20 +22,15 @@ impl EntryList<'_, '_> {
         let energy = self.parts(&mut phase, &transfer.energy);
         let total = self.lowering.builder.add(energy[0], energy[1]);
         self.push(Purpose::SubHamiltonian(number), vec![total]);
-        if let Some(parts) = &transfer.angle {
+        for Truncated {
+            counting,
+            order,
+            parts,
+        } in &transfer.truncated
+        {
             let outputs = self.parts(&mut phase, parts);
-            self.push(Purpose::AngleTransfer(number), outputs);
-        }
-        if let Some(parts) = &transfer.amplitude {
-            let outputs = self.parts(&mut phase, parts);
-            self.push(Purpose::AmplitudeTransfer(number), outputs);
-        }
-        for truncated in &transfer.higher {
-            let outputs = self.parts(&mut phase, &truncated.parts);
-            self.push(
-                Purpose::HigherTransfer(number, truncated.counting, truncated.order),
-                outputs,
-            );
+            let purpose = Purpose::TruncatedTransfer(number, *counting, *order);
+            self.push(purpose, outputs);
         }
         if let Some(form) = &transfer.quadratic_form {
             let outputs = self.exprs(&mut phase, form);
