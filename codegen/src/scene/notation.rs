@@ -7,29 +7,29 @@ use crate::description::TIME;
 use crate::exact::Rational;
 
 /// An expression on its way to text.
-enum Notation {
+enum ShownExpression {
     /// A name, or a number in decimals.
     Atom(String),
     /// A number as a fraction.
     Fraction(String),
-    Sum(Vec<Notation>),
-    Product(Vec<Notation>),
-    Quotient(Box<Notation>, Box<Notation>),
-    Power(Box<Notation>, i64),
-    Negative(Box<Notation>),
-    Call(&'static str, Box<Notation>),
+    Sum(Vec<ShownExpression>),
+    Product(Vec<ShownExpression>),
+    Quotient(Box<ShownExpression>, Box<ShownExpression>),
+    Power(Box<ShownExpression>, i64),
+    Negative(Box<ShownExpression>),
+    Call(&'static str, Box<ShownExpression>),
 }
 
 /// Surroundings of an expression in the text, from loosest to tightest.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Place {
+enum Precedence {
     Sum,
     Term,
     Factor,
     Base,
 }
 
-impl Notation {
+impl ShownExpression {
     fn number(number: &Rational) -> Self {
         if number.is_negative() {
             return Self::Negative(Box::new(Self::number(&-number)));
@@ -42,18 +42,18 @@ impl Notation {
     }
 
     /// The tightest place in which the expression needs no parentheses.
-    fn binding(&self) -> Place {
+    fn binding(&self) -> Precedence {
         match self {
-            Self::Atom(_) | Self::Call(..) => Place::Base,
-            Self::Power(..) => Place::Factor,
+            Self::Atom(_) | Self::Call(..) => Precedence::Base,
+            Self::Power(..) => Precedence::Factor,
             Self::Fraction(_) | Self::Product(_) | Self::Quotient(..) | Self::Negative(_) => {
-                Place::Term
+                Precedence::Term
             }
-            Self::Sum(_) => Place::Sum,
+            Self::Sum(_) => Precedence::Sum,
         }
     }
 
-    fn write(&self, place: Place, f: &mut Formatter<'_>) -> fmt::Result {
+    fn write(&self, place: Precedence, f: &mut Formatter<'_>) -> fmt::Result {
         match place > self.binding() {
             true => write!(f, "({self})"),
             false => write!(f, "{self}"),
@@ -61,7 +61,7 @@ impl Notation {
     }
 }
 
-impl Display for Notation {
+impl Display for ShownExpression {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Atom(text) | Self::Fraction(text) => f.write_str(text),
@@ -73,29 +73,29 @@ impl Display for Notation {
                         member => ("", member),
                     };
                     f.write_str(sign)?;
-                    member.write(Place::Term, f)?;
+                    member.write(Precedence::Term, f)?;
                 }
                 Ok(())
             }
             Self::Product(factors) => {
                 for (index, factor) in factors.iter().enumerate() {
                     f.write_str(if index > 0 { " * " } else { "" })?;
-                    factor.write(Place::Factor, f)?;
+                    factor.write(Precedence::Factor, f)?;
                 }
                 Ok(())
             }
             Self::Quotient(dividend, divisor) => {
-                dividend.write(Place::Term, f)?;
+                dividend.write(Precedence::Term, f)?;
                 f.write_str(" / ")?;
-                divisor.write(Place::Factor, f)
+                divisor.write(Precedence::Factor, f)
             }
             Self::Power(base, exponent) => {
-                base.write(Place::Base, f)?;
+                base.write(Precedence::Base, f)?;
                 write!(f, "^{exponent}")
             }
             Self::Negative(value) => {
                 f.write_str("-")?;
-                value.write(Place::Term, f)
+                value.write(Precedence::Term, f)
             }
             Self::Call(function, argument) => write!(f, "{function}({argument})"),
         }
@@ -105,23 +105,27 @@ impl Display for Notation {
 impl Quantity {
     /// The value as text. `parameters` are those of the scene.
     pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.notation(parameters)
+        self.shown(parameters)
     }
 
-    fn notation(&self, parameters: &[Parameter]) -> Notation {
-        let one = |value: &Self| Box::new(value.notation(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.notation(parameters)).collect();
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        let one = |value: &Self| Box::new(value.shown(parameters));
+        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
         match self {
-            Self::Exact(number) => Notation::number(number),
-            Self::Parameter(ParameterId(index)) => Notation::Atom(match parameters.get(*index) {
-                Some(parameter) => parameter.name.clone(),
-                None => format!("parameter_{index}"),
-            }),
-            Self::Sum(members) => Notation::Sum(all(members)),
-            Self::Product(factors) => Notation::Product(all(factors)),
-            Self::Quotient(dividend, divisor) => Notation::Quotient(one(dividend), one(divisor)),
-            Self::Power(base, exponent) => Notation::Power(one(base), i64::from(*exponent)),
-            Self::Negative(value) => Notation::Negative(one(value)),
+            Self::Exact(number) => ShownExpression::number(number),
+            Self::Parameter(ParameterId(index)) => {
+                ShownExpression::Atom(match parameters.get(*index) {
+                    Some(parameter) => parameter.name.clone(),
+                    None => format!("parameter_{index}"),
+                })
+            }
+            Self::Sum(members) => ShownExpression::Sum(all(members)),
+            Self::Product(factors) => ShownExpression::Product(all(factors)),
+            Self::Quotient(dividend, divisor) => {
+                ShownExpression::Quotient(one(dividend), one(divisor))
+            }
+            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
+            Self::Negative(value) => ShownExpression::Negative(one(value)),
         }
     }
 }
@@ -129,24 +133,26 @@ impl Quantity {
 impl Observed {
     /// The value as text. `parameters` are those of the scene.
     pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.notation(parameters)
+        self.shown(parameters)
     }
 
-    fn notation(&self, parameters: &[Parameter]) -> Notation {
-        let one = |value: &Self| Box::new(value.notation(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.notation(parameters)).collect();
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        let one = |value: &Self| Box::new(value.shown(parameters));
+        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
         match self {
-            Self::Known(quantity) => quantity.notation(parameters),
-            Self::Variable(variable) => Notation::Atom(variable.name.clone()),
-            Self::Constant(name) => Notation::Atom(name.clone()),
-            Self::KineticEnergy => Notation::Atom("kinetic_energy".into()),
-            Self::PotentialEnergy => Notation::Atom("potential_energy".into()),
-            Self::Sum(members) => Notation::Sum(all(members)),
-            Self::Product(factors) => Notation::Product(all(factors)),
-            Self::Quotient(dividend, divisor) => Notation::Quotient(one(dividend), one(divisor)),
-            Self::Power(base, exponent) => Notation::Power(one(base), i64::from(*exponent)),
-            Self::Negative(value) => Notation::Negative(one(value)),
-            Self::Call(function, argument) => Notation::Call(function.name(), one(argument)),
+            Self::Known(quantity) => quantity.shown(parameters),
+            Self::Variable(variable) => ShownExpression::Atom(variable.name.clone()),
+            Self::Constant(name) => ShownExpression::Atom(name.clone()),
+            Self::KineticEnergy => ShownExpression::Atom("kinetic_energy".into()),
+            Self::PotentialEnergy => ShownExpression::Atom("potential_energy".into()),
+            Self::Sum(members) => ShownExpression::Sum(all(members)),
+            Self::Product(factors) => ShownExpression::Product(all(factors)),
+            Self::Quotient(dividend, divisor) => {
+                ShownExpression::Quotient(one(dividend), one(divisor))
+            }
+            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
+            Self::Negative(value) => ShownExpression::Negative(one(value)),
+            Self::Call(function, argument) => ShownExpression::Call(function.name(), one(argument)),
         }
     }
 }
@@ -154,19 +160,19 @@ impl Observed {
 impl Signal {
     /// The function of time as text. `parameters` are those of the scene.
     pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.notation(parameters)
+        self.shown(parameters)
     }
 
-    fn notation(&self, parameters: &[Parameter]) -> Notation {
-        let one = |value: &Self| Box::new(value.notation(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.notation(parameters)).collect();
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        let one = |value: &Self| Box::new(value.shown(parameters));
+        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
         match self {
-            Self::Constant(quantity) => quantity.notation(parameters),
-            Self::Time => Notation::Atom(TIME.into()),
-            Self::Sum(members) => Notation::Sum(all(members)),
-            Self::Product(factors) => Notation::Product(all(factors)),
-            Self::Power(base, exponent) => Notation::Power(one(base), i64::from(*exponent)),
-            Self::Function(function, angle) => Notation::Call(function.name(), one(angle)),
+            Self::Constant(quantity) => quantity.shown(parameters),
+            Self::Time => ShownExpression::Atom(TIME.into()),
+            Self::Sum(members) => ShownExpression::Sum(all(members)),
+            Self::Product(factors) => ShownExpression::Product(all(factors)),
+            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
+            Self::Function(function, angle) => ShownExpression::Call(function.name(), one(angle)),
         }
     }
 }
