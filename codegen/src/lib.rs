@@ -26,6 +26,7 @@ pub mod description;
 #[cfg(feature = "symbolica")]
 pub mod emit;
 pub mod exact;
+pub mod functions;
 #[cfg(feature = "symbolica")]
 mod layout;
 #[cfg(feature = "symbolica")]

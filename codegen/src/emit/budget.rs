@@ -2,9 +2,9 @@
 //! energies.
 
 use super::Emission;
+use crate::functions::{Counting, EnergyDefinition};
+use crate::mechanics::OrbitMechanics;
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, OrbitMechanics};
-use crate::program::EnergyDefinition;
 use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

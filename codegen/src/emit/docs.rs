@@ -2,8 +2,8 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use crate::mechanics::Counting;
-use crate::program::{Argument, Cause, Entry, EntryState, Purpose};
+use crate::functions::{Argument, Cause, Counting, EntryState, Purpose};
+use crate::program::Entry;
 use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
 
@@ -13,7 +13,8 @@ const IN_PHASE: &str = "In the formulas w are the angular velocities (in rad/s) 
 impl Emission<'_> {
     /// Returns true if a spring is at rest beside its parent's line.
     pub(super) fn has_rest_angles(&self) -> bool {
-        self.scene.links.iter().any(|link| link.rest.is_some())
+        let mut links = self.scene.links.iter();
+        links.any(|link| !link.passive.rest.is_zero())
     }
 
     /// The state of potential energy zero, for docs.
@@ -217,19 +218,19 @@ impl Emission<'_> {
                     None => "",
                 }),
             ],
-            Purpose::AngleTransfer(n) => vec![
+            Purpose::TruncatedTransfer(n, Counting::Angle, 1) => vec![
                 format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (Toda and Ooshida, Eqs. 16b and 16c).", difference(n)),
                 String::new(),
                 "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
                 String::new(),
                 IN_PHASE.into(),
             ],
-            Purpose::AmplitudeTransfer(n) => vec![
+            Purpose::TruncatedTransfer(n, Counting::Amplitude, 2) => vec![
                 format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference(n), self.remainder(n)),
                 String::new(),
                 format!("ε scales the differences and their momenta. {IN_PHASE}"),
             ],
-            Purpose::HigherTransfer(n, counting, order) => {
+            Purpose::TruncatedTransfer(n, counting, order) => {
                 let (what, remainder) = match counting {
                     Counting::Angle => (
                         "the difference angles, momenta untouched",

@@ -1,9 +1,9 @@
 //! The formulas behind each entry point, for its docs.
 
 use super::Emission;
+use crate::functions::{Cause, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
-use crate::mechanics::{BrakingTorque, Frame, TransferFormulas, TransferParts, WrittenOut};
-use crate::program::{Cause, Purpose};
+use crate::mechanics::{BrakingTorque, EnergyParts, Frame, WrittenOut};
 
 impl Emission<'_> {
     pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
@@ -34,11 +34,10 @@ impl Emission<'_> {
                 let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
                 simple("H_d", &sum)
             }
-            Purpose::AngleTransfer(n) => self.transfer(&mechanics.transfers[n], |t| &t.angle),
-            Purpose::AmplitudeTransfer(n) => {
-                self.transfer(&mechanics.transfers[n], |t| &t.amplitude)
+            Purpose::TruncatedTransfer(n, counting, order) if order == counting.bracket_order() => {
+                self.transfer(mechanics.transfers[n].truncated(counting, order))
             }
-            Purpose::ExactTransfer(n, _) => self.transfer(&mechanics.transfers[n], |t| &t.exact),
+            Purpose::ExactTransfer(n, _) => self.transfer(mechanics.transfers[n].exact.as_ref()),
             Purpose::SplitTransfer(n, cause, _) => match &mechanics.transfers[n].split {
                 Some([growth, forcing]) => Self::transfer_parts(match cause {
                     Cause::MeanTree => growth,
@@ -93,7 +92,7 @@ impl Emission<'_> {
             | Purpose::SectorTransfers(_)
             | Purpose::TruncatedSectorTransfers(..)
             | Purpose::TransferMatrix(_)
-            | Purpose::HigherTransfer(..)
+            | Purpose::TruncatedTransfer(..)
             | Purpose::StiffnessMatrix
             | Purpose::ToSymmetric
             | Purpose::FromSymmetric
@@ -170,12 +169,8 @@ impl Emission<'_> {
         frame.torques.iter().filter_map(formula).collect()
     }
 
-    fn transfer(
-        &self,
-        transfer: &TransferFormulas,
-        form: fn(&TransferFormulas) -> &Option<TransferParts>,
-    ) -> Vec<NamedFormula> {
-        let Some(parts) = form(transfer) else {
+    fn transfer(&self, parts: Option<&EnergyParts>) -> Vec<NamedFormula> {
+        let Some(parts) = parts else {
             return Vec::new();
         };
         let mut formulas = Self::transfer_parts(parts);
@@ -189,7 +184,7 @@ impl Emission<'_> {
         formulas
     }
 
-    fn transfer_parts(parts: &TransferParts) -> Vec<NamedFormula> {
+    fn transfer_parts(parts: &EnergyParts) -> Vec<NamedFormula> {
         let named = |name: &str, expr: &Expr| {
             NamedFormula::new(name, format!("W_{{{}}}", &name[2..]), expr)
         };

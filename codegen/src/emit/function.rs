@@ -6,7 +6,8 @@ use super::names::Locals;
 use super::parts::{self, Line};
 use super::shapes::{argument_type, result_type};
 use super::tokens::{Binding, ident};
-use crate::program::{Argument, Entry, LINK_MOTION, Op, Pass, Purpose, ValueId};
+use crate::functions::{Argument, Purpose};
+use crate::program::{Entry, LINK_MOTION, Op, Pass, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 

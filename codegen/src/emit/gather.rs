@@ -5,7 +5,8 @@
 use super::Emission;
 use super::names::Locals;
 use super::tokens::Binding;
-use crate::program::{Argument, Entry, Op, ValueId};
+use crate::functions::Argument;
+use crate::program::{Entry, Op, ValueId};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;

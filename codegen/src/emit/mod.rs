@@ -43,8 +43,9 @@ pub use latex::latex_document;
 pub use stub::stub;
 
 use crate::description::StructItem;
+use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
-use crate::program::{ConstantId, ConstantOp, Op, Program, Purpose, ValueId};
+use crate::program::{ConstantId, ConstantOp, Op, Program, ValueId};
 use crate::scene::Scene;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};

@@ -1,7 +1,8 @@
 //! Names of the local values of an emitted function.
 
 use super::Emission;
-use crate::program::{Argument, Entry, FusedSum, Op, ValueId, constant_names};
+use crate::functions::Argument;
+use crate::program::{Entry, FusedSum, Op, ValueId, constant_names};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longer generated names say less than a number.

@@ -1,9 +1,9 @@
 //! Where links are: docs and formulas of the functions, and the runtime's trait.
 
 use super::Emission;
+use crate::functions::{PointKind, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::mechanics::{LinkPositions, RelativePosition};
-use crate::program::{PointKind, Purpose};
 use crate::scene::{LINK_PROPERTIES, Layout, LinkId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

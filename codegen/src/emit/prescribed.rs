@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::docs::wrapped_names;
-use crate::program::Purpose;
+use crate::functions::Purpose;
 use crate::scene::{LinkId, PrescribedSet};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -46,17 +46,11 @@ impl Emission<'_> {
         let outputs = ["alpha", "reactions"];
         let arms = (0..sets.len()).map(|number| {
             let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
-            let written = self.both_written_at_slices(outputs, &pattern, purpose);
+            let written = self.fill_both(outputs, &pattern, purpose);
             let number = Literal::usize_unsuffixed(number);
             quote!(#number => #written,)
         });
-        let written = quote! {
-            match set {
-                #(#arms)*
-                _ => false,
-            }
-        };
-        let body = self.written_or_nan(&outputs, written);
+        let unknown = self.unknown(&outputs);
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] =
@@ -73,7 +67,10 @@ impl Emission<'_> {
                 ) {
                     let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
                         motion;
-                    #body
+                    match set {
+                        #(#arms)*
+                        _ => #unknown
+                    }
                 }
             }
         })

@@ -1,7 +1,8 @@
 //! The shapes in which functions return their outputs.
 
 use super::Emission;
-use crate::program::{Argument, Entry, ResultShape};
+use crate::functions::{Argument, ResultShape};
+use crate::program::Entry;
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -4,7 +4,7 @@ use super::Emission;
 use super::doc_text::broken;
 use crate::mechanics;
 use crate::mechanics::expression::{Expr, NamedFormula};
-use crate::scene::Link;
+use crate::scene::PassiveTorques;
 
 /// Formulas of more rows than this are shown up to here.
 const ROWS: usize = 8;
@@ -18,10 +18,8 @@ impl Emission<'_> {
 
     /// Returns true if any friction or drag is not viscous.
     pub(super) fn has_nonlinear_friction(&self) -> bool {
-        self.scene
-            .links
-            .iter()
-            .any(|link| !link.nonlinear.is_none())
+        let mut links = self.scene.links.iter();
+        links.any(|link| !link.passive.is_viscous())
     }
 
     /// The matrix that formulas in symmetric coordinates call D.
@@ -36,10 +34,10 @@ impl Emission<'_> {
 
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
-        let links = &self.scene.links;
+        let passive = || self.scene.links.iter().map(|link| &link.passive);
         let present = [
-            (links.iter().any(Link::has_friction), "friction"),
-            (links.iter().any(Link::has_drag), "drag"),
+            (passive().any(PassiveTorques::has_friction), "friction"),
+            (passive().any(PassiveTorques::has_drag), "drag"),
             (self.mechanics.drive.is_some(), "drive"),
         ];
         let present = present.into_iter().filter(|(present, _)| *present);

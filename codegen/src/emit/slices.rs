@@ -3,7 +3,8 @@
 
 use super::Emission;
 use super::tokens::ident;
-use crate::program::{Argument, Entry, Purpose};
+use crate::functions::{Argument, Purpose};
+use crate::program::Entry;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -74,44 +75,35 @@ impl Emission<'_> {
         self.at_slices(purpose, |call| call, quote!(T::from_f64(f64::NAN)))
     }
 
-    /// Returns true in the code if the array that a function gives at slices has been written.
-    pub(super) fn written_at_slices(&self, output: &str, purpose: Purpose) -> TokenStream {
-        let (runtime, output) = (self.runtime(), ident(output));
-        let write = |call| quote!(#runtime::emitted::write(#output, &#call));
-        self.at_slices(purpose, write, quote!(false))
+    /// Fills outputs with NaN.
+    pub(super) fn unknown(&self, outputs: &[&str]) -> TokenStream {
+        let runtime = self.runtime();
+        let outputs = outputs.iter().map(|output| ident(output));
+        quote!({ #(#runtime::emitted::unknown(#outputs);)* })
+    }
+
+    /// Writes the array that a function gives at slices.
+    pub(super) fn fill(&self, output: &str, purpose: Purpose) -> TokenStream {
+        let (runtime, name) = (self.runtime(), ident(output));
+        let write = |call| quote!(#runtime::emitted::write(#name, &#call));
+        self.at_slices(purpose, write, self.unknown(&[output]))
     }
 
     /// Writes two arrays that a function gives into slices.
-    pub(super) fn both_written_at_slices(
+    pub(super) fn fill_both(
         &self,
         outputs: [&str; 2],
         pattern: &TokenStream,
         purpose: Purpose,
     ) -> TokenStream {
         let runtime = self.runtime();
-        let [first, second] = outputs.map(ident);
+        let names = outputs.map(ident);
         let write = |call| {
             quote! {{
                 let #pattern = #call;
-                #runtime::emitted::write(#first, &first) & #runtime::emitted::write(#second, &second)
+                #runtime::emitted::write_both([#(#names),*], [&first, &second]);
             }}
         };
-        self.at_slices(purpose, write, quote!(false))
-    }
-
-    /// Fills outputs with NaN where an expression says that they are not written.
-    pub(super) fn written_or_nan(&self, outputs: &[&str], written: TokenStream) -> TokenStream {
-        let outputs = outputs.iter().map(|output| ident(output));
-        quote! {
-            let written: bool = #written;
-            if !written {
-                #(#outputs.fill(T::from_f64(f64::NAN));)*
-            }
-        }
-    }
-
-    /// Statements that write the array that a function gives at slices.
-    pub(super) fn fill(&self, output: &str, purpose: Purpose) -> TokenStream {
-        self.written_or_nan(&[output], self.written_at_slices(output, purpose))
+        self.at_slices(purpose, write, self.unknown(&outputs))
     }
 }

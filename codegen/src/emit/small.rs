@@ -1,9 +1,9 @@
 //! Small differences that act back: names, docs, formulas and the runtime's trait.
 
 use super::Emission;
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::SmallMechanics;
 use crate::mechanics::expression::NamedFormula;
-use crate::program::{Argument, Purpose};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

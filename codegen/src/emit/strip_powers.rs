@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use crate::program::Purpose;
+use crate::functions::Purpose;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -102,7 +102,7 @@ impl Emission<'_> {
             return TokenStream::new();
         }
         let mut links = self.scene.links.iter();
-        let braked = links.any(|link| link.has_friction() || link.has_drag());
+        let braked = links.any(|link| link.passive.has_friction() || link.passive.has_drag());
         let friction = braked.then(|| {
             let others = self.other_powers();
             let (laws, meaning) = match self.has_nonlinear_friction() {

@@ -2,8 +2,8 @@
 //! model.
 
 use super::Emission;
+use crate::functions::{Purpose, ScaleFunction};
 use crate::mechanics::expression::NamedFormula;
-use crate::program::{Purpose, ScaleFunction};
 use crate::scene::{Layout, Link};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -24,9 +24,9 @@ impl Emission<'_> {
             self.equation_function(Purpose::Scale(function), &quote!([T; #results]))
         });
         let any = |force: fn(&Link) -> bool| self.scene.links.iter().any(force);
-        let springs = any(|link| link.spring.is_some());
-        let friction = any(Link::has_friction);
-        let drag = any(Link::has_drag);
+        let springs = any(|link| !link.passive.spring.is_zero());
+        let friction = any(|link| link.passive.has_friction());
+        let drag = any(|link| link.passive.has_drag());
         let moved = self.has_moving_pivot();
         let drive = match self.mechanics.drive {
             Some(_) => quote!(::core::option::Option::Some(self.drive(time))),

@@ -4,7 +4,8 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::program::{ConstantId, ConstantOp, LoopTree, Op, Purpose, StripConstants, ValueId};
+use crate::functions::Purpose;
+use crate::program::{ConstantId, ConstantOp, LoopTree, Op, StripConstants, ValueId};
 use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};

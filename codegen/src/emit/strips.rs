@@ -4,7 +4,8 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{count, ident};
-use crate::program::{Argument, Entry, LinkFunction, LoopTree, Op, Purpose};
+use crate::functions::{Argument, LinkFunction, Purpose};
+use crate::program::{Entry, LoopTree, Op};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};

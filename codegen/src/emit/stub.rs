@@ -5,8 +5,8 @@
 use super::shapes::{argument_type, result_type};
 use super::stub_sectors::{places, sector_count};
 use crate::description::Description;
-use crate::program::{Argument, Naming, Purpose, Signature};
-use crate::scene::{is_keyword, is_method};
+use crate::functions::{Argument, Naming, Purpose, Signature, is_method};
+use crate::scene::is_keyword;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use std::collections::BTreeSet;
@@ -133,14 +133,18 @@ fn naming(description: &Description) -> Naming {
     }
 }
 
-/// All functions that the model may have, as far as they can stand beside each other.
+/// The functions that the model may have, as far as they can stand beside each other; what
+/// is no method of plain arrays is left out.
 fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
+    use Purpose::{Drive, SmallAccelerations, SmallEnergy, TaylorCoefficients};
     let length = |count| match count {
         LINKS => quote!(N),
         count => Literal::usize_unsuffixed(count).into_token_stream(),
     };
     let mut taken = BTreeSet::new();
+    let others = [Drive, SmallAccelerations, SmallEnergy, TaylorCoefficients];
     let purposes = naming.purposes().into_iter();
+    let purposes = purposes.filter(|purpose| !others.contains(purpose));
     let functions = purposes.filter_map(|purpose| {
         let Signature {
             name,

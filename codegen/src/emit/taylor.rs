@@ -7,7 +7,8 @@ use super::doc_text::doc_lines;
 use super::taylor_order::Recurrences;
 use super::tokens::{Binding, ident};
 use crate::exact::Rational;
-use crate::program::{Argument, Entry, Op, Purpose, TaylorOutputs, ValueId};
+use crate::functions::{Argument, Purpose};
+use crate::program::{Entry, Op, TaylorOutputs, ValueId};
 use crate::scene::LinkId;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -176,7 +177,7 @@ impl Emission<'_> {
                 let (coefficients, _) = coefficients.as_chunks_mut::<2>();
                 self.taylor_coefficients(#argument theta, omega, coefficients, work)
             }),
-            quote!(coefficients.fill(T::from_f64(f64::NAN))),
+            self.unknown(&["coefficients"]),
         );
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {

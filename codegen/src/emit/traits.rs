@@ -2,8 +2,8 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
+use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
-use crate::program::Purpose;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -168,8 +168,7 @@ impl Emission<'_> {
         let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
         let rates = ["q_rates", "p_rates"];
         let pattern = quote!([first, second]);
-        let written = self.both_written_at_slices(rates, &pattern, Purpose::CanonicalRates);
-        let body = self.written_or_nan(&rates, written);
+        let body = self.fill_both(rates, &pattern, Purpose::CanonicalRates);
         let time = self.time_name();
         quote! {
             impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {

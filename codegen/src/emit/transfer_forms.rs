@@ -2,8 +2,8 @@
 //! ones beside the exact one.
 
 use super::Emission;
-use crate::mechanics::Counting;
-use crate::program::{Entry, EntryState, Purpose};
+use crate::functions::{Counting, EntryState, Purpose};
+use crate::program::Entry;
 use crate::scene::{SectorVariables, sectors};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -62,9 +62,7 @@ impl Emission<'_> {
         let mut forms: BTreeMap<ListedForm, Vec<TokenStream>> = BTreeMap::new();
         for entry in &self.program.entries {
             let form = match entry.purpose {
-                Purpose::AngleTransfer(_) => truncated(Counting::Angle, 1),
-                Purpose::AmplitudeTransfer(_) => truncated(Counting::Amplitude, 2),
-                Purpose::HigherTransfer(_, counting, order) => truncated(counting, order),
+                Purpose::TruncatedTransfer(_, counting, order) => truncated(counting, order),
                 Purpose::ExactTransfer(_, EntryState::Momenta(_)) => ListedForm::Exact,
                 _ => continue,
             };
@@ -123,19 +121,19 @@ impl Emission<'_> {
         });
         let arms = forms.iter().enumerate().map(|(number, (_, call))| {
             let number = Literal::usize_unsuffixed(number);
-            quote!(#number => ::core::option::Option::Some(#call))
+            quote!(#number => #runtime::emitted::write(transfers, &#call))
         });
-        let found = self.with_arrays(
+        let unknown = self.unknown(&["transfers"]);
+        let transfers = self.with_arrays(
             &[vec!["coordinates", "momenta"]],
             quote! {
                 match form {
                     #(#arms,)*
-                    _ => ::core::option::Option::None,
+                    _ => #unknown
                 }
             },
-            quote!(::core::option::Option::None),
+            unknown.clone(),
         );
-        let count = Literal::usize_unsuffixed(receivers.len());
         let momenta = self.fill("momenta", Purpose::SymmetricMomenta);
         quote! {
             // As for the functions above.
@@ -154,16 +152,7 @@ impl Emission<'_> {
                     momenta: &[T],
                     transfers: &mut [#runtime::Transfer<T>],
                 ) {
-                    let found = #found;
-                    match found {
-                        ::core::option::Option::Some(found) if transfers.len() == #count => {
-                            transfers.copy_from_slice(&found);
-                        }
-                        _ => transfers.fill(#runtime::Transfer {
-                            kinetic: T::from_f64(f64::NAN),
-                            potential: T::from_f64(f64::NAN),
-                        }),
-                    }
+                    #transfers
                 }
 
                 #[inline]

@@ -1,9 +1,9 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
+use crate::functions::Purpose;
 use crate::mechanics::TransverseFormulas;
 use crate::mechanics::expression::{Expr, NamedFormula};
-use crate::program::Purpose;
 use crate::scene::TransverseCopies;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -101,10 +101,10 @@ impl Emission<'_> {
         let transfer = self.match_sector(&nan(), |number, _| {
             self.value_at_slices(Purpose::TransverseTransfer(number))
         });
-        let accelerations = self.match_sector(&quote!(false), |number, _| {
-            self.written_at_slices("accelerations", Purpose::Transverse(number))
+        let unknown = self.unknown(&["accelerations"]);
+        let accelerations = self.match_sector(&unknown, |number, _| {
+            self.fill("accelerations", Purpose::Transverse(number))
         });
-        let accelerations = self.written_or_nan(&["accelerations"], accelerations);
         let power = self.friction_by_sector();
         let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
         let along = braked.then(|| {

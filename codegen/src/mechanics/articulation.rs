@@ -5,29 +5,33 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use crate::scene::{FrictionLaw, LinkId};
+use crate::scene::{LinkId, PassiveTorques};
 
-/// Constants of the links of one orbit; each is an expression in named
-/// constants, parameters and numbers, zero where the scene has no such thing.
+/// Constants of the links of one orbit, zero where the scene has no such thing: expressions
+/// in named constants, parameters and numbers, or values of a program.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct Joint<V = Expr> {
     /// Diagonal entry M of the mass matrix.
-    pub inertia: Expr,
+    pub inertia: V,
     /// First moment (h, e) of the mass that the link carries, about its pivot,
     /// along and across.
-    pub moment: [Expr; 2],
+    pub moment: [V; 2],
     /// The link's pivot (ℓ, w) from its parent's, along and across.
-    pub pivot: [Expr; 2],
-    /// Viscous friction in the pivot.
-    pub friction: Expr,
-    /// Viscous drag against the ground.
-    pub drag: Expr,
-    /// Stiffness of the torsion spring in the pivot.
-    pub spring: Expr,
-    /// Relative angle at which the spring is at rest.
-    pub rest: Expr,
-    /// Laws of friction in the pivot and against the ground, beside viscous ones.
-    pub laws: [FrictionLaw<Expr>; 2],
+    pub pivot: [V; 2],
+    /// Friction and spring in the pivot, and drag against the ground.
+    pub passive: PassiveTorques<V>,
+}
+
+impl<V> Joint<V> {
+    /// The joint with constants that are formed of its own.
+    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> Joint<W> {
+        Joint {
+            inertia: formed(&self.inertia),
+            moment: self.moment.each_ref().map(&mut formed),
+            pivot: self.pivot.each_ref().map(&mut formed),
+            passive: self.passive.map(formed),
+        }
+    }
 }
 
 /// The quantities from which the articulated recursion is formed.
@@ -52,11 +56,6 @@ impl Derivation<'_> {
             let LinkId(index) = orbit.links[0];
             let link = &scene.links[index];
             let angle = frame.coordinates[index];
-            let optional = |value: &Option<_>, letter: &str| {
-                let known = || self.symbols.find(&format!("{letter}_{}", orbit.name));
-                let symbol = value.as_ref().and_then(|_| known());
-                symbol.map_or_else(Expr::zero, Expr::Symbol)
-            };
             Joint {
                 inertia: expr(frame.mass.get(index, index)),
                 moment: [
@@ -65,11 +64,7 @@ impl Derivation<'_> {
                 ],
                 pivot: [&link.pivot.along, &link.pivot.lateral]
                     .map(|component| expr(self.quantity(component).expand())),
-                friction: optional(&link.friction, "c"),
-                drag: optional(&link.drag, "k"),
-                spring: optional(&link.spring, "κ"),
-                rest: optional(&link.rest, "ρ"),
-                laws: self.law_constants(&orbit.name),
+                passive: self.passive_constants(&orbit.name),
             }
         });
         Articulation {

@@ -4,14 +4,15 @@ use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::{DerivedFrame, MassMatrix};
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
-use super::transfer::{self, SubHamiltonian};
+use super::transfer::SubHamiltonian;
 use super::{
-    Constant, Correction, Energies, Frame, MassExpansion, MatrixEntry, Mechanics, TransferFormulas,
-    TransferParts, Truncated, WrittenOut,
+    Constant, Correction, EnergyParts, Frame, MassExpansion, MatrixEntry, Mechanics,
+    TransferFormulas, Truncated, WrittenOut,
 };
+use crate::functions::Counting;
 use crate::scene::TransferRequest;
 use crate::scene::coordinates::{self, Coordinate};
 
@@ -152,7 +153,7 @@ impl Derivation<'_> {
             stiffness: requests.modes.then(|| self.entries(&self.stiffness(frame))),
             energies: requests.energies.then(|| {
                 let kinetic: Formula = frame.kinetic_terms().map(|(_, _, term)| term).sum();
-                Energies {
+                EnergyParts {
                     kinetic: self.expr(&kinetic.expand()),
                     potential: self.expr(&frame.potential),
                 }
@@ -264,26 +265,25 @@ impl Derivation<'_> {
         series: &[VelocitySeries],
     ) -> TransferFormulas {
         let coordinate = energy.coordinate;
-        let angle = request
-            .angle_orders
-            .contains(&1)
-            .then(|| self.angle_transfer(frame, expansion, energy));
-        let amplitude = request
-            .amplitude_orders
-            .contains(&2)
-            .then(|| self.amplitude_transfer(frame, expansion, energy));
-        let quadratic_form = amplitude
-            .as_ref()
-            .and_then(|parts| self.quadratic_form(frame, expansion, coordinate, parts));
-        let mut higher = Vec::new();
+        let form = |counting: Counting, order: u32, parts: EnergyParts| Truncated {
+            counting,
+            order,
+            parts,
+        };
+        let (mut truncated, mut quadratic_form) = (Vec::new(), None);
+        if request.angle_orders.contains(&1) {
+            let parts = self.angle_transfer(frame, expansion, energy);
+            truncated.push(form(Counting::Angle, 1, self.parts(&parts)));
+        }
+        if request.amplitude_orders.contains(&2) {
+            let parts = self.amplitude_transfer(frame, expansion, energy);
+            quadratic_form = self.quadratic_form(frame, expansion, coordinate, &parts);
+            truncated.push(form(Counting::Amplitude, 2, self.parts(&parts)));
+        }
         for series in series {
             for order in higher_orders(request, series.counting) {
                 let parts = self.series_transfer(frame, expansion, energy, series, order);
-                higher.push(Truncated {
-                    counting: series.counting,
-                    order,
-                    parts: self.parts(&parts),
-                });
+                truncated.push(form(series.counting, order, self.parts(&parts)));
             }
         }
         let exact = request
@@ -291,14 +291,12 @@ impl Derivation<'_> {
             .then(|| self.exact_transfer(frame, expansion, energy));
         TransferFormulas {
             coordinate,
-            energy: TransferParts {
+            energy: EnergyParts {
                 kinetic: self.expr(&energy.kinetic),
                 potential: self.expr(&energy.potential),
             },
-            angle: angle.map(|parts| self.parts(&parts)),
-            amplitude: amplitude.map(|parts| self.parts(&parts)),
+            truncated,
             quadratic_form,
-            higher,
             exact: exact.map(|parts| self.parts(&parts)),
             split: None,
             friction: self.expr(&self.friction_power(frame, energy)),
@@ -307,11 +305,8 @@ impl Derivation<'_> {
         }
     }
 
-    fn parts(&self, parts: &transfer::DerivedParts) -> TransferParts {
-        TransferParts {
-            kinetic: self.expr(&parts.kinetic),
-            potential: self.expr(&parts.potential),
-        }
+    fn parts(&self, parts: &EnergyParts<Formula>) -> EnergyParts {
+        parts.map(|part| self.expr(part))
     }
 
     /// The velocities' series, one for each counting of which orders beyond
@@ -339,7 +334,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         coordinate: usize,
-        parts: &transfer::DerivedParts,
+        parts: &EnergyParts<Formula>,
     ) -> Option<[Expr; 3]> {
         let (q, p) = (frame.coordinates[coordinate], frame.momenta[coordinate]);
         let whole = &parts.kinetic + &parts.potential;
@@ -362,12 +357,10 @@ impl Derivation<'_> {
 /// Orders that are derived from the velocities' series; the first order in the
 /// angles and the second in the amplitude come from Poisson brackets.
 fn higher_orders(request: &TransferRequest, counting: Counting) -> impl Iterator<Item = u32> + '_ {
-    let (orders, bracket) = match counting {
-        Counting::Angle => (&request.angle_orders, 1),
-        Counting::Amplitude => (&request.amplitude_orders, 2),
+    let orders = match counting {
+        Counting::Angle => &request.angle_orders,
+        Counting::Amplitude => &request.amplitude_orders,
     };
-    orders
-        .iter()
-        .copied()
-        .filter(move |&order| order != bracket)
+    let orders = orders.iter().copied();
+    orders.filter(move |&order| order != counting.bracket_order())
 }

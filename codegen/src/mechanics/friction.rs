@@ -5,17 +5,9 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId, Symbols};
 use super::frame::DerivedFrame;
+use super::letters;
 use super::print::latex_name;
-use crate::scene::{Coordinate, FrictionLaw, Link, LinkId};
-
-/// The part of a link that friction acts on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrictionPlace {
-    /// Its pivot.
-    Joint,
-    /// Itself, against the ground.
-    Ground,
-}
+use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
 
 /// A torque (C/s + q s) w of friction, by which a link or its joint is braked.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,16 +77,6 @@ impl DerivedTorque {
 }
 
 impl FrictionPlace {
-    const ALL: [Self; 2] = [Self::Joint, Self::Ground];
-
-    /// The law of a link there.
-    fn law(self, link: &Link) -> Option<&FrictionLaw> {
-        match self {
-            Self::Joint => link.nonlinear.joint.as_ref(),
-            Self::Ground => link.nonlinear.ground.as_ref(),
-        }
-    }
-
     /// The mark of its letters.
     fn mark(self) -> &'static str {
         match self {
@@ -118,9 +100,10 @@ impl Derivation<'_> {
         for index in 0..velocities.len() {
             let scene = self.scene;
             for place in FrictionPlace::ALL {
-                let Some(law) = place.law(&scene.links[index]) else {
+                let law = scene.links[index].passive.law(place);
+                if law.is_none() {
                     continue;
-                };
+                }
                 self.name_law(index, place, law);
                 let rate = match place {
                     FrictionPlace::Joint => self.relative(index, velocities),
@@ -197,22 +180,30 @@ impl Derivation<'_> {
         }
     }
 
-    /// The laws of an orbit in named constants, in the pivot and against the ground; zero
-    /// where a law has no such part.
-    pub(super) fn law_constants(&self, orbit: &str) -> [FrictionLaw<Expr>; 2] {
-        FrictionPlace::ALL.map(|place| {
-            let named = |letter: &str| {
-                let text = format!("{letter}{}_{orbit}", place.mark());
-                let found = self.symbols.find(&text);
-                let found = found.filter(|id| self.constants.contains_key(id));
-                found.map_or_else(Expr::zero, Expr::Symbol)
-            };
-            FrictionLaw {
-                coulomb: named("C"),
-                quadratic: named("q"),
-                width: named("ε"),
-            }
-        })
+    /// The passive torques of an orbit in named constants; zero where it has none.
+    pub(super) fn passive_constants(&self, orbit: &str) -> PassiveTorques<Expr> {
+        PassiveTorques {
+            friction: self.named_constant(letters::FRICTION.text, orbit),
+            drag: self.named_constant(letters::DRAG.text, orbit),
+            spring: self.named_constant(letters::SPRING.text, orbit),
+            rest: self.named_constant(letters::REST.text, orbit),
+            laws: FrictionPlace::ALL.map(|place| self.law_constants(orbit, place)),
+        }
+    }
+
+    fn law_constants(&self, orbit: &str, place: FrictionPlace) -> FrictionLaw<Expr> {
+        let named = |letter| self.named_constant(&format!("{letter}{}", place.mark()), orbit);
+        FrictionLaw {
+            coulomb: named("C"),
+            quadratic: named("q"),
+            width: named("ε"),
+        }
+    }
+
+    fn named_constant(&self, letter: &str, orbit: &str) -> Expr {
+        let found = self.symbols.find(&format!("{letter}_{orbit}"));
+        let found = found.filter(|id| self.constants.contains_key(id));
+        found.map_or_else(Expr::zero, Expr::Symbol)
     }
 
     /// The torques of equal copies in symmetric coordinates, and what stands for those of
@@ -228,7 +219,7 @@ impl Derivation<'_> {
             for (index, coordinate) in coordinates.iter().enumerate() {
                 let (orbit, _) = coordinate.kind.orbit_and_difference();
                 let first = self.scene.orbits[orbit].links[0];
-                if place.law(&self.scene.links[first.0]).is_some() {
+                if !self.scene.links[first.0].passive.law(place).is_none() {
                     let source = DerivedSource::Coordinate(index);
                     found.push(self.torque_called(&coordinate.name, place, source));
                 }
@@ -277,7 +268,7 @@ impl Derivation<'_> {
         let torques = torques.iter().map(|torque| {
             let source = match &torque.source {
                 DerivedSource::Link { link, rate } => {
-                    let law = self.law(*link, torque.place);
+                    let law = self.law_constants(&self.orbit_name(link.0), torque.place);
                     let rate = self.expr(rate);
                     TorqueSource::Link {
                         link: *link,
@@ -296,14 +287,6 @@ impl Derivation<'_> {
             }
         });
         torques.collect()
-    }
-
-    fn law(&self, LinkId(link): LinkId, place: FrictionPlace) -> FrictionLaw<Expr> {
-        let [joint, ground] = self.law_constants(&self.orbit_name(link));
-        match place {
-            FrictionPlace::Joint => joint,
-            FrictionPlace::Ground => ground,
-        }
     }
 
     /// √(w² + ε²) for formulas.

@@ -7,23 +7,12 @@ use super::derivation::{Derivation, Trigonometric};
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::print::latex_name;
-use crate::named_members::named_members;
+use crate::functions::Counting;
 use crate::scene::{Coordinate, CoordinateKind};
 
 /// The largest in-phase block whose inverse is also written out, for formulas
 /// that people read.
 const WRITTEN_OUT: usize = 2;
-
-named_members! {
-    /// Quantities that count as small when W is truncated.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Counting {
-        /// The difference angles; momenta stay whole (the paper's sense).
-        Angle = "angle",
-        /// Difference angles and their momenta alike, as in an oscillation.
-        Amplitude = "amplitude",
-    }
-}
 
 /// M̃ and its inverse about the in-phase motion.
 pub(super) struct DerivedExpansion {

@@ -213,17 +213,17 @@ impl Derivation<'_> {
         let (scene, mut terms) = (self.scene, Vec::new());
         for index in 0..velocities.len() {
             let orbit = self.orbit_name(index);
-            let link = &scene.links[index];
-            if let Some(friction) = &link.friction {
+            let passive = &scene.links[index].passive;
+            if !passive.friction.is_zero() {
                 let meaning = format!("viscous friction in the pivot of `{orbit}`");
                 let relative = self.relative(index, velocities);
-                let value = self.quantity(friction);
+                let value = self.quantity(&passive.friction);
                 let c = self.lettered(letters::FRICTION, &[&orbit], &meaning, value);
                 terms.push(half_square(&c, &relative));
             }
-            if let Some(drag) = &link.drag {
+            if !passive.drag.is_zero() {
                 let meaning = format!("viscous drag of `{orbit}` against the ground");
-                let value = self.quantity(drag);
+                let value = self.quantity(&passive.drag);
                 let k = self.lettered(letters::DRAG, &[&orbit], &meaning, value);
                 terms.push(half_square(&k, &Formula::symbol(velocities[index])));
             }
@@ -236,19 +236,16 @@ impl Derivation<'_> {
         let (scene, mut terms) = (self.scene, Vec::new());
         for index in 0..angles.len() {
             let orbit = self.orbit_name(index);
-            let link = &scene.links[index];
-            let Some(spring) = &link.spring else {
+            let passive = &scene.links[index].passive;
+            if passive.spring.is_zero() {
                 continue;
-            };
-            let mut strain = self.relative(index, angles);
-            if let Some(rest) = &link.rest {
-                let meaning = format!("angle at which the torsion spring of `{orbit}` is at rest");
-                let value = self.quantity(rest);
-                let rest = self.lettered(letters::REST, &[&orbit], &meaning, value);
-                strain = &strain - &rest;
             }
+            let meaning = format!("angle at which the torsion spring of `{orbit}` is at rest");
+            let value = self.quantity(&passive.rest);
+            let rest = self.lettered(letters::REST, &[&orbit], &meaning, value);
+            let strain = &self.relative(index, angles) - &rest;
             let meaning = format!("stiffness of the torsion spring in the pivot of `{orbit}`");
-            let value = self.quantity(spring);
+            let value = self.quantity(&passive.spring);
             let stiffness = self.lettered(letters::SPRING, &[&orbit], &meaning, value);
             terms.push(half_square(&stiffness, &strain));
         }

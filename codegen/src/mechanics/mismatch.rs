@@ -6,13 +6,14 @@
 //! tree of equal copies, has the same coordinates and the same momenta, and gives the
 //! energies H_d of the differences.
 
+use super::EnergyParts;
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::letters::{self, Letter};
 use super::print::latex_name;
-use super::transfer::{DerivedParts, SubHamiltonian};
+use super::transfer::SubHamiltonian;
 use super::{LinearSystem, MeanTree};
 use crate::scene::{Coordinate, LinkId, UnequalNode};
 
@@ -253,7 +254,7 @@ impl Derivation<'_> {
         mismatch: &Mismatch<'_>,
         differences: &[usize],
         energy: &SubHamiltonian,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let Mismatch {
             frame,
             mean,
@@ -296,7 +297,7 @@ impl Derivation<'_> {
             let sum = terms.into_iter().sum::<Formula>();
             self.reduce(&sum, frame, differences)
         };
-        DerivedParts {
+        EnergyParts {
             kinetic: short(kinetic),
             potential: short(potential),
         }

@@ -42,8 +42,7 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
-pub use friction::{BrakingTorque, FrictionPlace, TorqueSource};
-pub use inverse_mass::Counting;
+pub use friction::{BrakingTorque, TorqueSource};
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
@@ -58,6 +57,7 @@ pub use small::{SmallFormulas, SmallMechanics};
 pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
+use crate::functions::Counting;
 use crate::scene::{Coordinate, Scene};
 use derivation::Derivation;
 use expression::{Expr, SymbolId, Symbols};
@@ -87,13 +87,23 @@ pub struct MatrixEntry {
     pub value: Expr,
 }
 
-/// Kinetic and potential energy.
+/// Kinetic and potential part of an energy; of a transfer W of the energy H_d = T + V, the
+/// parts {H_d, K − T} and {H_d, U − V} that those of the rest of the tree contribute.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Energies {
-    /// K in coordinates and velocities.
-    pub kinetic: Expr,
-    /// U in coordinates.
-    pub potential: Expr,
+pub struct EnergyParts<F = Expr> {
+    /// The kinetic part.
+    pub kinetic: F,
+    /// The potential part.
+    pub potential: F,
+}
+
+impl<F> EnergyParts<F> {
+    fn map<G>(&self, formed: impl Fn(&F) -> G) -> EnergyParts<G> {
+        EnergyParts {
+            kinetic: formed(&self.kinetic),
+            potential: formed(&self.potential),
+        }
+    }
 }
 
 /// The Lagrangian in one set of generalized coordinates and what follows from
@@ -113,7 +123,7 @@ pub struct Frame {
     pub stiffness: Option<Vec<MatrixEntry>>,
     /// Kinetic energy in coordinates and velocities and potential energy, zero
     /// where all coordinates are zero; if energies are asked for.
-    pub energies: Option<Energies>,
+    pub energies: Option<EnergyParts>,
     /// p_i = ∂L/∂v_i in coordinates and velocities, if momenta are asked for.
     pub momentum: Option<Vec<Expr>>,
     /// ṗ_i = ∂L/∂q_i + Q_i, friction, drag and drive included, in coordinates
@@ -132,16 +142,6 @@ pub struct Frame {
     pub bias: Vec<Expr>,
 }
 
-/// W split into the parts that the kinetic and the potential energy of the
-/// rest of the tree contribute.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TransferParts {
-    /// {H_d, K − T}.
-    pub kinetic: Expr,
-    /// {H_d, U − V}.
-    pub potential: Expr,
-}
-
 /// The energy of one difference and the transfer into it. Symbols: symmetric
 /// coordinates and their momenta; in-phase velocities w in the truncated
 /// forms, generalized velocities in the exact one.
@@ -150,27 +150,33 @@ pub struct TransferFormulas {
     /// Index of the difference among the symmetric coordinates.
     pub coordinate: usize,
     /// H_d, its kinetic and its potential part.
-    pub energy: TransferParts,
-    /// W to first order in the difference angles (the paper's W_K, W_P).
-    pub angle: Option<TransferParts>,
-    /// W to second order in the amplitude.
-    pub amplitude: Option<TransferParts>,
-    /// The coefficients of p_d², p_d θ_d, θ_d² in `amplitude`, if it is a
-    /// quadratic form in this difference alone.
+    pub energy: EnergyParts,
+    /// W through the orders asked for: to first order in the difference angles (the paper's
+    /// W_K, W_P), to second order in the amplitude, then others.
+    pub truncated: Vec<Truncated>,
+    /// The coefficients of p_d², p_d θ_d, θ_d² in W to second order in the amplitude, if it
+    /// is a quadratic form in this difference alone.
     pub quadratic_form: Option<[Expr; 3]>,
-    /// W to other orders, in the order asked for.
-    pub higher: Vec<Truncated>,
     /// W without truncation.
-    pub exact: Option<TransferParts>,
+    pub exact: Option<EnergyParts>,
     /// The rate between copies that differ, as what the mean tree does, in its velocities, and
     /// what the mismatch adds.
-    pub split: Option<[TransferParts; 2]>,
+    pub split: Option<[EnergyParts; 2]>,
     /// The power of friction and drag on H_d; zero without both.
     pub friction: Expr,
     /// The power of the drive on H_d; zero without a moving pivot.
     pub drive: Expr,
     /// ∂H_d/∂p_d, by which torques on the difference have power.
     pub velocity: Expr,
+}
+
+impl TransferFormulas {
+    /// W through an order, if it is asked for.
+    pub fn truncated(&self, counting: Counting, order: u32) -> Option<&EnergyParts> {
+        let mut all = self.truncated.iter();
+        let found = all.find(|form| (form.counting, form.order) == (counting, order));
+        found.map(|form| &form.parts)
+    }
 }
 
 /// W cut off at an order.
@@ -181,18 +187,18 @@ pub struct Truncated {
     /// The highest order kept.
     pub order: u32,
     /// W, in the symbols of the expansion's corrections.
-    pub parts: TransferParts,
+    pub parts: EnergyParts,
 }
 
 /// Velocities of one order of their series.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Correction {
+pub struct Correction<F = Expr> {
     /// In-phase velocities, in the order of the means; none where all vanish.
     pub in_phase: Vec<SymbolId>,
     /// M⁽⁰⁾ x = right defines them.
-    pub right: Vec<Expr>,
+    pub right: Vec<F>,
     /// Velocities of differences, with their values.
-    pub differences: Vec<(SymbolId, Expr)>,
+    pub differences: Vec<(SymbolId, F)>,
 }
 
 /// The inverse mass matrix about the in-phase motion.

@@ -34,15 +34,15 @@ pub struct OrbitConstants {
 /// Entry of the mass matrix between the links of an orbit and those of an
 /// ancestor's: cosine · cos(θ_row − θ_column) + sine · sin(θ_row − θ_column).
 #[derive(Clone, Debug, PartialEq)]
-pub struct OrbitCoupling {
+pub struct OrbitCoupling<V = Expr> {
     /// Orbit of the descendants.
     pub row: usize,
     /// Orbit of the ancestors.
     pub column: usize,
     /// Factor of the cosine.
-    pub cosine: Expr,
+    pub cosine: V,
     /// Factor of the sine.
-    pub sine: Expr,
+    pub sine: V,
 }
 
 /// The mechanics of a scene by orbits.

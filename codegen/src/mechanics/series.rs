@@ -10,25 +10,17 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
 use super::print::latex_name;
-use super::transfer::{DerivedParts, SubHamiltonian};
+use super::transfer::SubHamiltonian;
+use super::{Correction, EnergyParts};
+use crate::functions::Counting;
 use crate::scene::Coordinate;
-
-/// Velocities of one order as symbols, and what defines them.
-pub(super) struct DerivedCorrection {
-    /// In-phase velocities, in the order of the means.
-    pub(super) in_phase: Vec<SymbolId>,
-    /// M⁽⁰⁾ x = right defines them.
-    pub(super) right: Vec<Formula>,
-    /// Velocities of differences with their values.
-    pub(super) differences: Vec<(SymbolId, Formula)>,
-}
 
 /// The velocities as a series in ε, in the symbols of `corrections`.
 pub(super) struct VelocitySeries {
     pub(super) counting: Counting,
-    pub(super) corrections: Vec<DerivedCorrection>,
+    pub(super) corrections: Vec<Correction<Formula>>,
     /// q̇⁽ⁿ⁾ by order and coordinate.
     orders: Vec<Vec<Formula>>,
 }
@@ -79,7 +71,7 @@ impl Derivation<'_> {
         right: Vec<Formula>,
     ) -> Vec<Formula> {
         let mut velocities = vec![Formula::zero(); coordinates.len()];
-        let mut correction = DerivedCorrection {
+        let mut correction = Correction {
             in_phase: Vec::new(),
             right: Vec::new(),
             differences: Vec::new(),
@@ -139,7 +131,7 @@ impl Derivation<'_> {
         energy: &SubHamiltonian,
         series: &VelocitySeries,
         order: u32,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let pairs = Self::difference_pairs(frame, expansion);
         let kinetic_gradient = frame.kinetic_gradient(self);
         let potential_gradient = frame.potential_gradient(self);
@@ -168,7 +160,7 @@ impl Derivation<'_> {
         };
         let kinetic = &cut(exchange.into_iter().sum(), order) + &cut(drive, before);
         let potential = cut(potential.into_iter().sum(), order);
-        DerivedParts {
+        EnergyParts {
             kinetic: kinetic.expand(),
             potential,
         }

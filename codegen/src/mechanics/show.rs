@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    DriveTerms, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, TransferParts, text,
+    DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -83,21 +83,21 @@ impl fmt::Display for Mechanics {
             writeln!(f, "transfer into {name}")?;
             self.line(f, "T", &transfer.energy.kinetic)?;
             self.line(f, "V", &transfer.energy.potential)?;
-            self.parts(f, "angle order 1", &transfer.angle)?;
-            self.parts(f, "amplitude order 2", &transfer.amplitude)?;
+            for truncated in &transfer.truncated {
+                let name = format!("{} order {}", truncated.counting.name(), truncated.order);
+                self.parts(f, &name, &truncated.parts)?;
+            }
             if let Some(form) = &transfer.quadratic_form {
                 for (name, value) in ["a_pp", "a_pq", "a_qq"].iter().zip(form) {
                     self.line(f, name, value)?;
                 }
             }
-            for truncated in &transfer.higher {
-                let name = format!("{} order {}", truncated.counting.name(), truncated.order);
-                self.parts(f, &name, &Some(truncated.parts.clone()))?;
+            if let Some(exact) = &transfer.exact {
+                self.parts(f, "exact", exact)?;
             }
-            self.parts(f, "exact", &transfer.exact)?;
-            if let Some([growth, forcing]) = transfer.split.clone() {
-                self.parts(f, "growth", &Some(growth))?;
-                self.parts(f, "forcing", &Some(forcing))?;
+            if let Some([growth, forcing]) = &transfer.split {
+                self.parts(f, "growth", growth)?;
+                self.parts(f, "forcing", forcing)?;
             }
             if !transfer.friction.is_zero() {
                 self.line(f, "power of friction", &transfer.friction)?;
@@ -286,19 +286,9 @@ impl Mechanics {
         Ok(())
     }
 
-    fn parts(
-        &self,
-        f: &mut fmt::Formatter<'_>,
-        name: &str,
-        parts: &Option<TransferParts>,
-    ) -> fmt::Result {
-        match parts {
-            Some(parts) => {
-                self.line(f, &format!("W_K, {name}"), &parts.kinetic)?;
-                self.line(f, &format!("W_P, {name}"), &parts.potential)
-            }
-            None => Ok(()),
-        }
+    fn parts(&self, f: &mut fmt::Formatter<'_>, name: &str, parts: &EnergyParts) -> fmt::Result {
+        self.line(f, &format!("W_K, {name}"), &parts.kinetic)?;
+        self.line(f, &format!("W_P, {name}"), &parts.potential)
     }
 
     /// The sectors, and their blocks of the mass matrix at the in-phase motion.

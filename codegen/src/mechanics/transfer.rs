@@ -1,20 +1,14 @@
 //! Sub-Hamiltonians of the differences and the energy transfer W into them
 //! (physics §5).
 
+use super::EnergyParts;
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
-use super::inverse_mass::{Counting, DerivedExpansion};
+use super::inverse_mass::DerivedExpansion;
+use crate::functions::Counting;
 use crate::scene::{Coordinate, CoordinateKind, LinkId, OrbitId};
-
-/// W split into what the kinetic and what the potential energy of the rest of
-/// the tree do.
-#[derive(Clone)]
-pub(super) struct DerivedParts {
-    pub(super) kinetic: Formula,
-    pub(super) potential: Formula,
-}
 
 /// A difference's energy H_d = T + V.
 pub(super) struct SubHamiltonian {
@@ -148,7 +142,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let kinetic = expansion.first_order();
         self.truncated(frame, expansion, energy, &kinetic, Counting::Angle, 1)
     }
@@ -160,7 +154,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let kinetic = expansion.second_order_in_amplitude();
         self.truncated(frame, expansion, energy, &kinetic, Counting::Amplitude, 2)
     }
@@ -173,7 +167,7 @@ impl Derivation<'_> {
         kinetic: &Formula,
         counting: Counting,
         order: u32,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let pairs = Self::difference_pairs(frame, expansion);
         let whole = &energy.kinetic + &energy.potential;
         // K − T: the leading kinetic energy of the differences is Σ T, of
@@ -187,7 +181,7 @@ impl Derivation<'_> {
             let parts = self.orders(&formula, &pairs, counting, order);
             parts.into_iter().sum::<Formula>().expand()
         };
-        DerivedParts {
+        EnergyParts {
             kinetic: cut(&from_kinetic + &from_others),
             potential: cut(from_potential),
         }
@@ -220,7 +214,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         expansion: &DerivedExpansion,
         energy: &SubHamiltonian,
-    ) -> DerivedParts {
+    ) -> EnergyParts<Formula> {
         let kinetic_gradient = frame.kinetic_gradient(self);
         let potential_gradient = frame.potential_gradient(self);
         let mut kinetic = Vec::new();
@@ -238,7 +232,7 @@ impl Derivation<'_> {
             let sum = terms.into_iter().sum::<Formula>();
             self.reduce(&sum, frame, &expansion.differences)
         };
-        DerivedParts {
+        EnergyParts {
             kinetic: short(kinetic),
             potential: short(potential),
         }

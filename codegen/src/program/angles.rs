@@ -108,7 +108,8 @@ impl Lowering<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::program::{Argument, Pass};
+    use crate::functions::Argument;
+    use crate::program::Pass;
     use crate::stages_without;
     use quote::quote;
 

@@ -3,10 +3,11 @@
 use super::rules::RULES;
 use super::rules::sharing::KnownOperations;
 use super::{
-    Argument, ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup,
-    SolveChoice, TooManyValues, ValueId,
+    ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup, SolveChoice,
+    TooManyValues, ValueId,
 };
 use crate::exact::Rational;
+use crate::functions::Argument;
 use crate::scene::Scene;
 
 /// A program in the making.
@@ -274,7 +275,11 @@ impl Builder {
 #[cfg(test)]
 impl Builder {
     /// A program with one entry point, for tests of passes.
-    pub(super) fn program(self, purpose: super::Purpose, outputs: Vec<ValueId>) -> Program {
+    pub(super) fn program(
+        self,
+        purpose: crate::functions::Purpose,
+        outputs: Vec<ValueId>,
+    ) -> Program {
         let choice = SolveChoice {
             solve: crate::scene::Solve::Factorization,
             factorization: Default::default(),
@@ -285,7 +290,7 @@ impl Builder {
             purpose,
             arguments: vec![Argument::Theta],
             outputs,
-            shape: super::ResultShape::Vector,
+            shape: crate::functions::ResultShape::Vector,
         };
         let program = self.finish(vec![entry], choice).expect("a small program");
         assert_eq!(program.verify(), Ok(()));

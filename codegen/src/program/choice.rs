@@ -4,7 +4,8 @@
 use super::count::{Operations, operations};
 use super::lower::{Environment, Lowering};
 use super::solve::Matrix;
-use super::{Argument, Pass, ValueId};
+use super::{Pass, ValueId};
+use crate::functions::Argument;
 use crate::scene::{LinkId, Scene, Solve};
 use std::collections::BTreeMap;
 

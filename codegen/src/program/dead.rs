@@ -63,8 +63,9 @@ pub(super) fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<Val
 
 #[cfg(test)]
 mod tests {
+    use crate::functions::{Argument, Purpose};
+    use crate::program::Op;
     use crate::program::builder::Builder;
-    use crate::program::{Argument, Op, Purpose};
 
     #[test]
     fn what_nothing_uses_is_left_out() {

@@ -1,8 +1,9 @@
 //! Functions of time, and the powers of what moves and brakes the tree.
 
+use super::ValueId;
 use super::entries::EntryList;
 use super::lower::{Environment, Lowering};
-use super::{Argument, Purpose, ValueId};
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{DriveTerms, Mechanics, Temporal};
 use crate::scene::Scene;

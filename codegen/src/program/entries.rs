@@ -1,7 +1,8 @@
 //! The entry points that a scene's requests lead to.
 
 use super::lower::{Environment, Lowering};
-use super::{Argument, Entry, LoopTree, Naming, Operations, Purpose, SolveChoice, ValueId};
+use super::{Entry, LoopTree, Operations, SolveChoice, ValueId};
+use crate::functions::{Argument, Naming, Purpose};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
@@ -76,7 +77,7 @@ impl<'l, 'm> EntryList<'l, 'm> {
     /// Adds the entry point for a purpose.
     pub(super) fn push(&mut self, purpose: Purpose, outputs: Vec<ValueId>) {
         let signature = self.naming.signature(purpose);
-        self.entries.push(signature.entry(purpose, outputs));
+        self.entries.push(Entry::new(signature, purpose, outputs));
     }
 
     pub(super) fn exprs(

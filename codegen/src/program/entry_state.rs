@@ -1,13 +1,14 @@
 //! States in means and differences, as entry points receive them.
 
+use super::ValueId;
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, CouplingValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic,
-    SymmetricMotion, SymmetricTree, TruncatedSeries,
+    ConstantValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic, SymmetricMotion,
+    SymmetricTree, TruncatedSeries,
 };
-use super::{Argument, EntryState, ValueId};
+use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
+use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.
@@ -50,7 +51,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
         constant(lowering, value)
     };
     let joints = &mechanics.articulation.joints;
-    let mut orbits: Vec<OrbitValues> = sectors
+    let orbits: Vec<OrbitValues> = sectors
         .orbits
         .iter()
         .zip(joints)
@@ -62,27 +63,20 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             moment: series(&joint.inertia),
             gravity: series(&orbit.gravity),
             lateral_gravity: series(&orbit.lateral_gravity),
-            spring: series(&joint.spring),
-            rest: series(&joint.rest),
-            friction: series(&joint.friction),
-            drag: series(&joint.drag),
             drive: orbit.drive.each_ref().map(&mut series),
-            laws: [LawValues::default(), LawValues::default()],
+            passive: joint.passive.map(&mut series),
         })
         .collect();
     let couplings = sectors
         .couplings
         .iter()
-        .map(|coupling| CouplingValues {
+        .map(|coupling| OrbitCoupling {
             row: coupling.row,
             column: coupling.column,
             cosine: series(&coupling.cosine),
             sine: series(&coupling.sine),
         })
         .collect();
-    for (values, joint) in orbits.iter_mut().zip(joints) {
-        values.laws = joint.laws.each_ref().map(|law| law_values(lowering, law));
-    }
     ConstantValues { orbits, couplings }
 }
 

@@ -9,8 +9,8 @@ use super::entry_state::{law_values, symmetric_tree};
 use super::lower::{Environment, Lowering};
 use super::symmetric::Fields;
 use crate::mechanics::expression::{Expr, SymbolId};
-use crate::mechanics::{BrakingTorque, FrictionPlace, TorqueSource};
-use crate::scene::FrictionLaw;
+use crate::mechanics::{BrakingTorque, TorqueSource};
+use crate::scene::{FrictionLaw, FrictionPlace};
 
 /// A law with values as its constants.
 pub(super) type Law = FrictionLaw<ValueId>;
@@ -131,7 +131,7 @@ impl Lowering<'_> {
             .collect();
         let laws = mechanics.articulation.joints.iter();
         let laws: Vec<_> = laws
-            .map(|joint| law_values(self, &joint.laws[place as usize]))
+            .map(|joint| law_values(self, joint.passive.law(place)))
             .collect();
         let mut tree = symmetric_tree(self, None);
         let mut rates: Fields = tree.zeros();

@@ -10,7 +10,9 @@
 //! are equal: that sin θ_i cos θ_j − cos θ_i sin θ_j vanishes for equal angles
 //! keeps motions in phase for ever.
 
-use super::{Entry, Op, Pass, Program, Purpose, ValueId};
+use crate::functions::Purpose;
+
+use super::{Entry, Op, Pass, Program, ValueId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A sum with a product in it.
@@ -104,8 +106,9 @@ impl Program {
 
 #[cfg(test)]
 mod tests {
+    use crate::functions::{Argument, Purpose};
+    use crate::program::ValueId;
     use crate::program::builder::Builder;
-    use crate::program::{Argument, Purpose, ValueId};
 
     fn inputs(builder: &mut Builder) -> [ValueId; 4] {
         std::array::from_fn(|index| builder.input(Argument::Theta, index))

@@ -2,8 +2,9 @@
 //! emitted code does: the two agree bit for bit.
 
 use super::constants::{ConstantId, ConstantOp, Setup};
-use super::{Argument, FusedSum, Op, Program, ValueId};
+use super::{FusedSum, Op, Program, ValueId};
 use crate::exact::Rational;
+use crate::functions::Argument;
 
 impl Setup {
     /// Values of all constants for given values of the scene's parameters.

@@ -53,8 +53,8 @@ fn live(definitions: &[Definition], order: &[ValueId], outputs: &[ValueId]) -> u
 
 #[cfg(test)]
 mod tests {
+    use crate::functions::{Argument, Purpose};
     use crate::program::builder::Builder;
-    use crate::program::{Argument, Purpose};
 
     /// Four products before three sums wait together; each sum at once lets two wait.
     #[test]

@@ -4,11 +4,12 @@
 //! coordinates and momenta); a symbol that is not handed over is formed from
 //! what is, when it is first needed.
 
+use super::ValueId;
 use super::builder::Builder;
 use super::constants::ConstantId;
 use super::solve::Matrix;
 use super::symmetric::OrbitLinks;
-use super::{Argument, ValueId};
+use crate::functions::Argument;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
     Frame, LinearSystem, MassExpansion, MatrixEntry, MeanTree, Mechanics, ObservableFrame,

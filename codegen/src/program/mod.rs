@@ -35,7 +35,6 @@ mod rotations;
 mod rules;
 mod scale;
 mod sectors;
-mod signature;
 mod small;
 mod solve;
 mod symmetric;
@@ -49,18 +48,14 @@ mod verify;
 pub use choice::{SolveChoice, cost};
 pub use constants::{ConstantId, ConstantOp, Setup};
 pub use count::Operations;
-pub use entry::{
-    Argument, Cause, EnergyDefinition, Entry, EntryState, LinkFunction, PointKind, Purpose,
-    ResultShape,
-};
+pub use entry::Entry;
 pub use fuse::FusedSum;
 pub use interpret::Interpreter;
-pub use link::{Column, LINK_MOTION, LoopTree, ScaleFunction, StripConstants};
+pub use link::{Column, LINK_MOTION, LoopTree, StripConstants};
 pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
-pub use signature::{Naming, Signature};
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 

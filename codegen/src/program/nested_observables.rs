@@ -2,11 +2,12 @@
 //! differences: momenta, forces, energies, and the solves with the mass matrix.
 //! Components that the symmetry makes zero are exactly zero here too.
 
+use super::ValueId;
 use super::entry_state::{motion, symmetric_tree, values};
 use super::lower::{Environment, Lowering};
 use super::sectors::by_coordinate;
 use super::symmetric::{ConstantValues, Fields, MassFactors, SymmetricTree};
-use super::{EntryState, ValueId};
+use crate::functions::EntryState;
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{LinearSystem, ObservableFrame, OrbitMechanics};
 use crate::scene::Scene;

@@ -1,10 +1,10 @@
 //! Entry points of observables: values and rates.
 
+use super::ValueId;
 use super::entries::EntryList;
-use super::entry::CANONICAL;
 use super::lower::{Environment, Lowering};
 use super::nested_observables::NestedObservables;
-use super::{Argument, EntryState, Purpose, ValueId};
+use crate::functions::{Argument, CANONICAL, EntryState, Purpose};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Frame, LinearSystem, Mechanics, ObservableFrame};
 use crate::scene::{Function, ObservableForm, Scene};

@@ -1,6 +1,8 @@
 //! Values of a program: one operation each, on earlier ones.
 
-use super::{Argument, ConstantId};
+use crate::functions::Argument;
+
+use super::ConstantId;
 use crate::exact::Rational;
 
 /// Index of a value in [`Program::definitions`](super::Program::definitions).

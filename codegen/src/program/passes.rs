@@ -15,7 +15,8 @@
 //! the roundings that its file states.
 
 use super::count::{Operations, operations};
-use super::{Entry, LinkFunction, Program, ValueId, factors, lower};
+use super::{Entry, Program, ValueId, factors, lower};
+use crate::functions::LinkFunction;
 use crate::mechanics::Mechanics;
 use crate::named_members::named_members;
 use crate::scene::Scene;

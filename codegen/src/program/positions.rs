@@ -1,10 +1,11 @@
 //! Entry points of where links are: positions and velocities of their points, and the
 //! torques of forces there.
 
+use super::ValueId;
 use super::entries::EntryList;
 use super::lower::Environment;
 use super::pair::Pair;
-use super::{Argument, PointKind, Purpose, ValueId};
+use crate::functions::{Argument, PointKind, Purpose};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
 use crate::scene::{LinkId, Scene};

@@ -1,7 +1,9 @@
 //! Rebuilds expressions from a program, so that tests can compare what is
 //! emitted with what was derived, symbol by symbol.
 
-use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
+use crate::functions::Argument;
+
+use super::{ConstantId, ConstantOp, Op, Program, ValueId};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Mechanics, Temporal, Trigonometric};
 use std::collections::BTreeMap;

@@ -1,15 +1,15 @@
 //! Entry points that work on means and differences: the motion of nested trees
 //! in symmetric coordinates, and the budgets of sectors.
 
+use super::ValueId;
 use super::entries::EntryList;
-use super::entry::CANONICAL;
 use super::entry_state::{self, motion, symmetric_tree, values};
 use super::symmetric::{
     ConstantValues, Fields, SectorId, Share, SymmetricField, SymmetricMotion, SymmetricTree,
     TruncatedSeries,
 };
-use super::{EnergyDefinition, EntryState, Purpose, ValueId};
-use crate::mechanics::{Counting, Mechanics, OrbitMechanics};
+use crate::functions::{CANONICAL, Counting, EnergyDefinition, EntryState, Purpose};
+use crate::mechanics::{Mechanics, OrbitMechanics};
 use crate::scene::{BudgetRequest, Scene};
 
 impl EntryList<'_, '_> {

@@ -2,7 +2,7 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose};
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Mechanics, SmallMechanics, TransverseMechanics};
 
 impl EntryList<'_, '_> {

@@ -7,8 +7,9 @@
 
 use super::entries::EntryList;
 use super::lower::Environment;
-use super::{Argument, Purpose, ValueId, scale};
+use super::{ValueId, scale};
 use crate::exact::Rational;
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{Frame, Mechanics, Trigonometric};
 use crate::scene::{LinkId, Scene};

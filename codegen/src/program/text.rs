@@ -1,49 +1,9 @@
 //! A program as text, for `branched-pendulum --stage program` and for snapshots.
 
-use super::{Argument, ConstantId, ConstantOp, Op, Program, ValueId};
+use crate::functions::Argument;
+
+use super::{ConstantId, ConstantOp, Op, Program, ValueId};
 use std::fmt::{self, Write};
-
-impl Argument {
-    /// Name of the argument in emitted code.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Time => "time",
-            Self::Theta => "theta",
-            Self::Omega => "omega",
-            Self::AbsoluteMomenta | Self::Momenta => "momenta",
-            Self::Coordinates => "coordinates",
-            Self::Rates => "rates",
-            Self::Forces => "forces",
-            Self::Alpha => "alpha",
-            Self::Difference(_) | Self::SmallDifferences => "difference",
-            Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
-            Self::Torques => "torques",
-            Self::Prescribed(_) => "prescribed",
-            Self::Absolute => "absolute",
-            Self::Symmetric => "symmetric",
-            Self::Constants => "constants",
-            Self::Motion => "link",
-            Self::Response => "response",
-            Self::Sums => "below",
-            Self::Elimination => "elimination",
-            Self::Carried => "carried",
-            Self::Pivot => "pivot",
-            Self::Given(_) => "given",
-        }
-    }
-}
-
-impl Argument {
-    /// Letter before a coordinate's name for an element of the argument.
-    pub(super) fn letter(self) -> &'static str {
-        match self {
-            Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",
-            Self::Omega | Self::Rates => "omega",
-            Self::AbsoluteMomenta | Self::Momenta => "p",
-            other => other.name(),
-        }
-    }
-}
 
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

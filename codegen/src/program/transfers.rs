@@ -1,10 +1,10 @@
 //! The entry points of the energy transfer into one difference.
 
+use super::ValueId;
 use super::entries::EntryList;
-use super::entry::CANONICAL;
 use super::lower::Environment;
-use super::{Argument, Cause, EntryState, Purpose, ValueId};
-use crate::mechanics::{Frame, MeanTree, TransferFormulas, TransferParts};
+use crate::functions::{Argument, CANONICAL, Cause, EntryState, Purpose};
+use crate::mechanics::{EnergyParts, Frame, MeanTree, TransferFormulas, Truncated};
 use crate::scene::{LinkId, Scene};
 
 impl EntryList<'_, '_> {
@@ -22,20 +22,15 @@ impl EntryList<'_, '_> {
         let energy = self.parts(&mut phase, &transfer.energy);
         let total = self.lowering.builder.add(energy[0], energy[1]);
         self.push(Purpose::SubHamiltonian(number), vec![total]);
-        if let Some(parts) = &transfer.angle {
+        for Truncated {
+            counting,
+            order,
+            parts,
+        } in &transfer.truncated
+        {
             let outputs = self.parts(&mut phase, parts);
-            self.push(Purpose::AngleTransfer(number), outputs);
-        }
-        if let Some(parts) = &transfer.amplitude {
-            let outputs = self.parts(&mut phase, parts);
-            self.push(Purpose::AmplitudeTransfer(number), outputs);
-        }
-        for truncated in &transfer.higher {
-            let outputs = self.parts(&mut phase, &truncated.parts);
-            self.push(
-                Purpose::HigherTransfer(number, truncated.counting, truncated.order),
-                outputs,
-            );
+            let purpose = Purpose::TruncatedTransfer(number, *counting, *order);
+            self.push(purpose, outputs);
         }
         if let Some(form) = &transfer.quadratic_form {
             let outputs = self.exprs(&mut phase, form);
@@ -82,7 +77,7 @@ impl EntryList<'_, '_> {
         &mut self,
         number: usize,
         state: EntryState,
-        ([growth, forcing], mean_tree): (&[TransferParts; 2], &MeanTree),
+        ([growth, forcing], mean_tree): (&[EnergyParts; 2], &MeanTree),
         environment: &mut Environment<'_>,
     ) {
         let forcing = self.parts(environment, forcing);
@@ -103,7 +98,7 @@ impl EntryList<'_, '_> {
         }
     }
 
-    fn parts(&mut self, environment: &mut Environment<'_>, parts: &TransferParts) -> Vec<ValueId> {
+    fn parts(&mut self, environment: &mut Environment<'_>, parts: &EnergyParts) -> Vec<ValueId> {
         let kinetic = self.lowering.expr(environment, &parts.kinetic);
         let potential = self.lowering.expr(environment, &parts.potential);
         vec![kinetic, potential]

@@ -1,6 +1,8 @@
 //! Checks the shape of a program. Later stages rely on it; a fault is a bug.
 
-use super::{ConstantOp, Program, ResultShape};
+use crate::functions::ResultShape;
+
+use super::{ConstantOp, Program};
 use crate::exact::Rational;
 use std::fmt;
 

@@ -187,7 +187,7 @@ impl GivenProperties {
     }
 
     /// A dimension of a shape; an optional one that is not given is zero.
-    fn get(&self, name: &str) -> Quantity {
+    pub(super) fn get(&self, name: &str) -> Quantity {
         self.value(name).cloned().unwrap_or_else(Quantity::zero)
     }
 }

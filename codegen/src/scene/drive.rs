@@ -1,56 +1,54 @@
 //! The drive: torque and motion from outside, as functions of time.
 
-use std::fmt::{self, Display, Formatter};
-
 use super::values::{Usage, Values};
-use super::{Parameter, Quantity, Sign};
+use super::{Quantity, Sign};
 use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
+use crate::named_members::named_members;
 use crate::report::{Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torque on the root and a motion of its pivot; at least one of them.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Drive {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Drive<V = Quantity> {
     /// Torque on the root, against the ground, N m.
-    pub torque: Option<Signal>,
+    pub torque: Option<Signal<V>>,
     /// Position of the root's pivot in the direction in which positive angles
     /// move a link's end, m.
-    pub x: Option<Signal>,
+    pub x: Option<Signal<V>>,
     /// Position of the root's pivot upwards, m.
-    pub y: Option<Signal>,
+    pub y: Option<Signal<V>>,
 }
 
 /// A function of time that is smooth at every time: nothing that depends on
 /// time is divided by.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Signal {
+pub enum Signal<V = Quantity> {
     /// A value that does not change.
-    Constant(Quantity),
+    Constant(V),
     /// Time, s.
     Time,
     /// A sum of two or more members.
-    Sum(Vec<Signal>),
+    Sum(Vec<Signal<V>>),
     /// A product of two or more factors.
-    Product(Vec<Signal>),
+    Product(Vec<Signal<V>>),
     /// A power, not negative.
-    Power(Box<Signal>, u32),
+    Power(Box<Signal<V>>, u32),
     /// A function of an angle in rad.
-    Function(TimeFunction, Box<Signal>),
+    Function(TimeFunction, Box<Signal<V>>),
 }
 
-/// The functions that a drive may use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TimeFunction {
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
+named_members! {
+    /// The functions that a drive may use.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum TimeFunction {
+        /// Sine.
+        Sin = "sin",
+        /// Cosine.
+        Cos = "cos",
+    }
 }
 
 /// The parts of a drive.
 const PARTS: &[&str] = &["torque", "x", "y"];
-
-/// The functions by name.
-const FUNCTIONS: &[&str] = &["sin", "cos"];
 
 /// Reads the drive; what is wrong goes to `report`.
 pub(super) fn resolve_drive(
@@ -66,7 +64,11 @@ pub(super) fn resolve_drive(
     if parts.is_empty() && !damaged {
         report.error(name.span(), ValueMessage::EmptyDrive);
     }
-    let mut resolved = Drive::default();
+    let mut resolved = Drive {
+        torque: None,
+        x: None,
+        y: None,
+    };
     let mut seen: Vec<String> = Vec::new();
     for Property { name, value, .. } in parts {
         let (text, span) = (name.to_string(), name.span());
@@ -179,17 +181,14 @@ fn part(
         ExpressionKind::Call { function, argument } => {
             let argument = inner(argument);
             let name = function.to_string();
-            let function = match name.as_str() {
-                "sin" => TimeFunction::Sin,
-                "cos" => TimeFunction::Cos,
-                _ => {
-                    let nearest = nearest(&name, FUNCTIONS);
-                    let span = function.span();
-                    report.error(span, ValueMessage::DriveFunction { name, nearest });
-                    return None;
-                }
+            let mut functions = TimeFunction::ALL.into_iter();
+            let Some(known) = functions.find(|known| known.name() == name) else {
+                let nearest = nearest(&name, &TimeFunction::ALL.map(TimeFunction::name));
+                let span = function.span();
+                report.error(span, ValueMessage::DriveFunction { name, nearest });
+                return None;
             };
-            Signal::Function(function, Box::new(argument?))
+            Signal::Function(known, Box::new(argument?))
         }
     })
 }
@@ -219,6 +218,34 @@ fn divisor(
     Some((!divisors.is_empty()).then_some(Signal::Constant(product)))
 }
 
+impl<V> Drive<V> {
+    /// The drive with constants that are formed of its own.
+    pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Drive<W> {
+        let map = |part: &Option<Signal<V>>| part.as_ref().map(|signal| signal.map(formed));
+        Drive {
+            torque: map(&self.torque),
+            x: map(&self.x),
+            y: map(&self.y),
+        }
+    }
+}
+
+impl<V> Signal<V> {
+    /// The function with constants that are formed of its own.
+    pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Signal<W> {
+        let all = |parts: &[Self]| parts.iter().map(|part| part.map(formed)).collect();
+        let one = |part: &Self| Box::new(part.map(formed));
+        match self {
+            Self::Constant(value) => Signal::Constant(formed(value)),
+            Self::Time => Signal::Time,
+            Self::Sum(members) => Signal::Sum(all(members)),
+            Self::Product(factors) => Signal::Product(all(factors)),
+            Self::Power(base, exponent) => Signal::Power(one(base), *exponent),
+            Self::Function(function, angle) => Signal::Function(*function, one(angle)),
+        }
+    }
+}
+
 impl Drive {
     /// Its parts by name, with their units.
     pub fn parts(&self) -> impl Iterator<Item = (&'static str, &Signal, &'static str)> {
@@ -230,67 +257,5 @@ impl Drive {
         parts
             .into_iter()
             .filter_map(|(name, signal, unit)| Some((name, signal.as_ref()?, unit)))
-    }
-}
-
-impl Signal {
-    /// The function as text in the attribute's own notation, every operand in
-    /// parentheses that is no name, number or function. `parameters` are those
-    /// of the scene.
-    pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl Display + 'a {
-        ShownSignal {
-            signal: self,
-            parameters,
-        }
-    }
-}
-
-/// A signal on its way to text.
-struct ShownSignal<'a> {
-    signal: &'a Signal,
-    parameters: &'a [Parameter],
-}
-
-impl ShownSignal<'_> {
-    fn operand(&self, signal: &Signal, f: &mut Formatter<'_>) -> fmt::Result {
-        let shown = signal.display(self.parameters);
-        match signal {
-            Signal::Constant(Quantity::Exact(_) | Quantity::Parameter(_))
-            | Signal::Time
-            | Signal::Function(..) => write!(f, "{shown}"),
-            _ => write!(f, "({shown})"),
-        }
-    }
-
-    fn joined(&self, operands: &[Signal], operator: &str, f: &mut Formatter<'_>) -> fmt::Result {
-        for (index, operand) in operands.iter().enumerate() {
-            if index > 0 {
-                f.write_str(operator)?;
-            }
-            self.operand(operand, f)?;
-        }
-        Ok(())
-    }
-}
-
-impl Display for ShownSignal<'_> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self.signal {
-            Signal::Constant(value) => write!(f, "{}", value.display(self.parameters)),
-            Signal::Time => f.write_str(TIME),
-            Signal::Sum(members) => self.joined(members, " + ", f),
-            Signal::Product(factors) => self.joined(factors, " * ", f),
-            Signal::Power(base, exponent) => {
-                self.operand(base, f)?;
-                write!(f, "^{exponent}")
-            }
-            Signal::Function(function, argument) => {
-                let name = match function {
-                    TimeFunction::Sin => "sin",
-                    TimeFunction::Cos => "cos",
-                };
-                write!(f, "{name}({})", argument.display(self.parameters))
-            }
-        }
     }
 }

@@ -109,11 +109,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         name,
         body,
         pivot,
-        friction,
-        drag,
-        spring,
-        rest,
-        nonlinear,
+        passive,
         ..
     } = template;
     Link {
@@ -125,11 +121,7 @@ fn link(template: &Template, pending: &Pending) -> Link {
         com: body.com.clone(),
         pivot: pivot.clone(),
         end: body.joint.as_ref().unwrap_or(&body.com).clone(),
-        friction: friction.clone(),
-        drag: drag.clone(),
-        spring: spring.clone(),
-        rest: rest.clone(),
-        nonlinear: nonlinear.clone(),
+        passive: passive.clone(),
     }
 }
 

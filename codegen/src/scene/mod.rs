@@ -16,14 +16,13 @@ mod bodies;
 pub mod coordinates;
 mod drive;
 mod expand;
-mod friction;
 mod layout;
 mod link_properties;
-mod methods;
 mod names;
-mod observable_text;
+mod notation;
 mod observables;
 mod outputs;
+mod passive;
 mod prescribed;
 mod probe;
 mod properties;
@@ -46,15 +45,14 @@ mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, TimeFunction};
-pub use friction::{FrictionLaw, NonlinearFriction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
-pub use methods::is_method;
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,
 };
 pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
+pub use passive::{FrictionLaw, FrictionPlace, PassiveTorques};
 pub use quantity::Quantity;
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
@@ -172,19 +170,8 @@ pub struct Link {
     /// where, or where they would; the centre of mass of a link that has no such
     /// place.
     pub end: Offset,
-    /// Viscous friction in the link's pivot, N m s, on the angular velocity
-    /// relative to the parent (to the ground for the root); `None` without.
-    pub friction: Option<Quantity>,
-    /// Viscous drag against the ground, N m s, on the link's own angular
-    /// velocity; `None` without.
-    pub drag: Option<Quantity>,
-    /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
-    /// relative to the parent (to the vertical for the root); `None` without.
-    pub spring: Option<Quantity>,
-    /// Relative angle at which the spring is at rest, rad; `None` for zero.
-    pub rest: Option<Quantity>,
-    /// Friction and drag that are not viscous.
-    pub nonlinear: NonlinearFriction,
+    /// Friction and spring in its pivot, and drag against the ground.
+    pub passive: PassiveTorques,
 }
 
 /// A point of a link, from the link's pivot, m.

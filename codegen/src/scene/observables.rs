@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
-use super::methods::is_method;
 use super::names::{check_observable, irrational};
 use super::symbols::{Meaning, ObservableSymbols};
 use super::values::{message_for, unrepresentable};
 use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
+use crate::functions::is_method;
 use crate::named_members::named_members;
 use crate::report::{Message, OutputMessage, Report, TreeMessage, ValueMessage, nearest};
 

@@ -1,8 +1,6 @@
 //! Values of a scene: exact numbers, parameters, and what is formed of them.
 
-use std::fmt;
-
-use super::{Parameter, ParameterId};
+use super::ParameterId;
 use crate::exact::{ExactError, Rational};
 
 /// A value in SI units, known exactly or in terms of parameters.
@@ -203,110 +201,5 @@ impl Quantity {
                 .is_none_or(|number| number.to_f64().is_finite());
         });
         finite
-    }
-
-    /// The value as text in the attribute's own notation, so that it could be
-    /// written there again. `parameters` are those of the scene.
-    pub fn display<'a>(&'a self, parameters: &'a [Parameter]) -> impl fmt::Display + 'a {
-        ShownQuantity {
-            value: self,
-            parameters,
-            place: Position::Sum,
-        }
-    }
-}
-
-/// Surroundings of a value in the text, from loosest to tightest.
-#[derive(Clone, Copy, PartialEq, PartialOrd)]
-enum Position {
-    Sum,
-    Term,
-    Factor,
-    Base,
-}
-
-/// A value on its way to text.
-struct ShownQuantity<'a> {
-    value: &'a Quantity,
-    parameters: &'a [Parameter],
-    place: Position,
-}
-
-impl ShownQuantity<'_> {
-    fn part<'a>(&'a self, value: &'a Quantity, place: Position) -> ShownQuantity<'a> {
-        ShownQuantity {
-            value,
-            parameters: self.parameters,
-            place,
-        }
-    }
-
-    fn bare(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.value {
-            Quantity::Exact(value) => write!(f, "{value}"),
-            Quantity::Parameter(ParameterId(index)) => match self.parameters.get(*index) {
-                Some(parameter) => f.write_str(&parameter.name),
-                None => write!(f, "parameter_{index}"),
-            },
-            Quantity::Sum(members) => {
-                for (i, member) in members.iter().enumerate() {
-                    match member {
-                        Quantity::Negative(opposite) if i > 0 => {
-                            write!(f, " - {}", self.part(opposite, Position::Term))?;
-                        }
-                        _ if i > 0 => write!(f, " + {}", self.part(member, Position::Term))?,
-                        _ => write!(f, "{}", self.part(member, Position::Term))?,
-                    }
-                }
-                Ok(())
-            }
-            Quantity::Product(factors) => {
-                for (i, factor) in factors.iter().enumerate() {
-                    if i > 0 {
-                        write!(f, " * ")?;
-                    }
-                    write!(f, "{}", self.part(factor, Position::Factor))?;
-                }
-                Ok(())
-            }
-            Quantity::Quotient(dividend, divisor) => write!(
-                f,
-                "{} / {}",
-                self.part(dividend, Position::Factor),
-                self.part(divisor, Position::Factor)
-            ),
-            Quantity::Power(base, exponent) => {
-                write!(f, "{}^{exponent}", self.part(base, Position::Base))
-            }
-            Quantity::Negative(value) => write!(f, "-{}", self.part(value, Position::Factor)),
-        }
-    }
-
-    /// Returns true if the value needs parentheses where it stands.
-    fn is_loose(&self) -> bool {
-        match self.value {
-            Quantity::Exact(value) => {
-                self.place >= Position::Factor
-                    && (value.is_negative() || value.to_string().contains('/'))
-            }
-            Quantity::Parameter(_) => false,
-            Quantity::Sum(_) => self.place > Position::Sum,
-            Quantity::Product(_) | Quantity::Quotient(..) | Quantity::Negative(_) => {
-                self.place > Position::Term
-            }
-            Quantity::Power(..) => self.place > Position::Factor,
-        }
-    }
-}
-
-impl fmt::Display for ShownQuantity<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.is_loose() {
-            write!(f, "(")?;
-            self.bare(f)?;
-            write!(f, ")")
-        } else {
-            self.bare(f)
-        }
     }
 }

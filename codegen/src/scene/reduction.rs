@@ -10,6 +10,7 @@ use proc_macro2::Ident;
 
 use super::expand::running_totals;
 use super::layout::{self, Asked, Layout};
+use super::passive::PassiveTorques;
 use super::reduced_body::{turned, weld};
 use super::template::{Template, TreeBuilder};
 use super::values::{Usage, Values};
@@ -96,8 +97,8 @@ fn locks(
             continue;
         }
         let idle = [
-            ("friction", template.has_friction()),
-            ("spring", template.spring.is_some()),
+            ("friction", template.passive.has_friction()),
+            ("spring", !template.passive.spring.is_zero()),
         ];
         for (property, _) in idle.into_iter().filter(|(_, given)| *given) {
             let message = TreeMessage::IdleJoint {
@@ -285,11 +286,10 @@ fn lock(
             child.parent = link.parent;
             child.pivot = turned(&child.pivot, angle, &link.pivot);
             child.copies = child.copies.saturating_mul(link.copies);
-            if child.spring.is_some() {
+            let PassiveTorques { spring, rest, .. } = &mut child.passive;
+            if !spring.is_zero() {
                 // The spring's angle counts from the link that is now a part of another.
-                let rest = child.rest.take().unwrap_or_else(Quantity::zero);
-                let rest = Quantity::sum([rest, Quantity::Exact(angle.clone())]);
-                child.rest = Some(rest).filter(|rest| !rest.is_zero());
+                *rest = Quantity::sum([rest.clone(), Quantity::Exact(angle.clone())]);
             }
         }
         match weld(&parent.body, link, angle) {
@@ -299,15 +299,7 @@ fn lock(
                 return None;
             }
         }
-        if let Some(drag) = link.drag.take() {
-            let copies = times(link.copies, &drag);
-            let sum = Quantity::sum(parent.drag.take().into_iter().chain([copies]));
-            parent.drag = Some(sum);
-        }
-        if !parent
-            .nonlinear
-            .take_ground(&mut link.nonlinear, link.copies)
-        {
+        if !parent.passive.take_drag(&link.passive, link.copies) {
             let name = link.name.clone();
             report.error(link.span, TreeMessage::LockedWidth { link: name });
             return None;
@@ -341,19 +333,9 @@ fn merge(templates: &mut [Template], alike: &[bool]) {
             template.copies = 1;
         }
         weights.push(weight);
-        let Template {
-            body,
-            friction,
-            drag,
-            spring,
-            nonlinear,
-            ..
-        } = template;
-        nonlinear.times(weight);
+        let Template { body, passive, .. } = template;
+        passive.times(weight);
         for value in [&mut body.mass, &mut body.inertia] {
-            *value = times(weight, value);
-        }
-        for value in [friction, drag, spring].into_iter().flatten() {
             *value = times(weight, value);
         }
     }

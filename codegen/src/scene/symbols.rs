@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
-use super::{FrictionLaw, Link, LinkId, ParameterId, Quantity, Scene};
+use super::{LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
 /// The meaning of a name.
 pub(super) enum Meaning {
@@ -159,33 +159,23 @@ fn add_constants<'a>(
     for word in ["inertia", "gravity", "lateral_gravity"] {
         names.push(format!("{word}_{own}"));
     }
-    type Force = fn(&Link) -> &Option<Quantity>;
-    let forces: [(&str, Force); 4] = [
-        ("friction", |link| &link.friction),
-        ("drag", |link| &link.drag),
-        ("spring", |link| &link.spring),
-        ("rest", |link| &link.rest),
-    ];
-    for (word, force) in forces {
-        if links
-            .iter()
-            .any(|link| force(&scene.links[link.0]).is_some())
-        {
-            names.push(format!("{word}_{own}"));
-        }
-    }
-    type Law = fn(&Link) -> &Option<FrictionLaw>;
-    let laws: [(&[&str], Law); 2] = [
+    type Present = fn(&PassiveTorques) -> bool;
+    let torques: [(&[&str], Present); 6] = [
+        (&["friction"], |own| !own.friction.is_zero()),
+        (&["drag"], |own| !own.drag.is_zero()),
+        (&["spring"], |own| !own.spring.is_zero()),
+        (&["rest"], |own| !own.rest.is_zero()),
         (
             &["coulomb", "quadratic_friction", "friction_width"],
-            |link| &link.nonlinear.joint,
+            |own| !own.laws[0].is_none(),
         ),
-        (&["quadratic_drag", "drag_width"], |link| {
-            &link.nonlinear.ground
+        (&["quadratic_drag", "drag_width"], |own| {
+            !own.laws[1].is_none()
         }),
     ];
-    for (words, law) in laws {
-        if links.iter().any(|link| law(&scene.links[link.0]).is_some()) {
+    for (words, is_present) in torques {
+        let mut passive = links.iter().map(|link| &scene.links[link.0].passive);
+        if passive.any(is_present) {
             names.extend(words.iter().map(|word| format!("{word}_{own}")));
         }
     }

@@ -3,8 +3,8 @@
 use proc_macro2::Span;
 
 use super::bodies::{Body, GivenProperties};
-use super::friction::{NonlinearFriction, check_width};
 use super::names::check_link;
+use super::passive::{PassiveTorques, check_idle};
 use super::properties::Properties;
 use super::rule::{Code, GenerationRule};
 use super::unequal::unequal_copies;
@@ -35,11 +35,7 @@ pub(super) struct Template {
     pub(super) body: Body,
     /// The pivot on the parent; zero for the root.
     pub(super) pivot: Offset,
-    pub(super) friction: Option<Quantity>,
-    pub(super) drag: Option<Quantity>,
-    pub(super) spring: Option<Quantity>,
-    pub(super) rest: Option<Quantity>,
-    pub(super) nonlinear: NonlinearFriction,
+    pub(super) passive: PassiveTorques,
 }
 
 /// The templates and values that are built up on the way through the
@@ -89,8 +85,7 @@ impl TreeBuilder {
         if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
             report.error(copies.span, TreeMessage::ZeroCopies);
         }
-        check_rest(node, report);
-        check_width(node, report);
+        check_idle(node, report);
         let shape = node.shape.as_ref();
         let is_rule = shape.is_some_and(|shape| shape == "generations");
         let right = |report: &Report| report.diagnostics().len() == before;
@@ -142,7 +137,6 @@ impl TreeBuilder {
         report: &mut Report,
     ) -> (Template, Properties) {
         let properties = Properties::read(node, is_rule, &mut self.values, report);
-        let [friction, drag, spring, rest] = forces(&properties.given);
         let template = Template {
             name: node.name.to_string(),
             node: node.name.to_string(),
@@ -153,11 +147,7 @@ impl TreeBuilder {
             origin: self.templates.len(),
             body: properties.body.clone(),
             pivot: self.pivot(node, parent, &properties.given, report),
-            friction,
-            drag,
-            spring,
-            rest,
-            nonlinear: NonlinearFriction::of(&properties.given),
+            passive: PassiveTorques::of(&properties.given),
         };
         (template, properties)
     }
@@ -252,7 +242,6 @@ impl TreeBuilder {
             let Some((body, given)) = found else {
                 return;
             };
-            let [friction, drag, spring, rest] = forces(&given);
             let above = generation.checked_sub(1).map(|_| self.templates.len() - 1);
             let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
             self.templates.push(Template {
@@ -269,11 +258,7 @@ impl TreeBuilder {
                 origin: self.templates.len(),
                 body,
                 pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
-                friction,
-                drag,
-                spring,
-                rest,
-                nonlinear: NonlinearFriction::of(&given),
+                passive: PassiveTorques::of(&given),
             });
         }
     }
@@ -304,23 +289,6 @@ pub(super) fn accept_body(
         let span = node.name.span();
         values.accept(part.clone(), &usage, span, report).is_some()
     })
-}
-
-/// Friction, drag, stiffness of the spring and its rest angle, where they are.
-fn forces(given: &GivenProperties) -> [Option<Quantity>; 4] {
-    let force = |name: &str| given.value(name).filter(|value| !value.is_zero()).cloned();
-    let spring = force("spring");
-    let rest = spring.as_ref().and_then(|_| force("rest"));
-    [force("friction"), force("drag"), spring, rest]
-}
-
-/// Checks that a rest angle is that of a spring.
-fn check_rest(node: &Node, report: &mut Report) {
-    let find = |name: &str| node.properties.iter().find(|p| p.name == name);
-    if let (Some(rest), None, false) = (find("rest"), find("spring"), node.damaged) {
-        let link = node.name.to_string();
-        report.error(rest.name.span(), TreeMessage::RestWithoutSpring { link });
-    }
 }
 
 fn missing_joint(node: &Node, report: &mut Report) {

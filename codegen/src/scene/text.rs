@@ -129,11 +129,7 @@ impl Scene {
             com,
             pivot,
             end,
-            friction,
-            drag,
-            spring,
-            rest,
-            nonlinear,
+            passive,
         } = link;
         let show = |Offset { along, lateral }: &Offset| {
             let along = along.display(&self.parameters);
@@ -157,17 +153,16 @@ impl Scene {
             writeln!(f, "    end {} m", show(end))?;
         }
         let forces = [
-            ("friction", friction, "N m s"),
-            ("drag", drag, "N m s"),
-            ("spring", spring, "N m"),
-            ("rest", rest, "rad"),
+            ("friction", &passive.friction, "N m s"),
+            ("drag", &passive.drag, "N m s"),
+            ("spring", &passive.spring, "N m"),
+            ("rest", &passive.rest, "rad"),
         ];
-        for (name, force, unit) in forces {
-            if let Some(force) = force {
-                writeln!(f, "    {name} {} {unit}", force.display(&self.parameters))?;
-            }
+        for (name, force, unit) in forces.into_iter().filter(|(_, force, _)| !force.is_zero()) {
+            writeln!(f, "    {name} {} {unit}", force.display(&self.parameters))?;
         }
-        for (name, law) in nonlinear.laws() {
+        let laws = ["friction", "drag"].into_iter().zip(&passive.laws);
+        for (name, law) in laws.filter(|(_, law)| !law.is_none()) {
             let [coulomb, quadratic, width] = [&law.coulomb, &law.quadratic, &law.width]
                 .map(|value| value.display(&self.parameters));
             writeln!(

@@ -61,21 +61,8 @@ fn single(node: &Node, copy: usize) -> Node {
 impl Template {
     /// Returns true if two copies of one node do not differ.
     pub(super) fn is_like(&self, other: &Self) -> bool {
-        let values = |template: &Self| {
-            let Self {
-                body,
-                pivot,
-                friction,
-                drag,
-                spring,
-                rest,
-                nonlinear,
-                ..
-            } = template;
-            let forces = [friction, drag, spring, rest].map(Clone::clone);
-            (body.clone(), pivot.clone(), forces, nonlinear.clone())
-        };
-        values(self) == values(other)
+        let same_body = self.body == other.body && self.pivot == other.pivot;
+        same_body && self.passive == other.passive
     }
 }
 

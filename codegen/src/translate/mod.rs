@@ -8,9 +8,9 @@ use language::Head;
 pub use language::Language;
 use names::Names;
 
-use crate::program::{
-    Argument, ConstantId, ConstantOp, Entry, Op, Program, Purpose, Setup, ValueId,
-};
+use crate::functions::{Argument, Purpose};
+
+use crate::program::{ConstantId, ConstantOp, Entry, Op, Program, Setup, ValueId};
 use crate::scene::Scene;
 
 /// Writes a program in a language; `None` where the code is loops, which are functions of the

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::program::{Argument, Entry, ValueId};
+use crate::functions::Argument;
+
+use crate::program::{Entry, ValueId};
 
 /// Words that some language keeps for itself, and what functions call by these names.
 #[rustfmt::skip]

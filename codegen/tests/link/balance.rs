@@ -1,9 +1,10 @@
 //! The functions of links against the derived balance, symbol by symbol.
 
+use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_codegen::mechanics::algebra::{Formula, run};
 use branched_pendulum_codegen::mechanics::expression::{Expr, SymbolId};
 use branched_pendulum_codegen::mechanics::{LinkBalance, Mechanics};
-use branched_pendulum_codegen::program::{Argument, Column, LoopTree, Program, Rebuilt};
+use branched_pendulum_codegen::program::{Column, LoopTree, Program, Rebuilt};
 use std::collections::BTreeMap;
 
 use super::{BUSH, SEVERAL, compiled};

@@ -2,7 +2,8 @@
 //! code written out.
 
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::program::{Argument, LoopTree, Program};
+use branched_pendulum_codegen::functions::Argument;
+use branched_pendulum_codegen::program::{LoopTree, Program};
 
 use super::{BRAKED, BRAKED_RULE, BUSH, RULE, SEVERAL, compiled, tree};
 /// The recursion through a tree, by the interpreter.

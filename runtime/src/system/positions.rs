@@ -2,6 +2,7 @@
 
 use super::Pendulum;
 use super::by_reference::by_reference;
+use crate::model::Transfer;
 use crate::scalar::Scalar;
 
 /// A point that every link has.
@@ -212,6 +213,15 @@ impl<T: Scalar> Unknown for [T; 2] {
     }
 }
 
+impl<T: Scalar> Unknown for Transfer<T> {
+    fn unknown() -> Self {
+        Self {
+            kinetic: T::unknown(),
+            potential: T::unknown(),
+        }
+    }
+}
+
 /// Fills a slice with what a function on arrays returns; NaN where lengths differ.
 #[inline]
 pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
@@ -224,7 +234,7 @@ pub fn fill<A, B, C: Copy + Unknown, const N: usize>(
         (Ok(first), Ok(second)) if output.len() == N => {
             output.copy_from_slice(&function(first, second));
         }
-        _ => output.fill(C::unknown()),
+        _ => unknown(output),
     }
 }
 
@@ -239,14 +249,28 @@ pub fn arrays<T, const N: usize, const A: usize>(slices: [&[T]; A]) -> Option<[&
     Some(arrays)
 }
 
-/// Writes values to a slice; false, and nothing written, where lengths differ.
+/// Fills a slice with NaN.
 #[inline(always)]
-pub fn write<T: Copy>(out: &mut [T], values: &[T]) -> bool {
-    let fit = out.len() == values.len();
-    if fit {
-        out.copy_from_slice(values);
+pub fn unknown<C: Copy + Unknown>(output: &mut [C]) {
+    output.fill(C::unknown());
+}
+
+/// Writes values to a slice; NaN where lengths differ.
+#[inline(always)]
+pub fn write<C: Copy + Unknown>(output: &mut [C], values: &[C]) {
+    match output.len() == values.len() {
+        true => output.copy_from_slice(values),
+        false => unknown(output),
     }
-    fit
+}
+
+/// Writes values to two slices; NaN in both where lengths of one differ.
+#[inline(always)]
+pub fn write_both<C: Copy + Unknown>(outputs: [&mut [C]; 2], values: [&[C]; 2]) {
+    let fit = outputs.each_ref().map(|output| output.len()) == values.map(<[C]>::len);
+    for (output, values) in outputs.into_iter().zip(values) {
+        write(output, if fit { values } else { &[] });
+    }
 }
 
 /// The properties of a link of a tree that is written out.

@@ -4,7 +4,7 @@
 use branched_pendulum::emitted::{LinkBody, free_link};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
-    FrictionLaw, Layout, Link, LinkId, Offset, Quantity, Scene, Sign,
+    Layout, Link, LinkId, Offset, PassiveTorques, Quantity, Scene, Sign,
 };
 
 use crate::error::TreeError;
@@ -18,13 +18,7 @@ pub(crate) struct LinkNumbers {
     pub(crate) com: [Double; 2],
     pub(crate) pivot: [Double; 2],
     pub(crate) end: [Double; 2],
-    pub(crate) friction: Double,
-    pub(crate) drag: Double,
-    pub(crate) spring: Double,
-    pub(crate) rest: Double,
-    /// C, q and ε in the pivot, q and ε against the ground; widths are one where there is no
-    /// law, since they divide.
-    pub(crate) laws: [Double; 5],
+    pub(crate) passive: PassiveTorques<Double>,
 }
 
 /// The value of a quantity.
@@ -196,10 +190,6 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
 fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
     let at = |quantity: &Quantity| value(quantity, parameters);
     let point = |offset: &Offset| [at(&offset.along), at(&offset.lateral)];
-    let optional = |quantity: &Option<Quantity>| match quantity {
-        Some(quantity) => at(quantity),
-        None => Double::from_f64(0.0),
-    };
     LinkNumbers {
         parent: link.parent.map(|LinkId(parent)| parent),
         mass: at(&link.mass),
@@ -207,24 +197,8 @@ fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
         com: point(&link.com),
         pivot: point(&link.pivot),
         end: point(&link.end),
-        friction: optional(&link.friction),
-        drag: optional(&link.drag),
-        spring: optional(&link.spring),
-        rest: optional(&link.rest),
-        laws: laws(link, parameters),
+        passive: link.passive.map(at),
     }
-}
-
-fn laws(link: &Link, parameters: &[Double]) -> [Double; 5] {
-    let none = [0.0, 0.0, 1.0].map(Double::from_f64);
-    let law = |law: &Option<FrictionLaw>| match law {
-        Some(law) => [&law.coulomb, &law.quadratic, &law.width].map(|part| value(part, parameters)),
-        None => none,
-    };
-    let [coulomb, quadratic, width] = law(&link.nonlinear.joint);
-    // No Coulomb friction acts against the ground.
-    let [_, drag, drag_width] = law(&link.nonlinear.ground);
-    [coulomb, quadratic, width, drag, drag_width]
 }
 
 fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
@@ -235,12 +209,9 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         com,
         pivot,
         end,
-        friction,
-        drag,
-        spring,
-        rest,
-        laws,
+        passive,
     } = link;
+    let laws = passive.law_row();
     [
         ("mass", mass),
         ("inertia", inertia),
@@ -250,15 +221,15 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         ("pivot", &pivot[1]),
         ("end", &end[0]),
         ("end", &end[1]),
-        ("friction", friction),
-        ("drag", drag),
-        ("spring", spring),
-        ("rest", rest),
-        ("Coulomb friction", &laws[0]),
-        ("quadratic friction", &laws[1]),
-        ("width of friction", &laws[2]),
-        ("quadratic drag", &laws[3]),
-        ("width of drag", &laws[4]),
+        ("friction", &passive.friction),
+        ("drag", &passive.drag),
+        ("spring", &passive.spring),
+        ("rest", &passive.rest),
+        ("Coulomb friction", laws[0]),
+        ("quadratic friction", laws[1]),
+        ("width of friction", laws[2]),
+        ("quadratic drag", laws[3]),
+        ("width of drag", laws[4]),
     ]
     .map(|(name, value)| (name, value.high()))
 }

@@ -3,6 +3,8 @@
 
 use branched_pendulum::scalar::{Double, Scalar};
 
+use branched_pendulum_codegen::scene::PassiveTorques;
+
 use crate::numbers::LinkNumbers;
 
 /// Forms of the equations, by what the links of a tree have.
@@ -42,7 +44,8 @@ impl Form {
             }
             Self::Rough => {
                 let rows = moments.zip(links).flat_map(|(row, link)| {
-                    let friction = link.laws.into_iter().chain([no_torque]);
+                    let laws = link.passive.law_row().into_iter().copied();
+                    let friction = laws.chain([no_torque]);
                     row.jointed(link).into_iter().chain(friction)
                 });
                 rows.collect()
@@ -55,8 +58,8 @@ impl Form {
 pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
     links.iter().any(|link| {
-        let [coulomb, quadratic, _, drag, _] = link.laws;
-        [coulomb, quadratic, drag].iter().any(|law| *law != zero)
+        let [coulomb, quadratic, _, drag, _] = link.passive.law_row();
+        [coulomb, quadratic, drag].iter().any(|law| **law != zero)
     })
 }
 
@@ -65,7 +68,13 @@ fn are_straight(links: &[LinkNumbers]) -> bool {
     let places = attachments(links);
     links.iter().all(|link| {
         let [along, across] = link.pivot;
-        let none = [link.com[1], across, link.friction, link.drag, link.spring];
+        let PassiveTorques {
+            friction,
+            drag,
+            spring,
+            ..
+        } = link.passive;
+        let none = [link.com[1], across, friction, drag, spring];
         let place = link.parent.and_then(|parent| places.get(parent));
         none.iter().all(|number| *number == zero) && place.is_none_or(|place| *place == along)
     })
@@ -126,10 +135,10 @@ impl Moments {
             inverse_inertia,
             link.pivot[0],
             link.pivot[1],
-            link.friction,
-            link.drag,
-            link.spring,
-            link.rest,
+            link.passive.friction,
+            link.passive.drag,
+            link.passive.spring,
+            link.passive.rest,
         ]
     }
 }
@@ -198,9 +207,9 @@ pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
             gravity * link.mass,
             gravity * first,
             gravity * lateral,
-            half * link.spring,
-            link.friction,
-            link.drag,
+            half * link.passive.spring,
+            link.passive.friction,
+            link.passive.drag,
         ]
     });
     rows.collect()
@@ -208,7 +217,8 @@ pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
 
 /// Rows of laws of friction of [`Bodies`](branched_pendulum::tree::Bodies).
 pub(crate) fn laws(links: &[LinkNumbers]) -> Vec<Double> {
-    links.iter().flat_map(|link| link.laws).collect()
+    let laws = links.iter().flat_map(|link| link.passive.law_row());
+    laws.copied().collect()
 }
 
 /// Rows of a [`PropertyTable`](branched_pendulum::tree::PropertyTable).

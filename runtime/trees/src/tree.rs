@@ -229,7 +229,7 @@ impl<T: Scalar> PendulumTree<T> {
 
 fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> Bodies<T> {
     let bodies = Bodies::new(shape.clone(), in_numbers(&rows::bodies(links, gravity)));
-    let rests: Vec<Double> = links.iter().map(|link| link.rest).collect();
+    let rests: Vec<Double> = links.iter().map(|link| link.passive.rest).collect();
     let bodies = match rests.iter().all(|rest| rest.high() == 0.0) {
         true => bodies,
         false => bodies.with_rests(rests.into_iter().map(constant).collect()),

@@ -128,7 +128,7 @@ fn assert_invariants(scene: &Scene) {
             assert_eq!(copy_link.inertia, first.inertia);
             assert_eq!(copy_link.com, first.com);
             assert_eq!(copy_link.pivot, first.pivot);
-            assert_eq!(copy_link.friction, first.friction);
+            assert_eq!(copy_link.passive, first.passive);
         }
     }
     for group in &scene.groups {

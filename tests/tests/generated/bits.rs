@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use branched_pendulum::tree::{LinkEquations, LinkMotion, Row};
 use branched_pendulum::{Budget, Scalar, Transfer};
-use branched_pendulum_codegen::program::Argument;
+use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     branch::{Branch, BranchParameters},

@@ -4,7 +4,7 @@
 
 use branched_pendulum::scalar::InstructionSet;
 use branched_pendulum::{Cast, Pendulum, Scalar};
-use branched_pendulum_codegen::program::Argument;
+use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain, driven::Driven, driven::DrivenParameters, generations::Generations,

@@ -66,17 +66,16 @@ fn number(quantity: &Quantity) -> f64 {
 }
 
 fn oracle_of(scene: &Scene) -> Tree {
-    let force = |force: &Option<Quantity>| force.as_ref().map_or(0.0, number);
     let links = scene.links.iter().map(|link| Link {
         parent: link.parent.map(|parent| parent.0),
         mass: number(&link.mass),
         inertia: number(&link.inertia),
         com: [number(&link.com.along), 0.0],
         pivot: [number(&link.pivot.along), 0.0],
-        friction: force(&link.friction),
-        drag: force(&link.drag),
-        spring: force(&link.spring),
-        rest: force(&link.rest),
+        friction: number(&link.passive.friction),
+        drag: number(&link.passive.drag),
+        spring: number(&link.passive.spring),
+        rest: number(&link.passive.rest),
         laws: crate::loops::laws_of(link),
     });
     Tree {

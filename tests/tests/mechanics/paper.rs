@@ -4,6 +4,7 @@
 //! Link 1 is `parent`, links 2 and 3 are the copies of `child`. Equation
 //! numbers are labels of the paper's source.
 
+use branched_pendulum_codegen::functions::Counting;
 use branched_pendulum_codegen::mechanics::algebra::Formula;
 use branched_pendulum_codegen::mechanics::expression::Expr;
 
@@ -259,7 +260,9 @@ fn a_misprint_is_noticed() {
         let potential = Formula::from_expr(&transfer.energy.potential);
         let misprint = &letters.g_1 * &algebra.s("sin θ_d").pow(2);
         assert!(!algebra.vanishes(&(&potential - &misprint), &["M_child"]));
-        let angle = transfer.angle.as_ref().expect("the scene asks for it");
+        let angle = transfer
+            .truncated(Counting::Angle, 1)
+            .expect("the scene asks for it");
         let kinetic = Formula::from_expr(&angle.kinetic);
         assert!(!algebra.vanishes(&(&kinetic + &kinetic), &["M_child"]));
         let twice = &n(2) * &kinetic;
@@ -288,7 +291,7 @@ fn energy_transfer_to_first_order_in_the_angle() {
         let kinetic = &product([mu, s, &braces, &p_d.pow(2)]) / &(&m_2.pow(2) * d);
         let lift = &n(1) - &algebra.s("cos θ_m");
         let potential = &product([g_2, &lift, p_d, theta_d]) / m_2;
-        let angle = algebra.mechanics().transfers[0].angle.as_ref();
+        let angle = algebra.mechanics().transfers[0].truncated(Counting::Angle, 1);
         let angle = angle.expect("the scene asks for it");
         algebra.assert_equal("W_K", &angle.kinetic, &kinetic);
         algebra.assert_equal("W_P", &angle.potential, &potential);
@@ -336,7 +339,9 @@ fn energy_transfer_to_second_order_in_the_amplitude() {
             &a_qq * &theta_d.pow(2),
         ]);
         let potential = product([&lift, p_d, theta_d]);
-        let amplitude = transfer.amplitude.as_ref().expect("asked for");
+        let amplitude = transfer
+            .truncated(Counting::Amplitude, 2)
+            .expect("asked for");
         algebra.assert_equal("kinetic", &amplitude.kinetic, &(&whole - &potential));
         algebra.assert_equal("potential", &amplitude.potential, &potential);
     });

@@ -5,8 +5,9 @@ use std::sync::{Arc, Mutex};
 
 use branched_pendulum::Scalar;
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::mechanics::{Energies, Frame, Mechanics};
-use branched_pendulum_codegen::program::{Argument, Interpreter, Program};
+use branched_pendulum_codegen::functions::Argument;
+use branched_pendulum_codegen::mechanics::{EnergyParts, Frame, Mechanics};
+use branched_pendulum_codegen::program::{Interpreter, Program};
 use branched_pendulum_codegen::scene::Scene;
 use branched_pendulum_tests::source;
 
@@ -127,7 +128,7 @@ impl Worst {
 }
 
 /// The energies of a frame whose scene asks for them.
-pub(crate) fn energies(frame: &Frame) -> &Energies {
+pub(crate) fn energies(frame: &Frame) -> &EnergyParts {
     frame
         .energies
         .as_ref()

@@ -2,7 +2,7 @@
 
 use super::*;
 use branched_pendulum_codegen::Stages;
-use branched_pendulum_codegen::program::Argument;
+use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_codegen::scene::LinkId;
 use branched_pendulum_tests::source::stages_of;
 

@@ -1,6 +1,8 @@
 //! Programs in other languages, run where their compilers are, against the interpreter.
 
-use branched_pendulum_codegen::program::{Argument, Op, Program, Purpose};
+use branched_pendulum_codegen::functions::{Argument, Purpose};
+
+use branched_pendulum_codegen::program::{Op, Program};
 use branched_pendulum_codegen::{Language, Stages, emit, translate};
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source::{fixture, scene};

@@ -2,7 +2,8 @@
 //! the code of it.
 
 use crate::snapshots::{function, pretty};
-use branched_pendulum_codegen::program::{LinkFunction, worth};
+use branched_pendulum_codegen::functions::LinkFunction;
+use branched_pendulum_codegen::program::worth;
 use branched_pendulum_tests::source::stages_of;
 
 /// All stages of a tree, the code of its links and its model.

@@ -1,6 +1,8 @@
 //! Programs with and without each pass say the same.
 
-use branched_pendulum_codegen::program::{Argument, Pass, Program, Purpose};
+use branched_pendulum_codegen::functions::{Argument, Purpose};
+
+use branched_pendulum_codegen::program::{Pass, Program};
 use branched_pendulum_codegen::stages_without;
 use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::source::{attributed_struct, fixture};

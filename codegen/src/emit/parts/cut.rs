@@ -4,7 +4,8 @@
 use super::{FunctionPart, FunctionParts, Line, MOST_IN_PART};
 use crate::emit::Emission;
 use crate::emit::names::Locals;
-use crate::program::{Argument, Op, ValueId};
+use crate::functions::Argument;
+use crate::program::{Op, ValueId};
 use std::collections::BTreeSet;
 
 impl Emission<'_> {

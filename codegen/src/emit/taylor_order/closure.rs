@@ -2,7 +2,8 @@
 
 use super::super::tokens::{Binding, ident};
 use super::{Factor, Recurrences};
-use crate::program::{Argument, Op, ValueId};
+use crate::functions::Argument;
+use crate::program::{Op, ValueId};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 

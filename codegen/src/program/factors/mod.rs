@@ -33,7 +33,8 @@ mod extract;
 mod tests;
 
 use super::builder::Builder;
-use super::{Definition, Entry, Op, Program, Purpose, TooManyValues, ValueId};
+use super::{Definition, Entry, Op, Program, TooManyValues, ValueId};
+use crate::functions::Purpose;
 use extract::{Term, extract, product, sum};
 use std::collections::BTreeMap;
 

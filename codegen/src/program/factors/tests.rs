@@ -1,8 +1,9 @@
 //! Small programs before and after.
 
 use super::common_factors;
+use crate::functions::{Argument, Purpose};
 use crate::program::builder::Builder;
-use crate::program::{Argument, Program, Purpose, ValueId};
+use crate::program::{Program, ValueId};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 

@@ -3,13 +3,11 @@
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
-use crate::scene::{
-    FrictionLaw, LINK_PROPERTIES, Link, NonlinearFriction, Offset, Quantity, Scene,
-};
+use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.
-    fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
+    pub(super) fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
         let mechanics: &Mechanics = self.mechanics;
         match quantity {
             Quantity::Exact(number) => self.builder.setup.number(number.clone()),
@@ -58,40 +56,6 @@ impl Lowering<'_> {
         link.properties().map(|quantity| self.quantity(quantity))
     }
 
-    /// Angle at which the spring of a link is at rest.
-    pub(super) fn rest(&mut self, link: &Link) -> ConstantId {
-        self.quantity(link.rest.as_ref().unwrap_or(&Quantity::zero()))
-    }
-
-    /// Constants of the laws of friction and drag of a link that are not viscous. A width
-    /// divides, so that it is one where there is none.
-    pub(super) fn law_constants(&mut self, link: &Link) -> [ConstantId; 5] {
-        let none = FrictionLaw {
-            coulomb: Quantity::zero(),
-            quadratic: Quantity::zero(),
-            width: Quantity::integer(1),
-        };
-        let NonlinearFriction { joint, ground } = &link.nonlinear;
-        let [joint, ground] = [joint, ground].map(|law| law.as_ref().unwrap_or(&none));
-        [
-            &joint.coulomb,
-            &joint.quadratic,
-            &joint.width,
-            &ground.quadratic,
-            &ground.width,
-        ]
-        .map(|quantity| self.quantity(quantity))
-    }
-
-    /// These numbers as values.
-    pub(super) fn laws(&mut self, link: &Link) -> [ValueId; 5] {
-        if link.nonlinear.is_none() {
-            return [0, 0, 1, 0, 1].map(|number| self.builder.integer(number));
-        }
-        let laws = self.law_constants(link);
-        laws.map(|constant| self.builder.constant(constant))
-    }
-
     /// A link as a body, see [`StripConstants::body`](super::StripConstants).
     pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
         let gravity = self.quantity(&scene.gravity);
@@ -99,11 +63,8 @@ impl Lowering<'_> {
         let (mass, inertia) = (at(&link.mass), at(&link.inertia));
         let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
         let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
-        let forces = [&link.spring, &link.friction, &link.drag];
-        let [spring, friction, drag] = forces.map(|force| match force {
-            Some(force) => at(force),
-            None => at(&Quantity::zero()),
-        });
+        let passive = &link.passive;
+        let [spring, friction, drag] = [&passive.spring, &passive.friction, &passive.drag].map(at);
         let setup = &mut self.builder.setup;
         let two = setup.number(2.into());
         let [h, k] = [d, e].map(|place| setup.mul(mass, place));

@@ -2,8 +2,8 @@
 //! other arguments.
 
 use super::strips::LoopTree;
+use crate::functions::Argument;
 use crate::named_members::named_members;
-use crate::program::Argument;
 
 /// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
 pub const LINK_MOTION: [&str; 6] = [

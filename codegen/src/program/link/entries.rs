@@ -3,9 +3,10 @@
 use super::columns::Column;
 use super::functions::Functions;
 use super::strips::LoopTree;
+use crate::functions::{Argument, LinkFunction, Purpose, ResultShape};
 use crate::mechanics::Mechanics;
 use crate::program::entries::EntryList;
-use crate::program::{Argument, LinkFunction, Op, Purpose, ResultShape, ValueId};
+use crate::program::{Entry, Op, ValueId};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
@@ -19,7 +20,10 @@ impl EntryList<'_, '_> {
             unreachable!("trees in loops come with the balance of a link");
         };
         let table = self.lowering.strip_table(scene, balance);
-        let joints = scene.links.iter().any(crate::scene::Link::has_joint_torque);
+        let joints = scene
+            .links
+            .iter()
+            .any(|link| link.passive.has_joint_torque());
         let functions = Functions {
             table: &table,
             joints,
@@ -40,7 +44,7 @@ impl EntryList<'_, '_> {
                 LinkFunction::AccelerateLeaf => ResultShape::Scalar,
                 _ => ResultShape::Vector,
             };
-            self.entries.push(signature.entry(purpose, outputs));
+            self.entries.push(Entry::new(signature, purpose, outputs));
         }
         if let Some(scales) = &mechanics.scales {
             self.scale_functions(&functions, &balance.symbols, scales);

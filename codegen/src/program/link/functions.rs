@@ -5,10 +5,11 @@ use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, Link, Response};
 use super::strips::Table;
+use crate::functions::{Argument, LinkFunction};
+use crate::program::ValueId;
 use crate::program::entries::EntryList;
 use crate::program::friction::Law;
 use crate::program::pair::Pair;
-use crate::program::{Argument, LinkFunction, ValueId};
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -15,14 +15,12 @@ mod equations;
 mod functions;
 mod reduced_units;
 mod root;
-mod scale_function;
 mod scales;
 mod strips;
 mod torques;
 mod tree;
 
 pub use columns::{Column, LINK_MOTION};
-pub use scale_function::ScaleFunction;
 pub use strips::{LoopTree, StripConstants};
 
 use crate::scene::{LinkId, Scene};

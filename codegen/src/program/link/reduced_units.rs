@@ -2,12 +2,12 @@
 //! link measures its turning by the acceleration of the pivot that it carries,
 //! and mass and length are those of the commonest leaf.
 
-use crate::mechanics::expression::Expr;
+use crate::mechanics::Joint;
 use crate::program::ValueId;
 use crate::program::builder::Builder;
 use crate::program::lower::{Environment, Lowering};
 use crate::program::pair::Pair;
-use crate::scene::{LinkId, Scene};
+use crate::scene::{LinkId, PassiveTorques, Scene};
 
 /// Constants of the links of one orbit, with L the link's own unit of length
 /// and m, l the tree's units of mass and length.
@@ -24,13 +24,8 @@ pub(super) struct Unit {
     pub(super) per_torque: ValueId,
     /// (ℓ + i w)/L of the parent.
     pub(super) place: Pair,
-    /// Friction, drag and stiffness of the spring as they are.
-    pub(super) forces: [ValueId; 3],
-    /// Angle at which the spring is at rest.
-    pub(super) rest: ValueId,
-    /// Constants of friction that is not viscous as they are: C, q and ε in the pivot,
-    /// q and ε against the ground; where links stand in loops.
-    pub(super) laws: [ValueId; 5],
+    /// Friction and spring as they are.
+    pub(super) passive: PassiveTorques<ValueId>,
 }
 
 /// All constants of the recursion.
@@ -45,48 +40,26 @@ pub(super) struct Units {
     pub(super) gravity: ValueId,
 }
 
-/// Constants of one orbit in SI units.
-pub(super) struct Given {
-    pub(super) inertia: ValueId,
-    pub(super) moment: Pair,
-    pub(super) pivot: Pair,
-    /// Friction, drag and stiffness of the spring.
-    pub(super) forces: [ValueId; 3],
-    /// Angle at which the spring is at rest.
-    pub(super) rest: ValueId,
-    /// As in [`Unit`].
-    pub(super) laws: [ValueId; 5],
-}
-
 impl Lowering<'_> {
     /// Those of a tree that is written out.
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
-        let mut given = Vec::new();
-        for joint in &mechanics.articulation.joints {
-            let mut at = |expr| self.expr(environment, expr);
-            given.push(Given {
-                inertia: at(&joint.inertia),
-                moment: [at(&joint.moment[0]), at(&joint.moment[1])],
-                pivot: [at(&joint.pivot[0]), at(&joint.pivot[1])],
-                forces: [at(&joint.friction), at(&joint.drag), at(&joint.spring)],
-                rest: at(&joint.rest),
-                // Their torques are symbols.
-                laws: [at(&Expr::zero()); 5],
-            });
-        }
+        let joints = mechanics.articulation.joints.iter();
+        let given: Vec<Joint<ValueId>> = joints
+            .map(|joint| joint.map(|expr| self.expr(environment, expr)))
+            .collect();
         let gravity = self.expr(environment, &mechanics.articulation.gravity);
         Units::of(&mut self.builder, scene, &given, gravity, true)
     }
 }
 
 impl Units {
-    /// Of constants by orbit. `own` says whether a link with children has a unit of
+    /// Of constants by orbit in SI units. `own` says whether a link with children has a unit of
     /// length of its own, or that of the tree.
     pub(super) fn of(
         builder: &mut Builder,
         scene: &Scene,
-        given: &[Given],
+        given: &[Joint<ValueId>],
         gravity: ValueId,
         own: bool,
     ) -> Self {
@@ -127,9 +100,7 @@ impl Units {
                 inverse_length: called(tree_length, own, "inverse_reduced_length"),
                 per_torque: builder.div(one, torque),
                 place: given.pivot.map(|component| builder.div(component, carrier)),
-                forces: given.forces,
-                rest: given.rest,
-                laws: given.laws,
+                passive: given.passive,
             }
         });
         let links = links.collect();
@@ -147,7 +118,7 @@ impl Units {
 fn commonest_pivot(
     builder: &mut Builder,
     scene: &Scene,
-    given: &[Given],
+    given: &[Joint<ValueId>],
     children: &[usize],
 ) -> Option<ValueId> {
     let mut pivots: Vec<(Pair, usize)> = Vec::new();
@@ -166,7 +137,7 @@ fn commonest_pivot(
 }
 
 /// The centre of oscillation, M/h.
-fn oscillation(builder: &mut Builder, scene: &Scene, given: &Given) -> Option<ValueId> {
+fn oscillation(builder: &mut Builder, scene: &Scene, given: &Joint<ValueId>) -> Option<ValueId> {
     let divides = builder.is_never_zero(given.moment[0], scene);
     divides.then(|| builder.div(given.inertia, given.moment[0]))
 }
@@ -176,7 +147,7 @@ fn commonest_leaf(
     builder: &mut Builder,
     scene: &Scene,
     children: &[Vec<usize>],
-    given: &[Given],
+    given: &[Joint<ValueId>],
 ) -> Option<(ValueId, ValueId)> {
     let leaves = scene.orbits.iter().enumerate().filter(|(number, orbit)| {
         children[orbit.links[0].0].is_empty()

@@ -1,10 +1,10 @@
 //! Apparent gravity and torque at the root of a tree in loops.
 
 use super::strips::Table;
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::{DriveTerms, Mechanics};
 use crate::program::entries::EntryList;
 use crate::program::lower::Environment;
-use crate::program::{Argument, Purpose};
 
 impl EntryList<'_, '_> {
     /// Apparent gravity at the root's pivot and, where there is a drive, the torque on

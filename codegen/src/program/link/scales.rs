@@ -4,14 +4,14 @@ use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Elimination, Link, Response};
 use super::functions::{Functions, Kind, Motion};
-use super::scale_function::ScaleFunction;
+use crate::functions::{Argument, Purpose, ScaleFunction};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBalance, LinkScales, LinkSymbols};
+use crate::program::ValueId;
 use crate::program::entries::EntryList;
 use crate::program::lower::Lowering;
 use crate::program::pair::Pair;
-use crate::program::{Argument, Purpose, ValueId};
-use crate::scene::{Layout, Quantity, Scene};
+use crate::scene::{Layout, Scene};
 
 impl EntryList<'_, '_> {
     /// The entry points of energies by scale.
@@ -292,12 +292,6 @@ impl Lowering<'_> {
             masses[index] = carried[3];
             let place = child.map_or([zero; 2], |(place, _)| place);
             let com = self.values_of(&link.com);
-            let mut optional = |force: &Option<Quantity>| match force {
-                Some(force) => self.value_of(force),
-                None => zero,
-            };
-            let [stiffness, friction, drag] =
-                [&link.spring, &link.friction, &link.drag].map(&mut optional);
             let values = [
                 (Column::BodyMass, self.value_of(&link.mass)),
                 (Column::BodyInertia, self.value_of(&link.inertia)),
@@ -308,9 +302,9 @@ impl Lowering<'_> {
                 (Column::CarriedMoment, carried[1]),
                 (Column::LateralCarriedMoment, carried[2]),
                 (Column::Gravity, gravity),
-                (Column::Stiffness, stiffness),
-                (Column::PivotFriction, friction),
-                (Column::GroundDrag, drag),
+                (Column::Stiffness, self.value_of(&link.passive.spring)),
+                (Column::PivotFriction, self.value_of(&link.passive.friction)),
+                (Column::GroundDrag, self.value_of(&link.passive.drag)),
             ];
             for (column, value) in values {
                 rows[link.orbit.0][column as usize] = value;

@@ -2,14 +2,14 @@
 //! rule.
 
 use super::columns::Column;
-use super::reduced_units::{Given, Unit, Units};
+use super::reduced_units::{Unit, Units};
 use crate::exact::Rational;
-use crate::mechanics::LinkBalance;
 use crate::mechanics::expression::{Expr, SymbolId};
+use crate::mechanics::{Joint, LinkBalance};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
-use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Quantity, Scene};
+use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Scene};
 
 /// Neighbours that share their constants.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -154,21 +154,16 @@ impl Lowering<'_> {
             }
             has_several_places |= places.len() > 1;
             let composite = self.composite(scene, index, balance, &places);
-            let forces = [&link.friction, &link.drag, &link.spring];
-            let mut optional = |force: &Option<Quantity>| match force {
-                Some(force) => self.value_of(force),
-                None => zero,
-            };
-            let forces = forces.map(&mut optional);
-            let rest = optional(&link.rest);
-            let laws = self.laws(link);
-            given.push(Given {
+            // Widths of laws that a link does not have are numbers, no constants.
+            let passive = link.passive.map(|quantity| match quantity.exact() {
+                Some(number) if number.is_one() => self.builder.integer(1),
+                _ => self.value_of(quantity),
+            });
+            given.push(Joint {
                 inertia: composite[0],
                 moment: [composite[1], composite[2]],
                 pivot: self.values_of(&link.pivot),
-                forces,
-                rest,
-                laws,
+                passive,
             });
             masses.push(match children[index].is_empty() {
                 true => zero,
@@ -302,8 +297,8 @@ impl Lowering<'_> {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
         let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
-        let has_laws = scene.requests.energies && any(|link| !link.nonlinear.is_none());
-        let has_rests = scene.requests.energies && any(|link| link.rest.is_some());
+        let has_laws = scene.requests.energies && any(|link| !link.passive.is_viscous());
+        let has_rests = scene.requests.energies && any(|link| !link.passive.rest.is_zero());
         for link in &scene.links {
             let orbit = link.orbit.0;
             let constants = columns.iter().map(|&column| {
@@ -324,8 +319,8 @@ impl Lowering<'_> {
                 is_leaf: table.is_leaf[orbit],
                 constants,
                 body: bodies[orbit],
-                rest: has_rests.then(|| self.rest(link)),
-                laws: has_laws.then(|| self.law_constants(link)),
+                rest: has_rests.then(|| self.quantity(&link.passive.rest)),
+                laws: has_laws.then(|| link.passive.law_row().map(|part| self.quantity(part))),
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
@@ -334,7 +329,7 @@ impl Lowering<'_> {
             columns,
             strips,
             has_several_places: table.has_several_places,
-            has_joint_torques: any(crate::scene::Link::has_joint_torque),
+            has_joint_torques: any(|link| link.passive.has_joint_torque()),
             has_outside_torques: scene.requests.forces,
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
@@ -361,16 +356,23 @@ fn row(
     let area = builder.mul(tree_length, tree_length);
     let torque = builder.mul(tree_mass, area);
     let per_torque = builder.div(one, torque);
-    let [friction, drag, spring] = unit.forces.map(|force| builder.div(force, torque));
+    let [joint, ground] = &unit.passive.laws;
     let [
+        friction,
+        drag,
+        spring,
         coulomb,
         quadratic_friction,
-        friction_width,
         quadratic_drag,
-        drag_width,
-    ] = unit.laws;
-    let [coulomb, quadratic_friction, quadratic_drag] =
-        [coulomb, quadratic_friction, quadratic_drag].map(|force| builder.div(force, torque));
+    ] = [
+        unit.passive.friction,
+        unit.passive.drag,
+        unit.passive.spring,
+        joint.coulomb,
+        joint.quadratic,
+        ground.quadratic,
+    ]
+    .map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
         Column::Moment => unit.moment[0],
@@ -386,12 +388,12 @@ fn row(
         Column::Friction => friction,
         Column::Drag => drag,
         Column::Spring => spring,
-        Column::Rest => unit.rest,
+        Column::Rest => unit.passive.rest,
         Column::Coulomb => coulomb,
         Column::QuadraticFriction => quadratic_friction,
-        Column::FrictionWidth => friction_width,
+        Column::FrictionWidth => joint.width,
         Column::QuadraticDrag => quadratic_drag,
-        Column::DragWidth => drag_width,
+        Column::DragWidth => ground.width,
         Column::PerTorque => per_torque,
         _ => zero,
     })

@@ -1,10 +1,10 @@
 //! Torques in the joints, against the ground and on the root.
 
 use super::reduced_units::Units;
-use crate::mechanics::{FrictionPlace, TorqueSource};
+use crate::mechanics::TorqueSource;
 use crate::program::ValueId;
 use crate::program::lower::{Environment, Lowering};
-use crate::scene::Scene;
+use crate::scene::{FrictionPlace, Scene};
 
 impl Lowering<'_> {
     /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π),
@@ -60,8 +60,8 @@ impl Lowering<'_> {
             for &link in below(parent) {
                 let unit = &units.links[scene.links[link].orbit.0];
                 let joint = [
-                    ("joint_rate", unit.forces[0], omega),
-                    ("joint_angle", unit.forces[2], &theta),
+                    ("joint_rate", unit.passive.friction, omega),
+                    ("joint_angle", unit.passive.spring, &theta),
                 ];
                 for (what, coefficient, state) in joint {
                     if builder.is(coefficient, 0) {
@@ -71,9 +71,9 @@ impl Lowering<'_> {
                         Some(parent) => builder.sub(state[link], state[parent]),
                         None => state[link],
                     };
-                    if what == "joint_angle" && !builder.is(unit.rest, 0) {
+                    if what == "joint_angle" && !builder.is(unit.passive.rest, 0) {
                         builder.name(relative, &format!("{what}_{}", scene.links[link].name));
-                        relative = builder.sub(relative, unit.rest);
+                        relative = builder.sub(relative, unit.passive.rest);
                     }
                     builder.name(relative, &format!("{what}_{}", scene.links[link].name));
                     let reduced = builder.mul(coefficient, unit.per_torque);
@@ -87,7 +87,7 @@ impl Lowering<'_> {
                         None => sums.push((what, coefficient, relative)),
                     }
                 }
-                let reduced = builder.mul(unit.forces[1], unit.per_torque);
+                let reduced = builder.mul(unit.passive.drag, unit.per_torque);
                 let torque = builder.mul(reduced, omega[link]);
                 torques[link] = builder.sub(torques[link], torque);
             }

@@ -67,8 +67,9 @@ fn scaled(builder: &mut Builder, a: ValueId, b: ValueId) -> Option<ValueId> {
 #[cfg(test)]
 mod tests {
     use crate::exact::Rational;
+    use crate::functions::Argument;
+    use crate::program::Op;
     use crate::program::builder::Builder;
-    use crate::program::{Argument, Op};
 
     #[test]
     fn constants_meet_exactly() {

@@ -25,7 +25,7 @@ pub(super) fn neutral(builder: &mut Builder, op: &Op) -> Option<ValueId> {
 
 #[cfg(test)]
 mod tests {
-    use crate::program::Argument;
+    use crate::functions::Argument;
     use crate::program::builder::Builder;
 
     #[test]

@@ -38,7 +38,7 @@ impl KnownOperations {
 
 #[cfg(test)]
 mod tests {
-    use crate::program::Argument;
+    use crate::functions::Argument;
     use crate::program::builder::Builder;
 
     #[test]

@@ -60,8 +60,9 @@ pub(super) fn signs(builder: &mut Builder, op: &Op) -> Option<ValueId> {
 
 #[cfg(test)]
 mod tests {
+    use crate::functions::Argument;
+    use crate::program::Op;
     use crate::program::builder::Builder;
-    use crate::program::{Argument, Op};
 
     #[test]
     fn signs_move_outwards() {

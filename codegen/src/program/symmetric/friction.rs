@@ -7,8 +7,7 @@ use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields};
 use super::series::TruncatedSeries;
 use crate::exact::Rational;
-use crate::mechanics::FrictionPlace;
-use crate::scene::FrictionLaw;
+use crate::scene::{FrictionLaw, FrictionPlace};
 
 /// A law with series as its constants; zeros are empty ones.
 pub(in crate::program) type LawValues = FrictionLaw<TruncatedSeries>;
@@ -41,7 +40,7 @@ impl SymmetricTree<'_> {
         rates: &Fields,
     ) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
-            let [joint, ground] = &constants.laws;
+            let [joint, ground] = &constants.passive.laws;
             if !joint.is_zero() {
                 let rate = self.braking_rate(rates, orbit, FrictionPlace::Joint);
                 let torque = self.braking_torque(joint, &rate);

@@ -3,8 +3,9 @@
 
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
-use super::friction::LawValues;
 use super::series::TruncatedSeries;
+use crate::mechanics::OrbitCoupling;
+use crate::scene::PassiveTorques;
 
 /// Values of the constants of one orbit; zeros are empty series.
 pub(in crate::program) struct OrbitValues {
@@ -15,27 +16,14 @@ pub(in crate::program) struct OrbitValues {
     pub(in crate::program) moment: TruncatedSeries,
     pub(in crate::program) gravity: TruncatedSeries,
     pub(in crate::program) lateral_gravity: TruncatedSeries,
-    pub(in crate::program) spring: TruncatedSeries,
-    pub(in crate::program) rest: TruncatedSeries,
-    pub(in crate::program) friction: TruncatedSeries,
-    pub(in crate::program) drag: TruncatedSeries,
     pub(in crate::program) drive: [TruncatedSeries; 3],
-    /// Laws of friction in the pivot and against the ground, beside viscous ones.
-    pub(in crate::program) laws: [LawValues; 2],
-}
-
-/// Values of a coupling's constants, and the orbits that it couples.
-pub(in crate::program) struct CouplingValues {
-    pub(in crate::program) row: usize,
-    pub(in crate::program) column: usize,
-    pub(in crate::program) cosine: TruncatedSeries,
-    pub(in crate::program) sine: TruncatedSeries,
+    pub(in crate::program) passive: PassiveTorques<TruncatedSeries>,
 }
 
 /// The constants of a scene.
 pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
-    pub(in crate::program) couplings: Vec<CouplingValues>,
+    pub(in crate::program) couplings: Vec<OrbitCoupling<TruncatedSeries>>,
 }
 
 /// One field for each orbit: a vector with one component for each link.
@@ -71,7 +59,7 @@ impl SymmetricTree<'_> {
             .collect();
         let mut entries = Vec::new();
         for coupling in &values.couplings {
-            let CouplingValues { row, column, .. } = *coupling;
+            let OrbitCoupling { row, column, .. } = *coupling;
             let own = directions[row].clone();
             let cos_above = self.lift(&directions[column].cos, row);
             let sin_above = self.lift(&directions[column].sin, row);
@@ -171,10 +159,11 @@ impl SymmetricTree<'_> {
         angles: &Fields,
     ) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
-            if !constants.spring.is_zero() {
+            let spring = &constants.passive.spring;
+            if !spring.is_zero() {
                 let strain = self.strain(values, angles, orbit);
                 self.hinted(&strain, "relative");
-                self.add_joint(sums, &constants.spring, &strain);
+                self.add_joint(sums, spring, &strain);
             }
         }
     }
@@ -182,10 +171,11 @@ impl SymmetricTree<'_> {
     /// Adds c (ω − ω_parent) to each link, and its opposite to the parent.
     fn add_friction(&mut self, sums: &mut Fields, values: &ConstantValues, rates: &Fields) {
         for (orbit, constants) in values.orbits.iter().enumerate() {
-            if !constants.friction.is_zero() {
+            let friction = &constants.passive.friction;
+            if !friction.is_zero() {
                 let relative = self.relative(rates, orbit);
                 self.hinted(&relative, "relative");
-                self.add_joint(sums, &constants.friction, &relative);
+                self.add_joint(sums, friction, &relative);
             }
         }
     }
@@ -221,7 +211,7 @@ impl SymmetricTree<'_> {
         orbit: usize,
     ) -> SymmetricField {
         let relative = self.relative(angles, orbit);
-        let rest = &values.orbits[orbit].rest;
+        let rest = &values.orbits[orbit].passive.rest;
         if rest.is_zero() {
             return relative;
         }
@@ -261,7 +251,7 @@ impl SymmetricTree<'_> {
         let mut losses = self.zeros();
         self.add_friction(&mut losses, values, rates);
         for (constants, rate) in values.orbits.iter().zip(rates) {
-            let drag = self.scale(&constants.drag, rate);
+            let drag = self.scale(&constants.passive.drag, rate);
             self.accumulate(&mut losses, &drag);
         }
         self.add_braking(&mut losses, values, rates);

@@ -51,11 +51,11 @@ impl SymmetricTree<'_> {
             let weight = self.series.mul(&share, &constants.gravity);
             let gravity = self.series.mul(&weight, &square);
             sum = self.series.add(&sum, &gravity);
-            if !constants.spring.is_zero() {
+            if !constants.passive.spring.is_zero() {
                 let strain = self.strain(values, &pose.angles, orbit);
                 let strain = strain.component(sector);
                 let square = self.series.mul(&strain, &strain);
-                let weight = self.series.mul(&share, &constants.spring);
+                let weight = self.series.mul(&share, &constants.passive.spring);
                 let spring = self.series.mul(&weight, &square);
                 sum = self.series.add(&sum, &spring);
             }
@@ -165,10 +165,10 @@ impl SymmetricTree<'_> {
                 let lateral = self.scale(&constants.lateral_gravity, &direction.cos);
                 self.accumulate(&mut gradient, &lateral);
             }
-            if !constants.spring.is_zero() {
+            if !constants.passive.spring.is_zero() {
                 let strain = self.strain(values, &pose.angles, orbit);
                 let strain = strain.restricted(sector);
-                self.add_joint(&mut gradient, &constants.spring, &strain);
+                self.add_joint(&mut gradient, &constants.passive.spring, &strain);
             }
         }
         gradient

@@ -8,7 +8,7 @@ mod offsets;
 mod places;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_codegen::scene::{NonlinearFriction, Offset, Quantity, Scene};
+use branched_pendulum_codegen::scene::{Offset, Quantity, Scene};
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::drive::{Jet, Push};
 use branched_pendulum_tests::oracle::{Law, Link, Tree};
@@ -111,14 +111,13 @@ fn scene_of(text: &str) -> Scene {
 /// Laws of friction of a link in plain numbers.
 pub(crate) fn laws_of(link: &branched_pendulum_codegen::scene::Link) -> [Law; 2] {
     let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
-    let NonlinearFriction { joint, ground } = &link.nonlinear;
-    [joint, ground].map(|law| match law {
-        Some(law) => Law {
+    link.passive.laws.each_ref().map(|law| match law.is_none() {
+        false => Law {
             coulomb: number(&law.coulomb),
             quadratic: number(&law.quadratic),
             width: number(&law.width),
         },
-        None => Law::default(),
+        true => Law::default(),
     })
 }
 
@@ -126,17 +125,16 @@ pub(crate) fn laws_of(link: &branched_pendulum_codegen::scene::Link) -> [Law; 2]
 fn oracle_of(scene: &Scene) -> Tree {
     let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
     let point = |offset: &Offset| [number(&offset.along), number(&offset.lateral)];
-    let force = |force: &Option<Quantity>| force.as_ref().map_or(0.0, number);
     let links = scene.links.iter().map(|link| Link {
         parent: link.parent.map(|parent| parent.0),
         mass: number(&link.mass),
         inertia: number(&link.inertia),
         com: point(&link.com),
         pivot: point(&link.pivot),
-        friction: force(&link.friction),
-        drag: force(&link.drag),
-        spring: force(&link.spring),
-        rest: force(&link.rest),
+        friction: number(&link.passive.friction),
+        drag: number(&link.passive.drag),
+        spring: number(&link.passive.spring),
+        rest: number(&link.passive.rest),
         laws: laws_of(link),
     });
     Tree {

@@ -33,7 +33,7 @@ fn symmetric_accelerations_are_those_of_the_links() {
         let links = compiled.scene.links.len();
         let of_copies = compiled.scene.groups.iter().flat_map(|group| &group.copies);
         braked += of_copies
-            .filter(|link| !compiled.scene.links[link.0].nonlinear.is_none())
+            .filter(|link| !compiled.scene.links[link.0].passive.is_viscous())
             .count();
         let mut random = Random::new(number as u64);
         for state in 0..100 {

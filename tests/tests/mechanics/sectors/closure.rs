@@ -2,7 +2,8 @@
 
 use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
-use branched_pendulum_codegen::program::{Argument, Entry, Purpose, ResultShape};
+use branched_pendulum_codegen::functions::{Argument, Purpose, ResultShape};
+use branched_pendulum_codegen::program::Entry;
 use branched_pendulum_tests::random::Random;
 
 use super::oracle::DEFINITIONS;

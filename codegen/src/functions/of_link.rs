@@ -1,6 +1,40 @@
-//! The functions of one link that energies by scale are formed of.
+//! Functions of one link of a tree in loops.
 
+use super::Argument;
 use crate::named_members::named_members;
+
+named_members! {
+    /// The functions that the recursion calls for each link of a tree in loops.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LinkFunction {
+        Leaf = "leaf":
+            "The response of a link without children: N and γ, and the torque of its joint on the parent where joints have torques.",
+        Attach = "attach":
+            "The response of a child about the pivot of its parent, whose motion is given: as it is where all children share one pivot.",
+        Inner = "inner":
+            "The response of a link with children, and b/J and κ/J, which `accelerate` takes.",
+        Pivot = "pivot":
+            "The apparent gravity at a child's pivot.",
+        Accelerate = "accelerate":
+            "The angular acceleration (in rad/s²) of a link with children, and what it hands them.",
+        AccelerateLeaf = "accelerate_leaf":
+            "The angular acceleration (in rad/s²) of a link without children.",
+    }
+}
+
+impl LinkFunction {
+    /// Its arguments beside constants and motion.
+    pub(super) fn given(self) -> &'static [Argument] {
+        match self {
+            Self::Leaf => &[],
+            Self::Attach => &[Argument::Response],
+            Self::Inner => &[Argument::Sums],
+            Self::Pivot => &[Argument::Carried],
+            Self::Accelerate => &[Argument::Elimination, Argument::Pivot],
+            Self::AccelerateLeaf => &[Argument::Pivot],
+        }
+    }
+}
 
 named_members! {
     /// A function of energies by scale in a tree in loops: of the constants and the motion

@@ -1,0 +1,215 @@
+//! Torques that a link has by its own motion: friction and a spring in its pivot, and drag
+//! against the ground.
+
+use super::Quantity;
+use super::bodies::GivenProperties;
+use super::reduction::times;
+use crate::description::Node;
+use crate::exact::Rational;
+use crate::report::{Report, TreeMessage};
+
+/// Friction and spring of a link; what it does not have is zero. Every stage has them with
+/// constants `V` of its own.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PassiveTorques<V = Quantity> {
+    /// Viscous friction in the link's pivot, N m s, on the angular velocity
+    /// relative to the parent (to the ground for the root).
+    pub friction: V,
+    /// Viscous drag against the ground, N m s, on the link's own angular velocity.
+    pub drag: V,
+    /// Stiffness of a torsion spring in the link's pivot, N m, on the angle
+    /// relative to the parent (to the vertical for the root).
+    pub spring: V,
+    /// Relative angle at which the spring is at rest, rad.
+    pub rest: V,
+    /// Friction that is not viscous, by [`FrictionPlace`].
+    pub laws: [FrictionLaw<V>; 2],
+}
+
+/// Law of the torque at the rate w, −(C/s + q s) w with the speed s = √(w² + ε²): Coulomb's
+/// −C sign w and −q w |w| where |w| is large beside the width ε, and smooth where it is not.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FrictionLaw<V = Quantity> {
+    /// Coulomb friction C, N m.
+    pub coulomb: V,
+    /// Quadratic friction q, N m s².
+    pub quadratic: V,
+    /// Width ε, rad/s.
+    pub width: V,
+}
+
+/// The part of a link that friction acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionPlace {
+    /// Its pivot, on the rate relative to the parent.
+    Joint,
+    /// Itself, against the ground, on its own rate.
+    Ground,
+}
+
+impl FrictionPlace {
+    /// Both, in the order of [`PassiveTorques::laws`].
+    pub const ALL: [Self; 2] = [Self::Joint, Self::Ground];
+}
+
+impl<V> FrictionLaw<V> {
+    /// The law with constants that are formed of its own.
+    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> FrictionLaw<W> {
+        FrictionLaw {
+            coulomb: formed(&self.coulomb),
+            quadratic: formed(&self.quadratic),
+            width: formed(&self.width),
+        }
+    }
+}
+
+impl<V> PassiveTorques<V> {
+    /// The torques with constants that are formed of their own.
+    pub fn map<W>(&self, mut formed: impl FnMut(&V) -> W) -> PassiveTorques<W> {
+        PassiveTorques {
+            friction: formed(&self.friction),
+            drag: formed(&self.drag),
+            spring: formed(&self.spring),
+            rest: formed(&self.rest),
+            laws: self.laws.each_ref().map(|law| law.map(&mut formed)),
+        }
+    }
+
+    /// The law of friction at a place.
+    pub fn law(&self, place: FrictionPlace) -> &FrictionLaw<V> {
+        &self.laws[place as usize]
+    }
+
+    /// C, q and ε in the pivot, q and ε against the ground, where no Coulomb friction acts:
+    /// a row of the runtime's tables.
+    pub fn law_row(&self) -> [&V; 5] {
+        let [joint, ground] = &self.laws;
+        [
+            &joint.coulomb,
+            &joint.quadratic,
+            &joint.width,
+            &ground.quadratic,
+            &ground.width,
+        ]
+    }
+}
+
+impl FrictionLaw {
+    /// The law in these parentheses of a link. Its width divides, so that it is one where
+    /// there is no law.
+    fn of(given: &GivenProperties, force: &str) -> Self {
+        let member = |name: &str| format!("{force}({name})");
+        let mut law = Self {
+            coulomb: given.get(&member("coulomb")),
+            quadratic: given.get(&member("quadratic")),
+            width: Quantity::integer(1),
+        };
+        if !law.is_none() {
+            let width = given.value(&member("width")).cloned();
+            law.width = width.unwrap_or_else(default_width);
+        }
+        law
+    }
+
+    /// Returns true if there is no such friction.
+    pub fn is_none(&self) -> bool {
+        self.coulomb.is_zero() && self.quadratic.is_zero()
+    }
+
+    /// The law of links that turn as one, as heavy as so many.
+    fn times(&mut self, count: usize) {
+        for value in [&mut self.coulomb, &mut self.quadratic] {
+            *value = times(count, value);
+        }
+    }
+}
+
+/// One hundredth of a radian a second.
+fn default_width() -> Quantity {
+    Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::Exact)
+}
+
+impl PassiveTorques {
+    /// The torques that a link gives.
+    pub(super) fn of(given: &GivenProperties) -> Self {
+        let spring = given.get("spring");
+        let rest = match spring.is_zero() {
+            true => Quantity::zero(),
+            false => given.get("rest"),
+        };
+        Self {
+            friction: given.get("friction"),
+            drag: given.get("drag"),
+            spring,
+            rest,
+            laws: ["friction", "drag"].map(|force| FrictionLaw::of(given, force)),
+        }
+    }
+
+    /// Returns true if all friction is viscous.
+    pub fn is_viscous(&self) -> bool {
+        self.laws.iter().all(FrictionLaw::is_none)
+    }
+
+    /// Returns true if friction acts in the link's pivot.
+    pub fn has_friction(&self) -> bool {
+        !self.friction.is_zero() || !self.law(FrictionPlace::Joint).is_none()
+    }
+
+    /// Returns true if the link drags at the ground.
+    pub fn has_drag(&self) -> bool {
+        !self.drag.is_zero() || !self.law(FrictionPlace::Ground).is_none()
+    }
+
+    /// Returns true if the joint has a torque of its own.
+    pub fn has_joint_torque(&self) -> bool {
+        self.has_friction() || !self.spring.is_zero()
+    }
+
+    /// Torques of so many links that turn as one.
+    pub(super) fn times(&mut self, count: usize) {
+        for value in [&mut self.friction, &mut self.drag, &mut self.spring] {
+            *value = times(count, value);
+        }
+        self.laws.iter_mut().for_each(|law| law.times(count));
+    }
+
+    /// Takes over the drag of links that do not turn by themselves. False where its width
+    /// is another one.
+    pub(super) fn take_drag(&mut self, other: &Self, count: usize) -> bool {
+        let mut other = other.clone();
+        other.times(count);
+        self.drag = Quantity::sum([self.drag.clone(), other.drag]);
+        let [_, own] = &mut self.laws;
+        let [_, law] = other.laws;
+        if own.is_none() {
+            *own = law;
+            return true;
+        }
+        own.coulomb = Quantity::sum([own.coulomb.clone(), law.coulomb.clone()]);
+        own.quadratic = Quantity::sum([own.quadratic.clone(), law.quadratic.clone()]);
+        law.is_none() || own.width == law.width
+    }
+}
+
+/// Checks that a rest angle is that of a spring, and a width that of a law.
+pub(super) fn check_idle(node: &Node, report: &mut Report) {
+    let find = |name: &str| node.properties.iter().find(|p| p.key() == name);
+    let link = || node.name.to_string();
+    if node.damaged {
+        return;
+    }
+    if let (Some(rest), None) = (find("rest"), find("spring")) {
+        report.error(
+            rest.name.span(),
+            TreeMessage::RestWithoutSpring { link: link() },
+        );
+    }
+    for force in ["friction", "drag"] {
+        let member = |member: &str| find(&format!("{force}({member})"));
+        if let (Some(width), None, None) = (member("width"), member("coulomb"), member("quadratic"))
+        {
+            report.error(width.name.span(), TreeMessage::IdleWidth { link: link() });
+        }
+    }
+}
