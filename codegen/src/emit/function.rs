@@ -36,7 +36,8 @@ impl Emission<'_> {
             Purpose::Accelerations
             | Purpose::AccelerationsUnder
             | Purpose::Transverse(_)
-            | Purpose::SmallAccelerations => {
+            | Purpose::SmallAccelerations
+            | Purpose::SmallAccelerationsUnder => {
                 quote!(#[inline(always)])
             }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
@@ -73,7 +74,9 @@ impl Emission<'_> {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
-            Argument::SmallDifferences | Argument::SmallRates => self.small_count(),
+            Argument::SmallDifferences | Argument::SmallRates | Argument::SmallTorques => {
+                self.small_count()
+            }
             Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
         }

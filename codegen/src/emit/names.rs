@@ -130,7 +130,7 @@ impl Emission<'_> {
             },
             Argument::Difference(sector) => &self.transverse_sector(sector).differences,
             Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
-            Argument::SmallDifferences | Argument::SmallRates => {
+            Argument::SmallDifferences | Argument::SmallRates | Argument::SmallTorques => {
                 return self.small_name(argument, index);
             }
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),

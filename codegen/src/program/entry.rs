@@ -36,6 +36,8 @@ pub enum Argument {
     SmallRates,
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
+    /// Generalized torques from outside on the differences that act back, N m.
+    SmallTorques,
     /// Accelerations of the prescribed links of the set with that number, rad/s².
     Prescribed(usize),
     /// Angles or angular velocities, absolute: the transform serves both.
@@ -255,6 +257,8 @@ pub enum Purpose {
     TransverseFriction(usize, bool),
     /// Accelerations of angles and of small differences that act back.
     SmallAccelerations,
+    /// The same under torques from outside.
+    SmallAccelerationsUnder,
     /// Their energy.
     SmallEnergy,
     /// Positions of these points of all links.

@@ -79,7 +79,7 @@ impl Naming {
         use Argument::{
             Absolute, AbsoluteMomenta, Alpha, Constants, Coordinates, Difference, DifferenceRate,
             Forces, Given, Motion, Omega, Prescribed, Rates, SmallDifferences, SmallRates,
-            Symmetric, Theta, Time, Torques,
+            SmallTorques, Symmetric, Theta, Time, Torques,
         };
         use Purpose as P;
         use ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
@@ -219,6 +219,11 @@ impl Naming {
             P::SmallAccelerations => {
                 let arguments = [Theta, Omega, SmallDifferences, SmallRates];
                 timed("small_accelerations", &arguments, Vector)
+            }
+            P::SmallAccelerationsUnder => {
+                let motion = [Theta, Omega, SmallDifferences, SmallRates];
+                let arguments = [&motion[..], &[Torques, SmallTorques]].concat();
+                timed("small_accelerations_under", &arguments, Vector)
             }
             P::SmallEnergy => {
                 let arguments = [Theta, Omega, SmallDifferences, SmallRates];

@@ -18,6 +18,7 @@ impl Argument {
             Self::Difference(_) | Self::SmallDifferences => "difference",
             Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
             Self::Torques => "torques",
+            Self::SmallTorques => "difference_torques",
             Self::Prescribed(_) => "prescribed",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",

@@ -11,8 +11,7 @@ const METHODS: &[&str] = &[
     "kinetic_energy_of", "link_body", "link_properties", "mass_matrix", "momenta", "new", "part",
     "pivot_torques", "pivot_velocities", "pivots", "point_torques_into",
     "point_velocities_into", "points_into", "potential_energy", "potential_energy_of",
-    "small_accelerations", "small_accelerations_into", "small_accelerations_of", "small_energy",
-    "small_energy_of", "stiffness_matrix", "symmetric_accelerations", "symmetric_accelerations_into",
+    "small_energy", "small_energy_of", "stiffness_matrix", "symmetric_accelerations", "symmetric_accelerations_into",
     "symmetric_momenta", "symmetric_velocities", "taylor_coefficients",
     "taylor_coefficients_into", "to_symmetric", "transfers_into", "velocities", "with_parameters",
 ];
@@ -30,6 +29,7 @@ const METHOD_FAMILIES: &[&str] = &[
     "friction_power",
     "outside_power",
     "sector_transfers",
+    "small_accelerations",
     "symmetric_",
     "transverse_",
     "transfer_amplitude_",

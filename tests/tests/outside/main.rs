@@ -7,3 +7,4 @@ mod gusts;
 mod lanes;
 mod prescribed;
 mod reduced;
+mod small;
