@@ -132,7 +132,11 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
         } = self;
         let reach = block.strips.reach();
         let (sizes, slots) = (storage.sizes, storage.slots);
-        let column = constants.len() / sizes.constants.max(1);
+        let column = match sizes.constants {
+            // Nothing is read of links that are alike.
+            0 => usize::MAX,
+            columns => constants.len() / columns,
+        };
         let sincos = storage.sincos.window(storage.lead, reach.own)?;
         let joint_motions = match sizes.joints {
             true => storage.joint_motions.window(storage.lead, reach.own)?,
