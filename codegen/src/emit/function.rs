@@ -35,6 +35,7 @@ impl Emission<'_> {
         let inline = match entry.purpose {
             Purpose::Accelerations
             | Purpose::AccelerationsUnder
+            | Purpose::Prescribed(_)
             | Purpose::Transverse(_)
             | Purpose::SmallAccelerations
             | Purpose::SmallAccelerationsUnder => {

@@ -135,8 +135,7 @@ impl Emission<'_> {
             }
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
             Argument::Prescribed(set) => {
-                let link = self.scene.prescribed[set].links[index];
-                return format!("prescribed_{}", self.scene.links[link.0].name);
+                return format!("prescribed_{}", self.scene.prescribed[set].members[index]);
             }
             Argument::Forces => {
                 let axis = ["x", "y"][index % 2];

@@ -55,7 +55,8 @@ pub(super) fn room<T: Scalar>(tree: &Skeleton<T>) -> usize {
 }
 
 /// Tells the accelerations of all links, in any order, of states in the lanes of `V`;
-/// of none where the room is too small.
+/// of none where the room is too small. What comes from `outside` to a link is its torque
+/// or given acceleration, and 1 where it is held.
 #[inline(always)]
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
@@ -63,7 +64,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     mut room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
-    torque: impl Fn(usize) -> V,
+    outside: impl Fn(usize) -> [V; 2],
     mut alpha: impl FnMut(usize, V),
 ) {
     let (plan, room) = (&tree.states, &mut room);
@@ -91,7 +92,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         for block in partition.windows(&(0..partition.count)) {
             let lasting = take(&mut rest, own.lasting());
             let mut sweep = sweep(tree, block, own, [lasting, &mut *block_passing]);
-            form(&mut sweep, &[], &[], &theta, &omega, &torque);
+            form(&mut sweep, &[], &[], &theta, &omega, &outside);
             if let Some(view) = sweep.view() {
                 Passes::<E, T, V, V>::of(&view).up();
             }
@@ -105,7 +106,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         &plan.parents,
         &theta,
         &omega,
-        &torque,
+        &outside,
     );
     if let Some(view) = top.view() {
         let passes = Passes::<E, T, V, V>::of(&view);
@@ -193,7 +194,7 @@ fn form<T: Scalar, V: Simd<T>>(
     parents: &[u32],
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
-    torque: &impl Fn(usize) -> V,
+    outside: &impl Fn(usize) -> [V; 2],
 ) {
     let (block, storage) = (sweep.block, &sweep.storage);
     for generation in block.own_generations() {
@@ -214,8 +215,11 @@ fn form<T: Scalar, V: Simd<T>>(
                     let _ = velocities.store::<V, 1>(own, &[rate]);
                 }
                 if storage.sizes.forced {
-                    let torque = torque(link(order, places[i]));
+                    let [torque, held] = outside(link(order, places[i]));
                     let _ = storage.torques.store::<V, 1>(own, &[torque]);
+                    if storage.sizes.held {
+                        let _ = storage.held.store::<V, 1>(own, &[held]);
+                    }
                 }
                 if !storage.sizes.joints {
                     continue;
