@@ -156,7 +156,7 @@ fn no_estimate_stands_where_copies_turn_over() {
     let mut nearly = NearlyInPhase::new(&model, patterns, 1e-3, FRAME).unwrap();
     let state = |rate: f64, difference: f64| [0.0, difference, -difference, rate, rate, rate];
     let energy = |rate: f64| energy(&model, &[0.0; 2], &[rate; 2]);
-    let (slow, quick) = (4.0, 12.0);
+    let (slow, quick) = (2.0, 12.0);
     assert!(energy(slow) < 1.5 && energy(quick) > 1.5);
     assert!(nearly.error(&state(slow, 1e-3)) < 1e-3);
     assert_eq!(nearly.error(&state(quick, 1e-9)), f64::INFINITY);
