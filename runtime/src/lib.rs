@@ -111,8 +111,8 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, Parametric, Pendulum, Positions, Prescribed, SmallDifferences,
-    SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
+    Canonical, Cast, Energy, Forced, ForcedDifferences, Parametric, Pendulum, Positions,
+    Prescribed, SmallDifferences, SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};
 

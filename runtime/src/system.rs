@@ -43,8 +43,11 @@ pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;
 pub use patterns::{DifferencePatterns, PatternError};
 pub use positions::{LinkPoint, LinkProperties, Positions};
-pub use prescribed::{LinkCourse, Prescribed, PrescribedLinks, PrescribedMotion, PrescribedOde};
-pub use small::{SmallDifferences, SmallOde};
+pub use prescribed::{
+    LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedLinks, PrescribedMotion,
+    PrescribedOde,
+};
+pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
 pub use transverse::{InPhaseMotion, Transverse, TransverseOde, TransverseSector};

@@ -301,7 +301,9 @@ impl Emission<'_> {
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(..) => self.transverse_meaning(purpose),
-            Purpose::SmallAccelerations | Purpose::SmallEnergy => self.small_meaning(purpose),
+            Purpose::SmallAccelerations
+            | Purpose::SmallAccelerationsUnder
+            | Purpose::SmallEnergy => self.small_meaning(purpose),
             Purpose::Positions(_)
             | Purpose::PointVelocities(_)
             | Purpose::PointTorques(_)
@@ -335,6 +337,7 @@ fn argument_meaning(argument: Argument) -> Option<&'static str> {
         }
         Argument::AbsoluteMomenta | Argument::Momenta => Some("`momenta` (in kg m²/s)"),
         Argument::Torques => Some("`torques` (in N m)"),
+        Argument::SmallTorques => Some("`difference_torques` (in N m)"),
         Argument::Prescribed(_) => Some("accelerations `prescribed` (in rad/s²)"),
         _ => None,
     }

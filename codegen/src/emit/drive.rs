@@ -1,8 +1,10 @@
-//! Docs of driven trees.
+//! Docs of driven trees, and the drive as trees in loops take it.
 
 use super::Emission;
 use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
 use crate::mechanics::{DriveTerms, PivotMotion, Temporal};
+use proc_macro2::TokenStream;
+use quote::quote;
 
 impl Emission<'_> {
     /// The drive in words, for the model's docs.
@@ -103,5 +105,18 @@ impl Emission<'_> {
     pub(super) fn power_formulas(&self, power: &Expr) -> Vec<NamedFormula> {
         let power = std::iter::once(NamedFormula::of_letter("P", power));
         power.chain(self.drive_formulas()).collect()
+    }
+
+    /// The drive as the tree takes it.
+    pub(super) fn drive_at_time(&self) -> TokenStream {
+        self.drive_of(&quote!(self))
+    }
+
+    /// The drive of a model.
+    pub(super) fn drive_of(&self, model: &TokenStream) -> TokenStream {
+        match self.mechanics.drive {
+            Some(_) => quote!(::core::option::Option::Some(#model.root_drive(time))),
+            None => quote!(::core::option::Option::None),
+        }
     }
 }

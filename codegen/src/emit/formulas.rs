@@ -80,6 +80,7 @@ impl Emission<'_> {
             | Purpose::TransverseFriction(..) => self.transverse_formulas(purpose),
             Purpose::SmallEnergy => self.small_formulas(),
             Purpose::SmallAccelerations
+            | Purpose::SmallAccelerationsUnder
             | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
             | Purpose::Prescribed(_)

@@ -36,8 +36,10 @@ impl Emission<'_> {
         let inline = match entry.purpose {
             Purpose::Accelerations
             | Purpose::AccelerationsUnder
+            | Purpose::Prescribed(_)
             | Purpose::Transverse(_)
-            | Purpose::SmallAccelerations => {
+            | Purpose::SmallAccelerations
+            | Purpose::SmallAccelerationsUnder => {
                 quote!(#[inline(always)])
             }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
@@ -74,7 +76,9 @@ impl Emission<'_> {
             Argument::Difference(sector) | Argument::DifferenceRate(sector) => {
                 self.transverse_links(sector)
             }
-            Argument::SmallDifferences | Argument::SmallRates => self.small_count(),
+            Argument::SmallDifferences | Argument::SmallRates | Argument::SmallTorques => {
+                self.small_count()
+            }
             Argument::Prescribed(set) => self.scene.prescribed[set].links.len(),
             _ => self.scene.links.len(),
         }

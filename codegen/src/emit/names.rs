@@ -131,13 +131,12 @@ impl Emission<'_> {
             },
             Argument::Difference(sector) => &self.transverse_sector(sector).differences,
             Argument::DifferenceRate(sector) => &self.transverse_sector(sector).rates,
-            Argument::SmallDifferences | Argument::SmallRates => {
+            Argument::SmallDifferences | Argument::SmallRates | Argument::SmallTorques => {
                 return self.small_name(argument, index);
             }
             Argument::Torques => return format!("outside_{}", self.scene.links[index].name),
             Argument::Prescribed(set) => {
-                let link = self.scene.prescribed[set].links[index];
-                return format!("prescribed_{}", self.scene.links[link.0].name);
+                return format!("prescribed_{}", self.scene.prescribed[set].members[index]);
             }
             Argument::Forces => {
                 let axis = ["x", "y"][index % 2];

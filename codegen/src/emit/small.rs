@@ -34,6 +34,7 @@ impl Emission<'_> {
         };
         let letter = match argument {
             Argument::SmallDifferences => "delta",
+            Argument::SmallTorques => "outside_delta",
             _ => "delta_rate",
         };
         match links.filter(|(_, other)| *other == link).count() {
@@ -56,6 +57,11 @@ impl Emission<'_> {
                 ),
                 String::new(),
                 "Copies have the angles θ + e_c δ, as for `transverse_accelerations_…`, with the mean angles θ `theta` (in rad) and their rates `omega` (in rad/s). For pairs the differences are wrong by terms of third order in them, and the means of fourth.".into(),
+            ],
+            Purpose::SmallAccelerationsUnder => vec![
+                "Second time derivatives (in rad/s²) as [`small_accelerations`](Self::small_accelerations), with generalized torques (in N m) from outside: `torques` Q on the angles in phase, the sums of those on all copies, and `difference_torques` Σ e_c Q_c on the differences (`DifferencePatterns::torques`).".into(),
+                String::new(),
+                "Their power on E is Q·ω with what the torques on differences do on `difference_rate`.".into(),
             ],
             _ => vec![format!(
                 "Energy E (in J) of the whole tree through second order in the differences of {names}: kinetic and potential, which the motion of `small_accelerations` keeps without friction and drive."
@@ -85,7 +91,10 @@ impl Emission<'_> {
         let (other, time) = (super::other_scalar(name), self.time_name());
         let accelerations = self.fill("accelerations", Purpose::SmallAccelerations);
         let energy = self.value_at_slices(Purpose::SmallEnergy);
+        let forced = self.forced_differences();
         Some(quote! {
+            #forced
+
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];
 
@@ -126,6 +135,44 @@ impl Emission<'_> {
                     difference_rate: &[T],
                 ) -> T {
                     #energy
+                }
+            }
+        })
+    }
+
+    /// `impl ForcedDifferences`, where torques are asked for; NaN for slices of a wrong
+    /// length.
+    fn forced_differences(&self) -> Option<TokenStream> {
+        self.entry(Purpose::SmallAccelerationsUnder)?;
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (other, time) = (super::other_scalar(name), self.time_name());
+        let accelerations = self.fill("accelerations", Purpose::SmallAccelerationsUnder);
+        Some(quote! {
+            impl<T: #runtime::Scalar> #runtime::ForcedDifferences<T> for #name<T> {
+                #[inline(always)]
+                fn small_accelerations_under_into(
+                    &self,
+                    #time: T,
+                    [theta, difference]: [&[T]; 2],
+                    [omega, difference_rate]: [&[T]; 2],
+                    [torques, difference_torques]: [&[T]; 2],
+                    accelerations: &mut [T],
+                ) {
+                    #accelerations
+                }
+
+                #[inline(always)]
+                fn small_accelerations_under_of<#other: #runtime::Scalar>(
+                    model: &#name<#other>,
+                    time: #other,
+                    angles: [&[#other]; 2],
+                    rates: [&[#other]; 2],
+                    torques: [&[#other]; 2],
+                    accelerations: &mut [#other],
+                ) {
+                    #runtime::ForcedDifferences::small_accelerations_under_into(
+                        model, time, angles, rates, torques, accelerations,
+                    );
                 }
             }
         })

@@ -45,6 +45,10 @@ impl Emission<'_> {
             String::new(),
             "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
         ];
+        if !self.scene.prescribed.is_empty() {
+            lines.push(String::new());
+            lines.push("Of a held link the angular acceleration is given where the torque from outside stands, nothing of it is eliminated (ch. 9), and where accelerations are told stands the torque that it takes, in N m.".into());
+        }
         if let Some(link) = &self.mechanics.link {
             let formulas = link.formulas(&self.mechanics.symbols);
             self.show_text(&formulas, formulas.len(), &mut lines);

@@ -10,10 +10,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let (time, drive) = (self.time_name(), self.drive_at_time());
         let other = super::other_scalar(name);
-        let drive_of = match self.mechanics.drive {
-            Some(_) => quote!(::core::option::Option::Some(pendulum.root_drive(time))),
-            None => quote!(::core::option::Option::None),
-        };
+        let drive_of = self.drive_of(&quote!(pendulum));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
                 fn accelerations_under_into(

@@ -23,6 +23,7 @@ impl Emission<'_> {
         let energy = energies.then(|| self.strip_energy());
         let positions = self.positions_trait();
         let forced = self.scene.requests.forces.then(|| self.strip_forced());
+        let prescribed = self.prescribed_trait();
         let scales = self.strip_scales();
         quote! {
             #equations
@@ -31,6 +32,7 @@ impl Emission<'_> {
             #energy
             #positions
             #forced
+            #prescribed
             #scales
         }
     }
@@ -93,6 +95,11 @@ impl Emission<'_> {
                 const FORCED: bool = true;
             )
         });
+        let held = strips.has_held_links.then(|| {
+            quote!(
+                const HELD: bool = true;
+            )
+        });
         let functions = LinkFunction::ALL.into_iter();
         let functions = functions.filter_map(|function| self.link_function(function));
         quote! {
@@ -119,6 +126,7 @@ impl Emission<'_> {
                 const JOINTS: bool = #joints;
                 const TORQUE: bool = #torque;
                 #forced
+                #held
 
                 #(#functions)*
             }
@@ -196,7 +204,9 @@ impl Emission<'_> {
                 let under = self.scene.requests.forces;
                 let under = under.then(|| self.array_function(Purpose::AccelerationsUnder));
                 let own = self.array_function(Purpose::Accelerations);
-                quote!(#own #under)
+                let sets = 0..self.scene.prescribed.len();
+                let prescribed = sets.map(|number| self.prescribed_function(number));
+                quote!(#own #under #(#prescribed)*)
             }
         };
         let (energies, drive) = (self.strip_energies(), self.strip_drive());
@@ -276,14 +286,6 @@ impl Emission<'_> {
                 #call
                 alpha
             }
-        }
-    }
-
-    /// The drive as the tree takes it.
-    pub(super) fn drive_at_time(&self) -> TokenStream {
-        match self.mechanics.drive {
-            Some(_) => quote!(::core::option::Option::Some(self.root_drive(time))),
-            None => quote!(::core::option::Option::None),
         }
     }
 

@@ -178,12 +178,18 @@ fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
 /// The trait of prescribed links.
 fn prescribed(naming: &Naming, name: &Ident, runtime: &TokenStream) -> Option<TokenStream> {
     (!naming.prescribed.is_empty()).then(|| {
+        let other = super::other_scalar(name);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[];
                 fn accelerations_prescribed_into(
                     &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
                     _: &mut [T], _: &mut [T],
+                ) {}
+                fn accelerations_prescribed_of<#other: #runtime::Scalar>(
+                    _: &#name<#other>, _: usize, _: #other,
+                    _: #runtime::system::PrescribedMotion<'_, #other>,
+                    _: &mut [#other], _: &mut [#other],
                 ) {}
             }
         }

@@ -33,6 +33,8 @@ pub enum Argument {
     SmallRates,
     /// Generalized torques from outside, one for each absolute angle, N m.
     Torques,
+    /// Generalized torques from outside on the differences that act back, N m.
+    SmallTorques,
     /// Accelerations of the prescribed links of the set with that number, rad/s².
     Prescribed(usize),
     /// Angles or angular velocities, absolute: the transform serves both.
@@ -96,6 +98,7 @@ impl Argument {
             Self::Difference(_) | Self::SmallDifferences => "difference",
             Self::DifferenceRate(_) | Self::SmallRates => "difference_rate",
             Self::Torques => "torques",
+            Self::SmallTorques => "difference_torques",
             Self::Prescribed(_) => "prescribed",
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",

@@ -3,8 +3,8 @@
 
 use super::Argument::{
     self, Absolute, AbsoluteMomenta, Alpha, Constants, Coordinates, Difference, DifferenceRate,
-    Forces, Given, Motion, Omega, Rates, SmallDifferences, SmallRates, Symmetric, Theta, Time,
-    Torques,
+    Forces, Given, Motion, Omega, Rates, SmallDifferences, SmallRates, SmallTorques, Symmetric,
+    Theta, Time, Torques,
 };
 use super::ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
 use super::{
@@ -204,6 +204,12 @@ purposes! { naming:
     SmallAccelerations => {
         let arguments = [Theta, Omega, SmallDifferences, SmallRates];
         naming.timed("small_accelerations", &arguments, Vector)
+    };
+    /// The same under torques from outside.
+    SmallAccelerationsUnder => {
+        let motion = [Theta, Omega, SmallDifferences, SmallRates];
+        let arguments = [&motion[..], &[Torques, SmallTorques]].concat();
+        naming.timed("small_accelerations_under", &arguments, Vector)
     };
     /// Their energy.
     SmallEnergy => {

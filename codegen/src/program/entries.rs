@@ -47,7 +47,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     if let Some(transverse) = &mechanics.transverse {
         list.transverse(mechanics, transverse);
         if let Some(small) = &transverse.small {
-            list.small(mechanics, transverse, small);
+            list.small(scene, mechanics, transverse, small);
         }
     }
     if let Some(positions) = &mechanics.positions {

@@ -75,6 +75,7 @@ impl<'a> Rebuilt<'a> {
             // The reader knows the meaning of elements of rows.
             Argument::Forces
             | Argument::Torques
+            | Argument::SmallTorques
             | Argument::Prescribed(_)
             | Argument::Constants
             | Argument::Motion

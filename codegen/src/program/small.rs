@@ -4,16 +4,19 @@ use super::entries::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Mechanics, SmallMechanics, TransverseMechanics};
+use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
-    /// One linear system for the accelerations of angles and differences, and the energy.
+    /// One linear system for the accelerations of angles and differences, without torques
+    /// from outside and under them where they are asked for, and the energy.
     pub(super) fn small(
         &mut self,
+        scene: &Scene,
         mechanics: &Mechanics,
         transverse: &TransverseMechanics,
         small: &SmallMechanics,
     ) {
-        use Argument::{Omega, SmallDifferences, SmallRates, Theta};
+        use Argument::{Omega, SmallDifferences, SmallRates, SmallTorques, Theta, Torques};
         let frame = &mechanics.absolute;
         let links = frame.coordinates.len();
         let names = self.lowering.coordinate_names(frame);
@@ -62,12 +65,24 @@ impl EntryList<'_, '_> {
             let name = |link: &String| format!("difference_{}_{link}", sector.name);
             unknowns.extend(below.iter().map(name));
         }
-        let right = residual.into_iter();
-        let right = right
-            .map(|value| self.lowering.builder.neg(value))
-            .collect();
-        let outputs = self.lowering.builder.solve(matrix, right, &unknowns);
+        let builder = &mut self.lowering.builder;
+        let right = residual.iter().map(|&value| builder.neg(value)).collect();
+        let pushed = scene.requests.forces.then(|| matrix.clone());
+        let outputs = builder.solve(matrix, right, &unknowns);
         self.push(Purpose::SmallAccelerations, outputs);
+        if let Some(matrix) = pushed {
+            let builder = &mut self.lowering.builder;
+            let right = residual.iter().enumerate().map(|(index, &value)| {
+                let torque = match index.checked_sub(links) {
+                    None => builder.input(Torques, index),
+                    Some(difference) => builder.input(SmallTorques, difference),
+                };
+                builder.sub(torque, value)
+            });
+            let right = right.collect();
+            let outputs = builder.solve(matrix, right, &unknowns);
+            self.push(Purpose::SmallAccelerationsUnder, outputs);
+        }
         self.push(Purpose::SmallEnergy, vec![energy]);
     }
 }

@@ -44,7 +44,6 @@ pub enum Layout {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
-    pub(super) prescribed: bool,
 }
 
 /// How the code of a rule would be laid out that is not reduced.
@@ -200,7 +199,6 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (*transverse, "`emit(transverse)`"),
         (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
-        (asked.prescribed, "`prescribed(…)`"),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];

@@ -220,7 +220,10 @@ pub struct Group {
 pub struct PrescribedSet {
     /// Their names, joined: part of the name of their function.
     pub name: String,
-    /// The links, in the order written.
+    /// The names, in the order written.
+    pub members: Vec<String>,
+    /// The links in that order; where the code is loops over generations, by their index
+    /// in the whole tree.
     pub links: Vec<LinkId>,
 }
 

@@ -41,7 +41,6 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let asked = Asked {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
-        prescribed: !description.prescribed.is_empty(),
     };
     let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
     let reduction = readable
@@ -100,9 +99,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
     let mut prescribed = Vec::new();
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
-        if layout == Layout::Unrolled {
-            prescribed = resolve_prescribed(&description.prescribed, &expansion, report);
-        }
+        prescribed = resolve_prescribed(&description.prescribed, &expansion, layout, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),

@@ -92,8 +92,7 @@ impl Display for Scene {
             writeln!(f, "drive {name} {} {unit}", signal.display(parameters))?;
         }
         for set in prescribed {
-            let links = set.links.iter().map(|link| link.0);
-            writeln!(f, "prescribed {}", self.names(links))?;
+            writeln!(f, "prescribed {}", set.members.join(", "))?;
         }
         writeln!(f, "requests {requests}")?;
         for Observable { name, value } in observables {

@@ -16,6 +16,8 @@ struct Algebra<'s> {
     strips: &'s LoopTree,
     /// The link's own unit of length.
     unit: Formula,
+    /// 1 where the link is held, 0 where it is free.
+    held: i64,
 }
 
 /// Reciprocal of the unit of torques of a bush: of the inertia of its leaf `right` about
@@ -113,6 +115,7 @@ impl Algebra<'_> {
         for (index, id) in motion.into_iter().enumerate() {
             values.push((stand_in(Argument::Motion, index), self.s(id)));
         }
+        values.push((stand_in(Argument::Motion, 6), Formula::integer(self.held)));
         values
     }
 
@@ -125,7 +128,7 @@ impl Algebra<'_> {
         };
         let joint = |index| self.s(stand_in(Argument::Motion, index));
         let outside = match self.strips.has_outside_torques {
-            true => Formula::integer(PER_TORQUE),
+            true => Formula::integer(PER_TORQUE * (1 - self.held)),
             false => Formula::zero(),
         };
         let terms = [
@@ -201,15 +204,65 @@ impl Algebra<'_> {
         }
     }
 
-    /// Fails unless a link without children is the balance without them.
-    fn assert_leaf(&self, found: &[Formula]) {
+    /// Values of the balance without children, and without their joints.
+    fn childless(&self) -> Vec<(SymbolId, Formula)> {
         let s = &self.balance.symbols;
-        let b = &self.balance;
         let none = s.deficit.iter().chain(&s.bias_force);
         let mut none: Vec<(SymbolId, Formula)> = none.map(|&id| (id, Formula::zero())).collect();
-        // No joints below.
         let own = &self.s(s.torque) - &self.torque_below();
         none.push((s.torque, own));
+        none
+    }
+
+    /// Fails unless these are the response and, behind it, what is kept of the balance of a
+    /// link that has the given acceleration.
+    fn assert_held(&self, found: &[Formula], mass: &Formula, none: &[(SymbolId, Formula)]) {
+        let (b, s) = (&self.balance, &self.balance.symbols);
+        let given = self.given_acceleration();
+        let along = |i: usize| self.named(&b.first_moment[i]);
+        let force = |i: usize| &self.named(&b.held_force[i]) + &(&along(i) * &given);
+        let response = [
+            (&self.s(s.deficit[0]) - mass, "held xx"),
+            (self.s(s.deficit[1]), "held xy"),
+            (&self.s(s.deficit[2]) - mass, "held yy"),
+            (force(0), "held γ_x"),
+            (force(1), "held γ_y"),
+        ];
+        let steady = &(&self.named(&b.joint_inertia) * &given) + &self.named(&b.bias);
+        let kept = [
+            (&along(0) / &self.unit, "held gain x"),
+            (&along(1) / &self.unit, "held gain y"),
+            (&steady / &self.unit, "held offset"),
+        ];
+        let split = self.strips.length(Argument::Response);
+        let pairs = found.iter().zip(response);
+        let kept = found.iter().skip(split).zip(kept);
+        for (found, (expected, name)) in pairs.chain(kept) {
+            let driven = SymbolId(20_000 + Column::DriveTorque as u32);
+            let mut none = none.to_vec();
+            if !none.is_empty() {
+                none.push((driven, Formula::zero()));
+            }
+            let expected = expected.substitute(&none);
+            match name {
+                // Of a leaf none.
+                "held xx" | "held xy" | "held yy" if expected.is_zero() => {
+                    assert!(found.is_zero(), "{name}");
+                }
+                _ => self.assert_equal(name, found, &expected),
+            }
+        }
+    }
+
+    /// The acceleration that is given in place of a torque.
+    fn given_acceleration(&self) -> Formula {
+        self.s(stand_in(Argument::Motion, 5))
+    }
+
+    /// Fails unless a link without children is the balance without them.
+    fn assert_leaf(&self, found: &[Formula]) {
+        let b = &self.balance;
+        let none = self.childless();
         let expected = [
             &b.deficit[0],
             &b.deficit[1],
@@ -227,7 +280,7 @@ impl Algebra<'_> {
     }
 }
 
-fn with_algebra(text: &str, own_unit: bool, work: impl FnOnce(&Algebra<'_>) + Send) {
+fn with_algebra(text: &str, own_unit: bool, held: i64, work: impl FnOnce(&Algebra<'_>) + Send) {
     let stages = compiled(text, "loops");
     let (mechanics, program) = (&stages.mechanics, &stages.program);
     let balance = mechanics.link.as_ref().expect("a tree in loops");
@@ -243,6 +296,7 @@ fn with_algebra(text: &str, own_unit: bool, work: impl FnOnce(&Algebra<'_>) + Se
             balance,
             strips,
             unit,
+            held,
         };
         work(&algebra);
     })
@@ -253,10 +307,48 @@ fn with_algebra(text: &str, own_unit: bool, work: impl FnOnce(&Algebra<'_>) + Se
 fn the_functions_of_a_bush_are_the_balance() {
     functions_are_the_balance(BUSH);
     functions_are_the_balance(&format!("{BUSH}, emit(forces)"));
+    functions_are_the_balance(&format!("{BUSH}, prescribed(left)"));
+}
+
+/// A link that is held hands on what its acceleration does, and tells its reaction.
+#[test]
+fn the_functions_of_a_held_link_are_the_balance() {
+    let text = format!("{BUSH}, prescribed(left, tip)");
+    with_algebra(&text, true, 1, |algebra| {
+        let (b, s) = (algebra.balance, &algebra.balance.symbols);
+        let below = (Argument::Sums, algebra.below());
+        let inner = algebra.outputs("inner", &[below]);
+        algebra.assert_held(&inner, &algebra.s(s.composite[3]), &[]);
+        let leaf = algebra.outputs("leaf", &[]);
+        algebra.assert_held(&leaf, &Formula::zero(), &algebra.childless());
+        let split = algebra.strips.length(Argument::Response);
+        let given = [
+            (Argument::Elimination, inner[split..].to_vec()),
+            (Argument::Pivot, algebra.pivot()),
+        ];
+        let found = algebra.outputs("accelerate", &given);
+        let alpha = algebra.given_acceleration();
+        let pulls = [0, 1].map(|i| {
+            let component = algebra.s(s.pivot[i]);
+            &algebra.named(&b.first_moment[i]) * &component
+        });
+        let torque = [
+            &algebra.named(&b.joint_inertia) * &alpha,
+            algebra.named(&b.bias),
+        ];
+        let torque: Formula = pulls.into_iter().chain(torque).sum();
+        let reaction = &torque / &Formula::integer(PER_TORQUE);
+        algebra.assert_equal("the reaction", &found[0], &reaction);
+        let turned = [(s.acceleration, alpha)];
+        for (found, expected) in found[1..].iter().zip(&b.child_pivot) {
+            let expected = -Formula::from_expr(expected).substitute(&turned);
+            algebra.assert_equal("the children's pivot", found, &expected);
+        }
+    });
 }
 
 fn functions_are_the_balance(text: &str) {
-    with_algebra(text, true, |algebra| {
+    with_algebra(text, true, 0, |algebra| {
         let below = (Argument::Sums, algebra.below());
         algebra.assert_inner(&algebra.outputs("inner", &[below]));
         algebra.assert_leaf(&algebra.outputs("leaf", &[]));
@@ -278,7 +370,7 @@ fn functions_are_the_balance(text: &str) {
 
 #[test]
 fn the_functions_of_several_attachments_are_the_balance() {
-    with_algebra(SEVERAL, false, |algebra| {
+    with_algebra(SEVERAL, false, 0, |algebra| {
         let mut response = algebra.below();
         let response_length = algebra.strips.length(Argument::Response);
         response.truncate(response_length);

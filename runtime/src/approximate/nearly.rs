@@ -30,8 +30,10 @@ use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
 /// For 400 states in disorder of the paper's pendulum, whose motion in phase has up to the energy
 /// of a release from 30° (x = 1), with differences up to 0.01, 0.05, 0.2 and 0.5 rad, the
 /// estimate is between 0.8 and 30 times the error, and for as many of a binary tree of seven
-/// links between 0.3 and 30 times; a test asks for that. Beyond x = 1.5 it is no bound: motions
-/// that turn copies over can multiply differences by a thousand in a second.
+/// links between 0.3 and 30 times; a test asks for that. Beyond x = 1.5, where motions that turn
+/// copies over can multiply differences by a thousand in a second, nothing is known: with
+/// differences the estimate is infinite there, so that [`Switched`](super::Switched) takes the
+/// full model, and without any it is zero.
 ///
 /// # Examples
 ///

@@ -7,9 +7,9 @@ use crate::scalar::{Real, Scalar};
 use crate::system::{DifferencePatterns, SmallDifferences, SmallOde};
 
 /// Growth of the error with the energy in phase beyond what lifts copies to the horizontal,
-/// and its largest exponent.
+/// and how far beyond it is known.
 const GROWTH: f64 = 6.0;
-const MOST_GROWTH: f64 = 20.0;
+const MOST_BEYOND: f64 = 0.5;
 
 /// The parts that the estimate of [`NearlyInPhase`](super::NearlyInPhase) is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,17 +90,21 @@ impl<T: Real> SmallError<T> {
         let none = vec![T::ZERO; difference.len()];
         let energy = model.small_energy_of(theta, omega, &none, &none) - self.rest;
         let beyond = Real::max(energy / self.lift - T::ONE, T::ZERO);
-        let exponent = Real::min(T::from_f64(GROWTH) * beyond, T::from_f64(MOST_GROWTH));
-        let grown = T::from_f64(core::f64::consts::E).powf(exponent);
         let rate = Scalar::sqrt(self.fastest + pace);
         let even = T::from_f64(0.25) * rate * Scalar::sqrt(small_square) * small_square;
         let swing = Real::min(Scalar::sqrt(swing_square), T::ONE);
         let uneven = self.unevenness * small_square + within_others::<T, P>(&parts);
         let dropped = self.dropped(patterns, state, &small);
-        [
-            (even + uneven * swing) * grown + dropped,
-            Scalar::sqrt(small_square + swing_square),
-        ]
+        let own = even + uneven * swing;
+        let error = if beyond <= T::from_f64(MOST_BEYOND) {
+            own * T::from_f64(core::f64::consts::E).powf(T::from_f64(GROWTH) * beyond) + dropped
+        } else if own + dropped == T::ZERO {
+            T::ZERO
+        } else {
+            // Copies that turn over may multiply differences by whatever.
+            T::from_f64(f64::INFINITY)
+        };
+        [error, Scalar::sqrt(small_square + swing_square)]
     }
 
     /// Returns the largest amplitude of an angle that the patterns leave out.

@@ -314,17 +314,18 @@ impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, 
     }
 }
 
-/// Writes the rates of a state under torques, which stand where the velocities will.
+/// Writes the rates of a state of so many angles under torques, which stand where the
+/// velocities will.
 #[inline(always)]
-fn fill<T: Scalar>(
-    links: usize,
+pub(super) fn fill<T: Scalar>(
+    angles: usize,
     torques: &impl Torques<T>,
     time: T,
     state: &[T],
     rates: &mut [T],
     accelerate: impl FnOnce([&[T]; 3], &mut [T]),
 ) {
-    if let Some(([theta, omega], [first, alpha])) = halves(links, state, rates) {
+    if let Some(([theta, omega], [first, alpha])) = halves(angles, state, rates) {
         torques.torques_into(time, theta, omega, first);
         accelerate([theta, omega, first], alpha);
         first.copy_from_slice(omega);

@@ -194,6 +194,29 @@ impl DifferencePatterns {
         }
     }
 
+    /// Returns the generalized torques on the model of torques on the links of the whole
+    /// tree, for the same work: their sums for the angles in phase and, behind them, the
+    /// sums with the weights of the copies for the differences. Empty for another number.
+    #[must_use]
+    pub fn torques<T: Scalar>(&self, whole: &[T]) -> Vec<T> {
+        if whole.len() != self.places.len() {
+            return Vec::new();
+        }
+        let mut torques = vec![T::from_f64(0.0); self.half()];
+        for (index, (&(link, _), &torque)) in self.places.iter().zip(whole).enumerate() {
+            torques[link] = torques[link] + torque;
+            let mut offset = self.links;
+            for Pattern { sector, weights } in &self.patterns {
+                if weights[index] != 0.0 {
+                    let place = offset + link - sector.first;
+                    torques[place] = torques[place] + torque * T::from_f64(weights[index]);
+                }
+                offset += sector.links;
+            }
+        }
+        torques
+    }
+
     /// Number of angles and differences.
     pub(crate) fn half(&self) -> usize {
         let differences = self.patterns.iter().map(|pattern| pattern.sector.links);

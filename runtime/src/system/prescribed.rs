@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::by_reference::by_reference;
 use super::ode::halves;
-use super::{Forced, Ode, Workspace};
+use super::{Forced, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
 /// Links whose motion is handed over together.
@@ -53,11 +53,50 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
         alpha: &mut [T],
         reactions: &mut [T],
     );
+
+    /// Writes the same, in memory that the caller keeps, as
+    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with). Integrators
+    /// call this one.
+    #[inline]
+    fn accelerations_prescribed_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        set: usize,
+        time: T,
+        motion: PrescribedMotion<'_, T>,
+        alpha: &mut [T],
+        reactions: &mut [T],
+    ) {
+        let _ = workspace;
+        self.accelerations_prescribed_into(set, time, motion, alpha, reactions);
+    }
+
+    /// Writes the same of this pendulum on other scalars, in their arithmetic: of as many
+    /// states at a time as a vector register holds.
+    ///
+    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
+    /// compiled for.
+    fn accelerations_prescribed_of<S: Scalar>(
+        pendulum: &Self::Of<S>,
+        set: usize,
+        time: S,
+        motion: PrescribedMotion<'_, S>,
+        alpha: &mut [S],
+        reactions: &mut [S],
+    );
 }
 
 by_reference! {
     impl<T: Scalar> Prescribed<T> for &P {
         const PRESCRIBED: &'static [PrescribedLinks];
+        for fn accelerations_prescribed_of<S: Scalar>(
+            pendulum: &Self::Of<S>, set: usize, time: S, motion: PrescribedMotion<'_, S>,
+            alpha: &mut [S], reactions: &mut [S]
+        );
+        fn accelerations_prescribed_with(
+            &self, workspace: &mut Workspace<T>, set: usize, time: T,
+            motion: PrescribedMotion<'_, T>, alpha: &mut [T], reactions: &mut [T]
+        );
         fn accelerations_prescribed_into(
             &self, set: usize, time: T, motion: PrescribedMotion<'_, T>, alpha: &mut [T],
             reactions: &mut [T]
@@ -67,6 +106,30 @@ by_reference! {
 
 /// Angle, angular velocity and angular acceleration of a link.
 pub type LinkCourse<T> = [T; 3];
+
+/// Prescribed motion of links as a function of time. Functions `|time, course| …` are some.
+pub trait LinkCourses<T> {
+    /// Writes the motion of each link of a set at `time` (s).
+    fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]);
+}
+
+impl<T, F: Fn(T, &mut [LinkCourse<T>])> LinkCourses<T> for F {
+    #[inline]
+    fn courses_into(&self, time: T, course: &mut [LinkCourse<T>]) {
+        self(time, course);
+    }
+}
+
+/// A course whose constants can be taken to any scalar, for ensembles in lanes, as
+/// [`LaneTorques`](super::LaneTorques).
+pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
+    /// This course on other scalars.
+    type Of<S: Scalar>: LinkCourses<S>;
+
+    /// Takes every constant through `convert`, as
+    /// [`Cast::cast`](super::Cast::cast).
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
+}
 
 /// A pendulum of which a set of links moves as a function of time, as a first-order
 /// system in absolute angles: the state is the angles of all links followed by their
@@ -128,6 +191,15 @@ impl<P, F> PrescribedOde<P, F> {
         P: Prescribed<T>,
         F: Fn(T, &mut [LinkCourse<T>]),
     {
+        Self::of(pendulum, set, course)
+    }
+
+    /// The same with a [`LinkCourses`] of a type of its own.
+    pub fn of<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
+    where
+        P: Prescribed<T>,
+        F: LinkCourses<T>,
+    {
         Some(Self {
             pendulum,
             index: set,
@@ -146,67 +218,79 @@ impl<P, F> PrescribedOde<P, F> {
     pub fn reactions_into<T: Scalar>(&self, time: T, state: &[T], reactions: &mut [T])
     where
         P: Prescribed<T>,
-        F: Fn(T, &mut [LinkCourse<T>]),
+        F: LinkCourses<T>,
     {
         let nan = T::from_f64(f64::NAN);
         if reactions.len() != self.set.links.len() {
             return reactions.fill(nan);
         }
         let mut rates = alloc::vec![nan; state.len()];
-        self.fill(
-            &mut Workspace::new(),
+        let mut workspace = Workspace::new();
+        let (room, workspace) = workspace.with_inner(self.set.room(P::LINKS));
+        let held = (self.set.links, &self.course);
+        fill(
+            P::LINKS,
+            held,
             time,
             state,
             &mut rates,
-            Some(reactions),
+            room,
+            |motion, alpha, _| {
+                self.pendulum.accelerations_prescribed_with(
+                    workspace, self.index, time, motion, alpha, reactions,
+                );
+            },
         );
     }
+}
 
-    /// Writes the rates, and the reactions where they are asked for.
-    fn fill<T: Scalar>(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        state: &[T],
-        rates: &mut [T],
-        reactions: Option<&mut [T]>,
-    ) where
-        P: Prescribed<T>,
-        F: Fn(T, &mut [LinkCourse<T>]),
-    {
-        let (links, held) = (P::LINKS, self.set.links.len());
-        let Some((_, [velocities, alpha])) = halves(links, state, rates) else {
-            return;
-        };
-        let room = workspace.numbers(3 * links + 5 * held);
-        let (all, own) = room.split_at_mut(3 * links);
-        let (motion, torques) = all.split_at_mut(2 * links);
-        let (course, others) = own.split_at_mut(3 * held);
-        let (prescribed, spare) = others.split_at_mut(held);
-        torques.fill(T::from_f64(0.0));
-        motion.copy_from_slice(state);
-        let (theta, omega) = motion.split_at_mut(links);
-        let (course, _) = course.as_chunks_mut::<3>();
-        (self.course)(time, course);
-        for ((&link, &mut [angle, rate, alpha]), prescribed) in
-            self.set.links.iter().zip(course).zip(&mut *prescribed)
-        {
-            *prescribed = alpha;
-            if let (Some(theta), Some(omega)) = (theta.get_mut(link), omega.get_mut(link)) {
-                (*theta, *omega) = (angle, rate);
-            }
-        }
-        velocities.copy_from_slice(omega);
-        let motion = PrescribedMotion {
-            theta,
-            omega,
-            torques,
-            prescribed,
-        };
-        let reactions = reactions.unwrap_or(spare);
-        self.pendulum
-            .accelerations_prescribed_into(self.index, time, motion, alpha, reactions);
+impl PrescribedLinks {
+    /// How many numbers [`fill`] takes.
+    fn room(&self, links: usize) -> usize {
+        3 * links + 5 * self.links.len()
     }
+}
+
+/// Writes the rates of a state of so many links, of which some are on a course; what
+/// accelerates them may write the reactions.
+#[inline(always)]
+fn fill<T: Scalar>(
+    links: usize,
+    (held, course): (&[usize], &impl LinkCourses<T>),
+    time: T,
+    state: &[T],
+    rates: &mut [T],
+    room: &mut [T],
+    accelerate: impl FnOnce(PrescribedMotion<'_, T>, &mut [T], &mut [T]),
+) {
+    let Some((_, [velocities, alpha])) = halves(links, state, rates) else {
+        return;
+    };
+    let (all, own) = room.split_at_mut(3 * links);
+    let (motion, torques) = all.split_at_mut(2 * links);
+    let (courses, others) = own.split_at_mut(3 * held.len());
+    let (prescribed, reactions) = others.split_at_mut(held.len());
+    torques.fill(T::from_f64(0.0));
+    motion.copy_from_slice(state);
+    let (theta, omega) = motion.split_at_mut(links);
+    let (courses, _) = courses.as_chunks_mut::<3>();
+    course.courses_into(time, courses);
+    for ((&link, &mut [angle, rate, alpha]), prescribed) in
+        held.iter().zip(courses).zip(&mut *prescribed)
+    {
+        *prescribed = alpha;
+        if let (Some(theta), Some(omega)) = (theta.get_mut(link), omega.get_mut(link)) {
+            (*theta, *omega) = (angle, rate);
+        }
+    }
+    velocities.copy_from_slice(omega);
+    let motion = PrescribedMotion {
+        theta,
+        omega,
+        torques,
+        prescribed,
+    };
+    accelerate(motion, alpha, reactions);
 }
 
 impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
@@ -225,12 +309,7 @@ impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
     }
 }
 
-impl<T, P, F> Ode<T> for PrescribedOde<P, F>
-where
-    T: Scalar,
-    P: Prescribed<T>,
-    F: Fn(T, &mut [LinkCourse<T>]),
-{
+impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P, F> {
     fn dimension(&self) -> usize {
         2 * P::LINKS
     }
@@ -241,6 +320,58 @@ where
 
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        self.fill(workspace, time, state, rates, None);
+        let (room, workspace) = workspace.with_inner(self.set.room(P::LINKS));
+        let held = (self.set.links, &self.course);
+        fill(
+            P::LINKS,
+            held,
+            time,
+            state,
+            rates,
+            room,
+            |motion, alpha, reactions| {
+                self.pendulum.accelerations_prescribed_with(
+                    workspace, self.index, time, motion, alpha, reactions,
+                );
+            },
+        );
+    }
+}
+
+impl<T: Scalar, P: Prescribed<T>, F: LaneCourses<T>> LaneOde<T> for PrescribedOde<P, F> {
+    type Of<S: Scalar> = PrescribedOde<P::Of<S>, F::Of<S>>;
+
+    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
+        PrescribedOde {
+            pendulum: self.pendulum.cast(&convert),
+            index: self.index,
+            set: self.set,
+            course: self.course.on_scalar(&convert),
+        }
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
+        let PrescribedOde {
+            pendulum,
+            index,
+            set,
+            course,
+        } = system;
+        let mut room = alloc::vec![S::from_f64(0.0); set.room(P::LINKS)];
+        let held = (set.links, course);
+        fill(
+            P::LINKS,
+            held,
+            time,
+            state,
+            rates,
+            &mut room,
+            |motion, alpha, reactions| {
+                P::accelerations_prescribed_of(pendulum, *index, time, motion, alpha, reactions);
+            },
+        );
     }
 }

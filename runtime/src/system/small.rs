@@ -1,5 +1,9 @@
 //! Small differences that act back on the motion that they are beside.
 
+mod forced;
+
+pub use forced::{ForcedDifferences, SmallUnderTorques};
+
 use super::by_reference::by_reference;
 use super::ode::halves;
 use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};

@@ -1,5 +1,6 @@
 //! Memory that evaluations need, kept by whoever asks for them.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
@@ -13,6 +14,8 @@ use crate::scalar::Scalar;
 #[derive(Clone, Debug)]
 pub struct Workspace<T> {
     numbers: Vec<T>,
+    /// For what is evaluated with these numbers.
+    inner: Option<Box<Workspace<T>>>,
 }
 
 impl<T: Scalar> Workspace<T> {
@@ -21,16 +24,20 @@ impl<T: Scalar> Workspace<T> {
     pub const fn new() -> Self {
         Self {
             numbers: Vec::new(),
+            inner: None,
         }
     }
 
     /// Returns the first `length` numbers, whose values are left open.
     #[inline]
     pub(crate) fn numbers(&mut self, length: usize) -> &mut [T] {
-        if self.numbers.len() < length {
-            self.numbers.resize(length, T::from_f64(0.0));
-        }
-        self.numbers.get_mut(..length).unwrap_or_default()
+        first(&mut self.numbers, length)
+    }
+
+    /// Returns the first `length` numbers, and another workspace.
+    pub(crate) fn with_inner(&mut self, length: usize) -> (&mut [T], &mut Self) {
+        let numbers = first(&mut self.numbers, length);
+        (numbers, self.inner.get_or_insert_default())
     }
 }
 
@@ -38,4 +45,13 @@ impl<T: Scalar> Default for Workspace<T> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// Returns the first `length` numbers, of which there are so many then.
+#[inline]
+fn first<T: Scalar>(numbers: &mut Vec<T>, length: usize) -> &mut [T] {
+    if numbers.len() < length {
+        numbers.resize(length, T::from_f64(0.0));
+    }
+    numbers.get_mut(..length).unwrap_or_default()
 }

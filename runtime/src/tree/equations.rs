@@ -15,8 +15,10 @@ pub struct LinkMotion<V> {
     pub joint_angle: V,
     /// Angular velocity less the parent's, rad/s; the root's own for the root.
     pub joint_rate: V,
-    /// Generalized torque from outside, N m.
+    /// Generalized torque from outside, N m; of a held link its angular acceleration, rad/s².
     pub outside_torque: V,
+    /// 1 for a held link, whose acceleration is given, and 0 for others.
+    pub held: V,
 }
 
 mod sealed {
@@ -92,6 +94,10 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
 
     /// The functions read [`outside_torque`](LinkMotion::outside_torque).
     const FORCED: bool = false;
+
+    /// The functions read [`held`](LinkMotion::held): links may have given accelerations,
+    /// and what is told of these in place of accelerations are the torques that they take.
+    const HELD: bool = false;
 
     /// Returns the response of a link without children.
     fn leaf<V: Scalar>(constants: &Self::Constants<V>, link: LinkMotion<V>) -> Self::Response<V>;

@@ -28,6 +28,8 @@ struct Evaluation<'a, T: 'static> {
     sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     given: LinkStates<'a, T>,
+    /// 1 for each held link, 0 for others; none where none is.
+    held: Option<&'a [T]>,
 }
 
 impl<T: Scalar> Evaluation<'_, T> {
@@ -64,6 +66,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             theta: self.given.theta,
             omega: self.given.omega,
             torques: self.given.torques,
+            held: self.held,
             alpha: ends.then_some(alpha),
         });
         if self.tree.sizes.joints {
@@ -269,13 +272,14 @@ struct SomeBlocks<'a, T> {
     passing: &'a mut [T],
 }
 
-/// Writes the accelerations of one state to `alpha`: NaN for slices of another length
-/// than there are links.
+/// Writes the accelerations of one state to `alpha`, with 1 for each link that is `held`:
+/// NaN for slices of another length than there are links.
 pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     tree: &Skeleton<T>,
     sweep: SweepFn<T>,
     drive: Option<RootDrive<T>>,
     given: LinkStates<'_, T>,
+    held: Option<&[T]>,
     alpha: &mut [T],
     workspace: &mut Workspace<T>,
 ) {
@@ -286,7 +290,9 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
         torques,
     } = given;
     let fit = [theta.len(), omega.len(), alpha.len()] == [links; 3];
-    if !fit || torques.is_some_and(|torques| torques.len() != links || !tree.sizes.forced) {
+    let unread =
+        |given: Option<&[T]>, read: bool| given.is_some_and(|given| given.len() != links || !read);
+    if !fit || unread(torques, tree.sizes.forced) || unread(held, tree.sizes.held) {
         alpha.fill(T::from_f64(f64::NAN));
         return;
     }
@@ -300,6 +306,7 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             sweep,
             drive,
             given,
+            held,
         };
         // Blocks come with threads, which small trees do without.
         match BLOCKS {
@@ -317,14 +324,16 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             (*own_theta, *own_omega) = (angle, rate);
         }
     }
-    let own_torques = torques.map(|torques| {
-        let own = column();
-        for (own, &link) in own.iter_mut().zip(order) {
-            if let Some(&torque) = torques.get(link as usize) {
-                *own = torque;
+    let [own_torques, own_held] = [torques, held].map(|given| {
+        given.map(|given| {
+            let own = column();
+            for (own, &link) in own.iter_mut().zip(order) {
+                if let Some(&value) = given.get(link as usize) {
+                    *own = value;
+                }
             }
-        }
-        &*own
+            &*own
+        })
     });
     let evaluation = Evaluation {
         tree,
@@ -335,6 +344,7 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             omega: own_omega,
             torques: own_torques,
         },
+        held: own_held,
     };
     evaluation.top(None, buffer, Shared::new(own_alpha));
     for (&acceleration, &link) in own_alpha.iter().zip(order) {

@@ -41,7 +41,7 @@ impl EvaluationMemory {
                     + workers::<T>(partition, block, threads)
             });
         let permuted = match sizes.by_link {
-            true => (3 + sizes.torques()) * odd_lines(line::<T>(), plan.links() + WIDEST),
+            true => (3 + sizes.outside()) * odd_lines(line::<T>(), plan.links() + WIDEST),
             false => 0,
         };
         line::<T>() + permuted + self.top.lasting() + self.top.passing() + partitions.sum::<usize>()

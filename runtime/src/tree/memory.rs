@@ -21,6 +21,8 @@ pub(super) struct Sizes {
     pub(super) joints: bool,
     /// Equations read torques from outside.
     pub(super) forced: bool,
+    /// Equations read which links are held.
+    pub(super) held: bool,
     /// Constants are a row a link.
     pub(super) by_link: bool,
 }
@@ -43,15 +45,16 @@ impl Sizes {
             eliminations: <E::Elimination<V> as Row<V>>::LENGTH,
             joints: E::JOINTS,
             forced: E::FORCED,
+            held: E::HELD,
             by_link,
         }
     }
 
     /// Numbers of a link's motion: sine, cosine, velocity, joint angle and rate, torque
-    /// from outside.
+    /// from outside, held or not.
     #[inline(always)]
     pub(super) const fn motion(&self) -> usize {
-        3 + self.joint_motions() + self.torques()
+        3 + self.joint_motions() + self.outside()
     }
 
     #[inline(always)]
@@ -59,9 +62,20 @@ impl Sizes {
         if self.joints { 2 } else { 0 }
     }
 
+    /// Those that come from outside.
     #[inline(always)]
-    pub(super) const fn torques(&self) -> usize {
+    pub(super) const fn outside(&self) -> usize {
+        self.torques() + self.holds()
+    }
+
+    #[inline(always)]
+    const fn torques(&self) -> usize {
         if self.forced { 1 } else { 0 }
+    }
+
+    #[inline(always)]
+    const fn holds(&self) -> usize {
+        if self.held { 1 } else { 0 }
     }
 }
 
@@ -142,13 +156,14 @@ impl Room {
             slots,
             given,
         } = self;
-        let (sincos, velocities, joint_motions, torques);
+        let (sincos, velocities, joint_motions, torques, held);
         if in_rows {
             let width = sizes.motion();
             sincos = Columns::of_rows(take(lasting, width * links), width, 0);
             velocities = Some(sincos.beside(0));
             joint_motions = sincos.beside(1);
             torques = sincos.beside(1 + sizes.joint_motions());
+            held = sincos.beside(1 + sizes.joint_motions() + sizes.torques());
         } else {
             sincos = Columns::new(take(lasting, 2 * links), links);
             velocities = match given {
@@ -158,6 +173,7 @@ impl Room {
             // Empty where there are none.
             joint_motions = Columns::new(take(lasting, sizes.joint_motions() * links), links);
             torques = Columns::new(take(lasting, sizes.torques() * links), links);
+            held = Columns::new(take(lasting, sizes.holds() * links), links);
         }
         Storage {
             sizes,
@@ -166,6 +182,7 @@ impl Room {
             velocities,
             joint_motions,
             torques,
+            held,
             lead,
             responses: take(&mut passing, sizes.responses * slots),
             sums: take(&mut passing, sizes.sums * slots),
@@ -190,6 +207,8 @@ pub(super) struct Storage<'a, T> {
     pub(super) joint_motions: Columns<'a, T, 2>,
     /// Likewise torques from outside; empty where equations read none.
     pub(super) torques: Columns<'a, T, 1>,
+    /// Likewise 1 for held links and 0 for others; empty where equations read none.
+    pub(super) held: Columns<'a, T, 1>,
     pub(super) lead: usize,
     /// Columns of responses of links with children; on the way down the first two
     /// hold the accelerations of their pivots.

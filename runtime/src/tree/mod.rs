@@ -34,6 +34,7 @@ mod columns;
 mod equations;
 mod evaluate;
 mod heights;
+mod held;
 mod interface;
 mod layout;
 mod memory;
@@ -139,7 +140,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             omega,
             torques: None,
         };
-        self.accelerate(workspace, drive, given, alpha);
+        self.accelerate(workspace, drive, given, None, alpha);
     }
 
     /// Writes the angular accelerations under torques from outside, as
@@ -158,7 +159,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             omega,
             torques: Some(torques),
         };
-        self.accelerate(workspace, drive, given, alpha);
+        self.accelerate(workspace, drive, given, None, alpha);
     }
 
     fn accelerate(
@@ -166,6 +167,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
         given: LinkStates<'_, T>,
+        held: Option<&[T]>,
         alpha: &mut [T],
     ) {
         let accelerate = match Self::IN_BLOCKS {
@@ -177,6 +179,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             sweep::sweep::<E, T>,
             drive,
             given,
+            held,
             alpha,
             workspace,
         );
@@ -214,7 +217,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         alpha: impl FnMut(usize, T),
     ) {
         let mut room = alloc::vec![T::from_f64(0.0); self.room()];
-        let (tree, none) = (&self.skeleton, |_| T::from_f64(0.0));
+        let (tree, none) = (&self.skeleton, |_| [T::from_f64(0.0); 2]);
         states::accelerations::<E, T, T>(tree, drive, &mut room, theta, omega, none, alpha);
     }
 
@@ -240,7 +243,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             &mut room,
             |link| at(theta, link),
             |link| at(omega, link),
-            |link| at(torques, link),
+            |link| [at(torques, link), T::from_f64(0.0)],
             |link, value| put(alpha, link, value),
         );
     }
@@ -297,7 +300,7 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
             Room::Own(values) => values,
         };
         let tree = &self.tree.skeleton;
-        let none = |_| V::from_f64(0.0);
+        let none = |_| [V::from_f64(0.0); 2];
         states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, none, alpha);
     }
 }

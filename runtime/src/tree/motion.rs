@@ -15,6 +15,8 @@ pub(super) struct Motions<'a, 'b, T> {
     pub(super) omega: &'a [T],
     /// Torques from outside; none where there are none.
     pub(super) torques: Option<&'a [T]>,
+    /// Which links are held; none where none is.
+    pub(super) held: Option<&'a [T]>,
     /// Where results are written once the block has gone up.
     pub(super) alpha: Option<Shared<'a, T>>,
 }
@@ -34,12 +36,16 @@ impl<T: Scalar> Kernel<T> for Motions<'_, '_, T> {
                 velocities: storage
                     .velocities
                     .and_then(|column| column.window(start, rows)),
-                torques: match storage.sizes.forced {
-                    true => storage.torques.window(start, rows),
-                    false => None,
-                },
-                given_torques: (self.torques)
-                    .map(|torques| torques.get(whole..).unwrap_or_default()),
+                torques: Given::of(
+                    storage.sizes.forced.then_some(storage.torques),
+                    self.torques,
+                    [whole, start, rows],
+                ),
+                held: Given::of(
+                    storage.sizes.held.then_some(storage.held),
+                    self.held,
+                    [whole, start, rows],
+                ),
                 ahead: block.ahead(),
                 alpha: self.alpha.and_then(|alpha| alpha.from(whole)),
             };
@@ -55,13 +61,45 @@ struct Span<'a, T> {
     sincos: Option<Columns<'a, T, 2>>,
     velocities: Option<Columns<'a, T, 1>>,
     /// Torques from outside, where equations read them.
-    torques: Option<Columns<'a, T, 1>>,
-    /// Those that are given; none for zero.
-    given_torques: Option<&'a [T]>,
+    torques: Option<Given<'a, T>>,
+    /// Held links, where equations read these as well.
+    held: Option<Given<'a, T>>,
     /// How far the links are that come next.
     ahead: Option<usize>,
     /// The results, where they are written next.
     alpha: Option<Shared<'a, T>>,
+}
+
+/// Numbers that the caller hands over, and where equations read them.
+struct Given<'a, T> {
+    column: Columns<'a, T, 1>,
+    /// None for zeros.
+    values: Option<&'a [T]>,
+}
+
+impl<'a, T: Scalar> Given<'a, T> {
+    /// Those of neighbours, from one place in the tree on and from one in the column, in so
+    /// many rows.
+    #[inline(always)]
+    fn of(
+        column: Option<Columns<'a, T, 1>>,
+        values: Option<&'a [T]>,
+        [whole, start, rows]: [usize; 3],
+    ) -> Option<Self> {
+        Some(Self {
+            column: column?.window(start, rows)?,
+            values: values.map(|values| values.get(whole..).unwrap_or_default()),
+        })
+    }
+
+    #[inline(always)]
+    fn store<V: Simd<T>>(&self, place: usize) -> Option<()> {
+        let value = match self.values {
+            Some(values) => at(values, place),
+            None => V::from_f64(0.0),
+        };
+        self.column.store::<V, 1>(place, &[value])
+    }
 }
 
 impl<T: Scalar> Span<'_, T> {
@@ -81,12 +119,11 @@ impl<T: Scalar> Span<'_, T> {
                 if let Some(velocities) = self.velocities {
                     velocities.store::<V, 1>(places[i], &[at(self.omega, places[i])])?;
                 }
-                if let Some(torques) = self.torques {
-                    let given = match self.given_torques {
-                        Some(given) => at(given, places[i]),
-                        None => V::from_f64(0.0),
-                    };
-                    torques.store::<V, 1>(places[i], &[given])?;
+                if let Some(torques) = &self.torques {
+                    torques.store::<V>(places[i])?;
+                    if let Some(held) = &self.held {
+                        held.store::<V>(places[i])?;
+                    }
                 }
                 if let Some(ahead) = self.ahead {
                     let next = places[i] + ahead;

@@ -127,6 +127,7 @@ type Accelerate<T> = fn(
     SweepFn<T>,
     Option<RootDrive<T>>,
     LinkStates<'_, T>,
+    Option<&[T]>,
     &mut [T],
     &mut Workspace<T>,
 );

@@ -236,6 +236,7 @@ impl<E: LinkEquations, T: Scalar> OneState<'_, E, T> {
             joint_angle: V::splat(joint_angle),
             joint_rate: V::splat(joint_rate),
             outside_torque: V::splat(outside_torque),
+            held: V::from_f64(0.0),
         }
     }
 

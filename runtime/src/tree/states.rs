@@ -57,7 +57,8 @@ pub(super) fn room<T: Scalar>(tree: &Skeleton<T>) -> usize {
 }
 
 /// Tells the accelerations of all links, in any order, of states in the lanes of `V`;
-/// of none where the room is too small.
+/// of none where the room is too small. What comes from `outside` to a link is its torque
+/// or given acceleration, and 1 where it is held.
 #[inline(always)]
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
@@ -65,7 +66,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     mut room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
-    torque: impl Fn(usize) -> V,
+    outside: impl Fn(usize) -> [V; 2],
     mut alpha: impl FnMut(usize, V),
 ) {
     let plan = &tree.states;
@@ -118,7 +119,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             }
         };
         if rises {
-            form(&mut own, order, parents, &theta, &omega, &torque);
+            form(&mut own, order, parents, &theta, &omega, &outside);
         }
         if let (Some(top), true) = (&mut top, falls) {
             hand_over(top, slot + index, &mut own, 0, 2);
@@ -202,7 +203,7 @@ fn form<T: Scalar, V: Simd<T>>(
     parents: &[u32],
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
-    torque: &impl Fn(usize) -> V,
+    outside: &impl Fn(usize) -> [V; 2],
 ) {
     let (block, storage) = (sweep.block, &sweep.storage);
     for generation in block.own_generations() {
@@ -213,7 +214,10 @@ fn form<T: Scalar, V: Simd<T>>(
             // The last one may come alone, and is formed twice then.
             let both = [index, (index + 1).min(generation.length - 1)];
             let [one, other] = both;
-            let places = [first + one * generation.step, first + other * generation.step];
+            let places = [
+                first + one * generation.step,
+                first + other * generation.step,
+            ];
             let angles = [theta(link(order, places[0])), theta(link(order, places[1]))];
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..STEP {
@@ -224,8 +228,11 @@ fn form<T: Scalar, V: Simd<T>>(
                     let _ = velocities.store::<V, 1>(own, &[rate]);
                 }
                 if storage.sizes.forced {
-                    let torque = torque(link(order, places[i]));
+                    let [torque, held] = outside(link(order, places[i]));
                     let _ = storage.torques.store::<V, 1>(own, &[torque]);
+                    if storage.sizes.held {
+                        let _ = storage.held.store::<V, 1>(own, &[held]);
+                    }
                 }
                 if !storage.sizes.joints {
                     continue;

@@ -148,6 +148,28 @@ fn what_is_left_out_is_told() {
     assert!(nearly.error(&state) > 0.02 && nearly.validity(&state) > 0.02);
 }
 
+/// Where copies may turn over, nothing is known of differences: the full model moves them.
+#[test]
+fn no_estimate_stands_where_copies_turn_over() {
+    let (whole, model) = (branched(1e-4), branched_small(1e-4));
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let mut nearly = NearlyInPhase::new(&model, patterns, 1e-3, FRAME).unwrap();
+    let state = |rate: f64, difference: f64| [0.0, difference, -difference, rate, rate, rate];
+    let energy = |rate: f64| energy(&model, &[0.0; 2], &[rate; 2]);
+    let (slow, quick) = (2.0, 12.0);
+    assert!(energy(slow) < 1.5 && energy(quick) > 1.5);
+    assert!(nearly.error(&state(slow, 1e-3)) < 1e-3);
+    assert_eq!(nearly.error(&state(quick, 1e-9)), f64::INFINITY);
+    assert_eq!(nearly.validity(&state(quick, 1e-9)), f64::INFINITY);
+    assert_eq!(nearly.error(&state(quick, 0.0)), 0.0);
+    let start = State::new(0.0, state(quick, 1e-3).to_vec());
+    let frames = Frames::new(AbsoluteAngles(&whole), &start, longest_sub_step(&whole)).unwrap();
+    let mut switched = Switched::new(frames, nearly.clone(), 1e-2, 1.0);
+    switched.advance();
+    assert_eq!(switched.log().full_frames, 1);
+    nearly.step(&mut state(quick, 0.0));
+}
+
 #[test]
 fn what_the_model_does_not_know() {
     let model = branched_small(1e-4);

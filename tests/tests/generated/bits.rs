@@ -307,6 +307,7 @@ fn functions_of_a_link_in_loops() {
             joint_angle,
             joint_rate,
             outside_torque: 0.0,
+            held: 0.0,
         };
         let response: <E as LinkEquations>::Response<f64> = row(&mut random);
         let sums: <E as LinkEquations>::Sums<f64> = row(&mut random);

@@ -11,7 +11,7 @@ use super::balance::{ByGeneration, Irregular};
 
 /// Couples that turn with the time, and brake.
 #[derive(Clone, Copy)]
-struct Couples<T> {
+pub(super) struct Couples<T> {
     size: T,
     phase: T,
 }
@@ -38,7 +38,7 @@ impl<T: Scalar> LaneTorques<T> for Couples<T> {
     }
 }
 
-fn couples(count: usize) -> impl Iterator<Item = Couples<f64>> {
+pub(super) fn couples(count: usize) -> impl Iterator<Item = Couples<f64>> {
     let number = |i: usize| i as f64;
     (0..count).map(move |i| Couples {
         size: 0.01 * (1.0 + number(i)) / count as f64,

@@ -6,4 +6,6 @@ mod changes;
 mod gusts;
 mod lanes;
 mod prescribed;
+mod prescribed_loops;
 mod reduced;
+mod small;

@@ -7,12 +7,12 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::{PrescribedMotion, PrescribedOde, UnderTorques};
 use branched_pendulum_tests::random::Random;
 
-/// By one of the solves.
+/// By one of the solves, or in a loop.
 macro_rules! branch {
-    ($name:ident, $solve:ident) => {
+    ($name:ident, $how:ident = $value:ident) => {
         #[branched_pendulum(
                     gravity = 9.80665,
-                    solve = $solve,
+                    $how = $value,
                     limb: rod(mass = 0.4, length = 0.5, friction = 2e-2) [
                         bough(mass = 0.1, com = (0.12, 0.01), inertia = 1e-3, at = (0.3, -0.02),
                             joint = (0.25, 0.03), spring = 0.1, friction = 1e-3) [
@@ -26,27 +26,26 @@ macro_rules! branch {
                     prescribed(shoot, limb, bough, twig_1, twig_2),
                     emit(energies),
                 )]
-        struct $name;
+        pub(super) struct $name;
     };
 }
 
-branch!(Factorized, factorization);
-branch!(Recursive, recursion);
+branch!(Factorized, solve = factorization);
+branch!(Recursive, solve = recursion);
+branch!(Looped, code = loops);
 
 const LINKS: usize = 5;
 
 /// The free tree under Q and the reactions has the accelerations that the prescribed one
 /// has, the given ones among them.
-fn reactions_make_the_free_tree_move_so<P: Prescribed<f64>>(model: &P) {
-    assert_eq!(P::PRESCRIBED.len(), 3);
-    assert_eq!(P::PRESCRIBED[1].name, "twig_2_and_bough");
+pub(super) fn reactions_make_the_free_tree_move_so<P: Prescribed<f64>>(model: &P, states: usize) {
     let mut random = Random::new(2);
     for (number, set) in P::PRESCRIBED.iter().enumerate() {
-        for _ in 0..100 {
+        for _ in 0..states {
             let time = random.between(0.0, 9.0);
-            let theta = random.around_zero(LINKS, 3.0);
-            let omega = random.around_zero(LINKS, 9.0);
-            let torques = random.around_zero(LINKS, 0.3);
+            let theta = random.around_zero(P::LINKS, 3.0);
+            let omega = random.around_zero(P::LINKS, 9.0);
+            let torques = random.around_zero(P::LINKS, 0.3);
             let prescribed = random.around_zero(set.links.len(), 50.0);
             let motion = PrescribedMotion {
                 theta: &theta,
@@ -54,14 +53,14 @@ fn reactions_make_the_free_tree_move_so<P: Prescribed<f64>>(model: &P) {
                 torques: &torques,
                 prescribed: &prescribed,
             };
-            let (mut alpha, mut reactions) = ([0.0; LINKS], vec![0.0; set.links.len()]);
+            let (mut alpha, mut reactions) = (vec![0.0; P::LINKS], vec![0.0; set.links.len()]);
             model.accelerations_prescribed_into(number, time, motion, &mut alpha, &mut reactions);
             let mut all = torques.clone();
             for ((&link, reaction), given) in set.links.iter().zip(&reactions).zip(&prescribed) {
                 assert_eq!(alpha[link], *given);
                 all[link] += reaction;
             }
-            let mut free = [0.0; LINKS];
+            let mut free = vec![0.0; P::LINKS];
             model.accelerations_under_into(time, &theta, &omega, &all, &mut free);
             let size = free.iter().fold(1.0_f64, |size, a| size.max(a.abs()));
             for (alpha, free) in alpha.iter().zip(free) {
@@ -84,31 +83,45 @@ fn reactions_make_the_free_tree_move_so<P: Prescribed<f64>>(model: &P) {
 
 #[test]
 fn the_free_tree_moves_so_under_the_reactions() {
-    reactions_make_the_free_tree_move_so(&Factorized::new());
-    reactions_make_the_free_tree_move_so(&Recursive::new());
+    reactions_make_the_free_tree_move_so(&Factorized::new(), 100);
+    reactions_make_the_free_tree_move_so(&Recursive::new(), 100);
+    reactions_make_the_free_tree_move_so(&Looped::new(), 100);
+    for sets in [
+        <Factorized as Prescribed<f64>>::PRESCRIBED,
+        <Looped as Prescribed<f64>>::PRESCRIBED,
+    ] {
+        assert_eq!((sets.len(), sets[1].name), (3, "twig_2_and_bough"));
+    }
+}
+
+macro_rules! agree {
+    ($one:expr, $other:expr) => {{
+        let (one, other) = ($one, $other);
+        let mut random = Random::new(12);
+        for _ in 0..100 {
+            let [theta, omega, torques] = [3.0, 9.0, 0.3].map(|size| random.array(-size, size));
+            let given: [f64; 2] = random.array(-50.0, 50.0);
+            let (alpha, reactions) = one
+                .accelerations_prescribed_twig_2_and_bough(0.3, &theta, &omega, &torques, &given);
+            let (same, same_reactions) = other
+                .accelerations_prescribed_twig_2_and_bough(0.3, &theta, &omega, &torques, &given);
+            let size = alpha
+                .iter()
+                .fold(1.0_f64, |size: f64, a: &f64| size.max(a.abs()));
+            for (a, b) in alpha.iter().zip(same) {
+                assert!((a - b).abs() < 1e-11 * size);
+            }
+            for (a, b) in reactions.iter().zip(same_reactions) {
+                assert!((a - b).abs() < 1e-11 * size);
+            }
+        }
+    }};
 }
 
 #[test]
-fn both_solves_agree() {
-    let (one, other) = (Factorized::new(), Recursive::new());
-    let mut random = Random::new(12);
-    for _ in 0..100 {
-        let [theta, omega, torques] = [3.0, 9.0, 0.3].map(|size| random.array(-size, size));
-        let given: [f64; 2] = random.array(-50.0, 50.0);
-        let (alpha, reactions) =
-            one.accelerations_prescribed_twig_2_and_bough(0.3, &theta, &omega, &torques, &given);
-        let (same, same_reactions) =
-            other.accelerations_prescribed_twig_2_and_bough(0.3, &theta, &omega, &torques, &given);
-        let size = alpha
-            .iter()
-            .fold(1.0_f64, |size: f64, a: &f64| size.max(a.abs()));
-        for (a, b) in alpha.iter().zip(same) {
-            assert!((a - b).abs() < 1e-11 * size);
-        }
-        for (a, b) in reactions.iter().zip(same_reactions) {
-            assert!((a - b).abs() < 1e-11 * size);
-        }
-    }
+fn both_solves_and_the_loop_agree() {
+    agree!(Factorized::new(), Recursive::new());
+    agree!(Recursive::new(), Looped::new());
 }
 
 /// Swings a link to and fro from where it hangs.
@@ -137,80 +150,87 @@ fn start() -> State<f64> {
 }
 
 /// Trajectory of the free tree under the reaction, and the energy that the hand gives.
+macro_rules! trajectories_and_the_work_of_the_hand {
+    ($model:expr) => {{
+        let model = $model;
+        let held = PrescribedOde::new(&model, 0, hand).expect("it has that set");
+        assert!(PrescribedOde::new(&model, 3, hand).is_none());
+        let method = Dop853::new(Options::with_tolerance(1e-12));
+        let end = method
+            .integrate(&held, &start(), 4.0, |_| ControlFlow::Continue(()))
+            .expect("it goes on")
+            .state;
+        let mut course = [[0.0; 3]];
+        hand(end.time, &mut course);
+        assert!((end.values[0] - course[0][0]).abs() < 1e-9);
+        assert!((end.values[LINKS] - course[0][1]).abs() < 1e-9);
+        // The torque of the hand by the state at hand, on the free tree.
+        let pushed = UnderTorques::new(
+            &model,
+            |time: f64, theta: &[f64], omega: &[f64], torques: &mut [f64]| {
+                let mut course = [[0.0; 3]];
+                hand(time, &mut course);
+                fn arrays(values: &[f64]) -> &[f64; LINKS] {
+                    values.try_into().expect("all links")
+                }
+                let (_, [reaction]) = model.accelerations_prescribed_limb(
+                    time,
+                    arrays(theta),
+                    arrays(omega),
+                    &[0.0; LINKS],
+                    &[course[0][2]],
+                );
+                torques.fill(0.0);
+                torques[0] = reaction;
+            },
+        );
+        let same = method
+            .integrate(&pushed, &start(), 4.0, |_| ControlFlow::Continue(()))
+            .expect("it goes on")
+            .state;
+        for (held, pushed) in end.values.iter().zip(&same.values) {
+            assert!((held - pushed).abs() < 1e-9, "{held} {pushed}");
+        }
+        // Work of the hand, the drive and friction.
+        let work = branched_pendulum::system::OdeFn::new(
+            2 * LINKS + 1,
+            |time: f64, state: &[f64], rates: &mut [f64]| {
+                let state = &state[..2 * LINKS];
+                held.rates(time, state, &mut rates[..2 * LINKS]);
+                let arrays = |from: usize| -> [f64; LINKS] {
+                    state[from..from + LINKS].try_into().expect("all links")
+                };
+                let (theta, omega) = (arrays(0), arrays(LINKS));
+                let mut reaction = [0.0];
+                held.reactions_into(time, state, &mut reaction);
+                rates[2 * LINKS] = reaction[0] * omega[0]
+                    + model.drive_power(time, &theta, &omega)
+                    + model.friction_power(&omega);
+            },
+        );
+        let mut with_work = start();
+        with_work.values.push(0.0);
+        let method = Dop853::new(Options::with_tolerance(1e-13));
+        let end = method
+            .integrate(&work, &with_work, 10.0, |_| ControlFlow::Continue(()))
+            .expect("it goes on")
+            .state;
+        let energy = |values: &[f64]| {
+            let arrays = |from: usize| -> [f64; LINKS] {
+                values[from..from + LINKS].try_into().expect("all links")
+            };
+            model.kinetic_energy(&arrays(0), &arrays(LINKS)) + model.potential_energy(&arrays(0))
+        };
+        let (before, after) = (energy(&with_work.values), energy(&end.values));
+        let error = after - before - end.values[2 * LINKS];
+        assert!(error.abs() < 1e-10 * before.max(after), "{error:e}");
+    }};
+}
+
 #[test]
 fn trajectories_and_the_work_of_the_hand() {
-    let model = Factorized::new();
-    let held = PrescribedOde::new(&model, 0, hand).expect("it has that set");
-    assert!(PrescribedOde::new(&model, 3, hand).is_none());
-    let method = Dop853::new(Options::with_tolerance(1e-12));
-    let end = method
-        .integrate(&held, &start(), 4.0, |_| ControlFlow::Continue(()))
-        .expect("it goes on")
-        .state;
-    let mut course = [[0.0; 3]];
-    hand(end.time, &mut course);
-    assert!((end.values[0] - course[0][0]).abs() < 1e-9);
-    assert!((end.values[LINKS] - course[0][1]).abs() < 1e-9);
-    // The torque of the hand by the state at hand, on the free tree.
-    let pushed = UnderTorques::new(
-        &model,
-        |time: f64, theta: &[f64], omega: &[f64], torques: &mut [f64]| {
-            let mut course = [[0.0; 3]];
-            hand(time, &mut course);
-            fn arrays(values: &[f64]) -> &[f64; LINKS] {
-                values.try_into().expect("all links")
-            }
-            let (_, [reaction]) = model.accelerations_prescribed_limb(
-                time,
-                arrays(theta),
-                arrays(omega),
-                &[0.0; LINKS],
-                &[course[0][2]],
-            );
-            torques.fill(0.0);
-            torques[0] = reaction;
-        },
-    );
-    let same = method
-        .integrate(&pushed, &start(), 4.0, |_| ControlFlow::Continue(()))
-        .expect("it goes on")
-        .state;
-    for (held, pushed) in end.values.iter().zip(&same.values) {
-        assert!((held - pushed).abs() < 1e-9, "{held} {pushed}");
-    }
-    // Work of the hand, the drive and friction.
-    let work = branched_pendulum::system::OdeFn::new(
-        2 * LINKS + 1,
-        |time: f64, state: &[f64], rates: &mut [f64]| {
-            let state = &state[..2 * LINKS];
-            held.rates(time, state, &mut rates[..2 * LINKS]);
-            let arrays = |from: usize| -> [f64; LINKS] {
-                state[from..from + LINKS].try_into().expect("all links")
-            };
-            let (theta, omega) = (arrays(0), arrays(LINKS));
-            let mut reaction = [0.0];
-            held.reactions_into(time, state, &mut reaction);
-            rates[2 * LINKS] = reaction[0] * omega[0]
-                + model.drive_power(time, &theta, &omega)
-                + model.friction_power(&omega);
-        },
-    );
-    let mut with_work = start();
-    with_work.values.push(0.0);
-    let method = Dop853::new(Options::with_tolerance(1e-13));
-    let end = method
-        .integrate(&work, &with_work, 10.0, |_| ControlFlow::Continue(()))
-        .expect("it goes on")
-        .state;
-    let energy = |values: &[f64]| {
-        let arrays = |from: usize| -> [f64; LINKS] {
-            values[from..from + LINKS].try_into().expect("all links")
-        };
-        model.kinetic_energy(&arrays(0), &arrays(LINKS)) + model.potential_energy(&arrays(0))
-    };
-    let (before, after) = (energy(&with_work.values), energy(&end.values));
-    let error = after - before - end.values[2 * LINKS];
-    assert!(error.abs() < 1e-10 * before.max(after), "{error:e}");
+    trajectories_and_the_work_of_the_hand!(Factorized::new());
+    trajectories_and_the_work_of_the_hand!(Looped::new());
 }
 
 #[branched_pendulum(
@@ -255,6 +275,17 @@ struct InPhase;
 
 #[branched_pendulum(
     gravity = 9.80665,
+    code = loops,
+    beam: rod(mass = 0.4, length = 0.5) [
+        stick: rod(mass = 0.1, length = 0.3) * 2
+    ],
+    in_phase(stick),
+    prescribed(stick),
+)]
+struct InPhaseLooped;
+
+#[branched_pendulum(
+    gravity = 9.80665,
     beam: rod(mass = 0.4, length = 0.5) [
         stick: rod(mass = 0.1, length = 0.3) * 2
     ],
@@ -267,6 +298,15 @@ fn copies_in_phase_are_held_together() {
     let (theta, omega) = ([0.7, 0.4], [1.0, 3.0]);
     let (alpha, [torque]) =
         InPhase::new().accelerations_prescribed_stick(&theta, &omega, &[0.0; 2], &[5.0]);
+    let (looped, [same]) =
+        InPhaseLooped::new().accelerations_prescribed_stick(&theta, &omega, &[0.0; 2], &[5.0]);
+    let [one, other] = [
+        InPhase::new().accelerations(&theta, &omega),
+        InPhaseLooped::new().accelerations(&theta, &omega),
+    ];
+    assert!((0..2).all(|link| (one[link] - other[link]).abs() < 1e-12));
+    let error = (alpha[0] - looped[0]).abs().max((torque - same).abs());
+    assert!(error < 1e-12, "{alpha:?} {looped:?} {torque} {same}");
     let (whole, [one, other]) = Whole::new().accelerations_prescribed_stick_1_and_stick_2(
         &[0.7, 0.4, 0.4],
         &[1.0, 3.0, 3.0],

@@ -66,3 +66,22 @@ fn driven() {
          drive(torque = push * cos(3 * t), x = 0.01 * sin(6 * t)), emit(energies)",
     );
 }
+
+/// Links that may be held: one equation for those that are and those that are not.
+#[test]
+fn held() {
+    let stages = stages_of(
+        "#[branched_pendulum(
+            gravity = 9.80665, code = loops,
+            trunk: rod(mass = 0.3, length = 0.3) [
+                left: rod(mass = 0.2, length = 0.2, friction = 1e-3) [
+                    tip: rod(mass = 0.05, length = l) * 2
+                ]
+            ],
+            prescribed(tip_1), prescribed(trunk, left)
+        )] pub struct Sample;",
+    );
+    insta::assert_snapshot!("held_loops_scene", stages.scene.to_string());
+    let functions = LinkFunction::ALL.map(|link| function(&stages.tokens, link.name()));
+    insta::assert_snapshot!("held_loops_code_link", functions.concat());
+}

@@ -6,13 +6,14 @@ use crate::functions::Argument;
 use crate::named_members::named_members;
 
 /// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
-pub const LINK_MOTION: [&str; 6] = [
+pub const LINK_MOTION: [&str; 7] = [
     "sine",
     "cosine",
     "omega",
     "joint_angle",
     "joint_rate",
     "outside_torque",
+    "held",
 ];
 
 named_members! {
@@ -41,6 +42,7 @@ named_members! {
         QuadraticDrag = "quadratic_drag": "quadratic drag over m l²",
         DragWidth = "drag_width": "width of drag, rad/s",
         PerTorque = "per_torque": "1/(m l²), factor of torques from outside",
+        TorqueUnit = "torque_unit": "m l², unit of torques (N m)",
         BodyMass = "body_mass": "mass (kg)",
         BodyInertia = "body_inertia": "moment of inertia about the centre of mass (kg m²)",
         ComAlong = "com_along": "place of the centre of mass along the link (m)",
@@ -63,7 +65,9 @@ impl LoopTree {
         let torque = usize::from(self.has_joint_torques);
         match argument {
             Argument::Constants => self.columns.len(),
-            Argument::Motion => 5 + usize::from(self.has_outside_torques),
+            Argument::Motion => {
+                5 + usize::from(self.has_outside_torques) + usize::from(self.has_held_links)
+            }
             Argument::Response => 5 + torque,
             Argument::Sums if self.has_several_places => 9 + torque,
             Argument::Sums => 5 + torque,

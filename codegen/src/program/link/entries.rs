@@ -28,6 +28,7 @@ impl EntryList<'_, '_> {
             table: &table,
             joints,
             forced: scene.requests.forces,
+            prescribed: !scene.prescribed.is_empty(),
             drive_torque: mechanics
                 .drive
                 .as_ref()

@@ -80,32 +80,14 @@ impl Attached {
     }
 }
 
-/// Factors of a link for the way down: ω̇ = −(b·a + κ)/J.
+/// Factors of a link for the way down: ω̇ = −(b·a + κ)/J, or what follows in its place
+/// where ω̇ is given.
 #[derive(Clone, Copy)]
 pub(super) struct Elimination {
     /// b/J.
     pub(super) gain: Pair,
     /// κ/J.
     pub(super) offset: ValueId,
-}
-
-/// A link whose acceleration is given.
-pub(super) struct HeldLink {
-    /// ω̇ in units of length and in rad/s².
-    pub(super) acceleration: [ValueId; 2],
-    /// b.
-    first_moment: Pair,
-    /// J ω̇ + κ: the torque that it takes but for b·a.
-    steady_torque: ValueId,
-}
-
-impl HeldLink {
-    /// The torque that the acceleration takes beyond those on the link, J ω̇ + b·a + κ,
-    /// where `gravity` is −a.
-    pub(super) fn reaction(&self, builder: &mut Builder, gravity: Pair) -> ValueId {
-        let pull = builder.dot(self.first_moment, gravity);
-        builder.sub(self.steady_torque, pull)
-    }
 }
 
 impl Link {
@@ -258,34 +240,6 @@ impl Link {
         (response, elimination)
     }
 
-    /// The response of a link with a given acceleration, of which nothing is eliminated:
-    /// N = Σ N, γ = γ' + b ω̇. `whole` is the link with what hangs from it.
-    pub(super) fn hold(
-        &self,
-        builder: &mut Builder,
-        whole: &Attached,
-        alpha: ValueId,
-    ) -> (Response, HeldLink) {
-        let suffix = &self.suffix;
-        let first_moment = builder.name_pair(whole.first_moment, &format!("first_moment@{suffix}"));
-        let tangential = builder.mul(self.length, alpha);
-        builder.name(tangential, &format!("tangential{suffix}"));
-        let torque = self.net_torque(builder, whole);
-        let own = builder.mul(whole.inertia, tangential);
-        let swing = builder.scale_pair(tangential, first_moment);
-        let response = Response {
-            deficit: whole.deficit.less_mass(builder, self.mass),
-            bias_force: builder.add_pairs(whole.force, swing),
-        };
-        response.name(builder, suffix);
-        let held = HeldLink {
-            acceleration: [tangential, alpha],
-            first_moment,
-            steady_torque: builder.sub(own, torque),
-        };
-        (response, held)
-    }
-
     /// Response of a leaf, whose J is a constant: `gain` is ĥ/M, `inverse` 1/M.
     pub(super) fn leaf(
         &self,
@@ -375,8 +329,8 @@ fn inwards(builder: &mut Builder, centripetal: ValueId, r: Pair) -> Pair {
     [builder.neg(y), x]
 }
 
-/// γ = γ' − b κ/J.
-fn passed_on(builder: &mut Builder, force: Pair, torque: ValueId, gain: Pair) -> Pair {
+/// γ = γ' − b κ/J, and γ' + b ω̇ where ω̇ is given.
+pub(super) fn passed_on(builder: &mut Builder, force: Pair, torque: ValueId, gain: Pair) -> Pair {
     let part = builder.scale_pair(torque, gain);
     builder.add_pairs(force, part)
 }

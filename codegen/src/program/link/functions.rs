@@ -27,6 +27,8 @@ pub(super) struct Functions<'t> {
     pub(super) table: &'t Table,
     pub(super) joints: bool,
     pub(super) forced: bool,
+    /// Links may be held.
+    pub(super) prescribed: bool,
     pub(super) drive_torque: bool,
 }
 
@@ -147,7 +149,14 @@ impl Functions<'_> {
             return list.lowering.builder.integer(0);
         }
         let unit = self.column(list, kind, Column::PerTorque);
-        let torque = self.motion(list, Motion::OutsideTorque);
+        let mut torque = self.motion(list, Motion::OutsideTorque);
+        if self.prescribed {
+            // Of a held link that is the acceleration.
+            let held = self.motion(list, Motion::Held);
+            let builder = &mut list.lowering.builder;
+            let acceleration = builder.mul(held, torque);
+            torque = builder.sub(torque, acceleration);
+        }
         list.lowering.builder.mul(unit, torque)
     }
 
@@ -211,9 +220,21 @@ impl Functions<'_> {
 
     fn leaf(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
         let (link, joint) = self.link(list, Kind::Leaf, None);
-        let (gain, inverse) = self.leaf_constants(list);
-        let (response, _) = link.leaf(&mut list.lowering.builder, gain, inverse);
+        let (response, _) = self.leaf_response(list, &link);
         self.outputs(list, &response, self.joints.then_some(joint))
+    }
+
+    fn leaf_response(&self, list: &mut EntryList<'_, '_>, link: &Link) -> (Response, Elimination) {
+        let (gain, inverse) = self.leaf_constants(list);
+        let grip = self.grip(list, link);
+        let builder = &mut list.lowering.builder;
+        match grip {
+            None => link.leaf(builder, gain, inverse),
+            Some(grip) => {
+                let alone = link.alone(builder);
+                link.hold_or_eliminate(builder, &alone, inverse, &grip)
+            }
+        }
     }
 
     fn attach(&self, list: &mut EntryList<'_, '_>) -> Vec<ValueId> {
@@ -272,7 +293,16 @@ impl Functions<'_> {
             let whole = link.attach(builder, place, &response, Some(link.body()), true);
             (whole, link, joint)
         };
-        let (response, elimination) = link.eliminate(&mut list.lowering.builder, &whole);
+        let grip = self.grip(list, &link);
+        let builder = &mut list.lowering.builder;
+        let (response, elimination) = match grip {
+            None => link.eliminate(builder, &whole),
+            Some(grip) => {
+                let one = builder.integer(1);
+                let inverse = builder.div(one, whole.inertia);
+                link.hold_or_eliminate(builder, &whole, inverse, &grip)
+            }
+        };
         let mut outputs = self.outputs(list, &response, self.joints.then_some(joint));
         let Elimination {
             gain: [x, y],
@@ -304,7 +334,9 @@ impl Functions<'_> {
             offset: at(Argument::Elimination, 2),
         };
         let gravity = [at(Argument::Pivot, 0), at(Argument::Pivot, 1)];
-        let [tangential, alpha] = link.accelerate(builder, &elimination, gravity);
+        let follows = link.accelerate(builder, &elimination, gravity);
+        let [tangential, alpha] = self.completed(list, Kind::Inner, &link, follows);
+        let builder = &mut list.lowering.builder;
         if self.table.has_several_places {
             let end = link.end_acceleration(builder, tangential);
             return [alpha].into_iter().chain(gravity).chain(end).collect();
@@ -317,11 +349,11 @@ impl Functions<'_> {
 
     fn accelerate_leaf(&self, list: &mut EntryList<'_, '_>) -> ValueId {
         let (link, _) = self.link(list, Kind::Leaf, None);
-        let (gain, inverse) = self.leaf_constants(list);
+        let (_, elimination) = self.leaf_response(list, &link);
         let builder = &mut list.lowering.builder;
-        let (_, elimination) = link.leaf(builder, gain, inverse);
         let gravity = [0, 1].map(|index| builder.input(Argument::Pivot, index));
-        let [_, alpha] = link.accelerate(builder, &elimination, gravity);
+        let follows = link.accelerate(builder, &elimination, gravity);
+        let [_, alpha] = self.completed(list, Kind::Leaf, &link, follows);
         alpha
     }
 }
@@ -335,4 +367,5 @@ pub(super) enum Motion {
     JointAngle,
     JointRate,
     OutsideTorque,
+    Held,
 }

@@ -13,6 +13,7 @@ mod deficit;
 mod entries;
 mod equations;
 mod functions;
+mod held;
 mod reduced_units;
 mod root;
 mod scales;

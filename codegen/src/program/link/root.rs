@@ -29,7 +29,7 @@ impl EntryList<'_, '_> {
         }
         if let Some(torque) = drive.torque {
             let torque = self.lowering.temporal(&mut environment, torque);
-            outputs[2] = self.lowering.builder.mul(table.per_torque, torque);
+            outputs[2] = self.lowering.builder.mul(table.per_torque(), torque);
         }
         self.push(Purpose::RootDrive, outputs);
     }

@@ -59,6 +59,8 @@ pub struct LoopTree {
     pub has_joint_torques: bool,
     /// True if torques from outside act on the links.
     pub has_outside_torques: bool,
+    /// True if links may be held, with accelerations that are given.
+    pub has_held_links: bool,
     /// True if a torque acts on the root.
     pub has_drive_torque: bool,
 }
@@ -70,14 +72,17 @@ pub(super) struct Table {
     pub(super) rows: Vec<[ValueId; Column::ALL.len()]>,
     /// −g/l.
     pub(super) root_gravity: ValueId,
-    /// 1/(m l²).
-    pub(super) per_torque: ValueId,
     /// By orbit.
     pub(super) is_leaf: Vec<bool>,
     pub(super) has_several_places: bool,
 }
 
 impl Table {
+    /// 1/(m l²), which all rows have.
+    pub(super) fn per_torque(&self) -> ValueId {
+        self.rows[0][Column::PerTorque as usize]
+    }
+
     /// The number in a column that leaves, or others, have in common.
     pub(super) fn common(
         &self,
@@ -196,18 +201,12 @@ impl Lowering<'_> {
         });
         let mut rows: Vec<[ValueId; Column::ALL.len()]> = rows.collect();
         let root_gravity = builder.neg(units.gravity);
-        let [mass, length] = units.tree;
-        let area = builder.mul(length, length);
-        let unit = builder.mul(mass, area);
-        let one = builder.integer(1);
-        let per_torque = builder.div(one, unit);
         if scene.requests.scales() {
             self.scale_columns(scene, balance, &mut rows);
         }
         Table {
             rows,
             root_gravity,
-            per_torque,
             units,
             is_leaf,
             has_several_places,
@@ -331,6 +330,7 @@ impl Lowering<'_> {
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),
             has_outside_torques: scene.requests.forces,
+            has_held_links: !scene.prescribed.is_empty(),
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }
     }
@@ -395,6 +395,7 @@ fn row(
         Column::QuadraticDrag => quadratic_drag,
         Column::DragWidth => ground.width,
         Column::PerTorque => per_torque,
+        Column::TorqueUnit => torque,
         _ => zero,
     })
 }

@@ -1,6 +1,7 @@
 //! The recursion through a tree that is written out, link by link.
 
-use super::equations::{Attached, Elimination, HeldLink, Link, Response};
+use super::equations::{Attached, Elimination, Link, Response};
+use super::held::HeldLink;
 use super::numbered;
 use super::reduced_units::Units;
 use crate::mechanics::Trigonometric;

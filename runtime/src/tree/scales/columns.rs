@@ -119,6 +119,7 @@ impl<T: Scalar> ScaleColumns<'_, T> {
             joint_angle: omega,
             joint_rate: omega,
             outside_torque: omega,
+            held: omega,
         }
     }
 

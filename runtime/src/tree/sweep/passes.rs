@@ -84,12 +84,14 @@ where
     pub(super) const READ: Read = Read {
         joints: E::JOINTS,
         torques: E::FORCED,
+        held: E::HELD,
     };
 
     /// Values that they read of the motion of a parent.
     pub(super) const DIRECTION: Read = Read {
         joints: false,
         torques: false,
+        held: false,
     };
 
     /// Constants are a row a link.

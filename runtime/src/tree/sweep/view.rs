@@ -24,12 +24,13 @@ pub(in crate::tree) struct View<'a, N, T> {
     branching: usize,
     sizes: Sizes,
     in_rows: bool,
-    /// Sines and cosines, velocities, joint angles and rates, and torques from outside;
-    /// from one column to the next.
+    /// Sines and cosines, velocities, joint angles and rates, torques from outside, and
+    /// held links; from one column to the next.
     sincos: *mut T,
     omega: *mut T,
     joint_motions: *mut T,
     torques: *mut T,
+    held: *mut T,
     links: usize,
     /// Responses, sums, and what is kept; from one column to the next.
     responses: *mut T,
@@ -54,6 +55,8 @@ pub(super) struct Read {
     pub(super) joints: bool,
     /// The torque from outside.
     pub(super) torques: bool,
+    /// Held or not.
+    pub(super) held: bool,
 }
 
 /// Where the numbers of links stand.
@@ -63,6 +66,7 @@ pub(super) struct LinkCells<T> {
     omega: Cells<T>,
     joint_motions: Cells<T>,
     torques: Cells<T>,
+    held: Cells<T>,
     pub(super) responses: Cells<T>,
     pub(super) sums: Cells<T>,
     pub(super) eliminations: Cells<T>,
@@ -78,6 +82,7 @@ impl<T: Scalar> LinkCells<T> {
             omega: self.omega.from(own),
             joint_motions: self.joint_motions.from(own),
             torques: self.torques.from(own),
+            held: self.held.from(own),
             responses: self.responses.from(slot),
             sums: self.sums.from(slot),
             eliminations: self.eliminations.from(slot),
@@ -105,6 +110,11 @@ impl<T: Scalar> LinkCells<T> {
             true => unsafe { self.torques.read(at) },
             false => [omega],
         };
+        let [held] = match read.held {
+            // SAFETY: the caller's.
+            true => unsafe { self.held.read(at) },
+            false => [omega],
+        };
         LinkMotion {
             sine,
             cosine,
@@ -112,6 +122,7 @@ impl<T: Scalar> LinkCells<T> {
             joint_angle,
             joint_rate,
             outside_torque,
+            held,
         }
     }
 }
@@ -132,7 +143,11 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
         } = self;
         let reach = block.strips.reach();
         let (sizes, slots) = (storage.sizes, storage.slots);
-        let column = constants.len() / sizes.constants.max(1);
+        let column = match sizes.constants {
+            // Nothing is read of links that are alike.
+            0 => usize::MAX,
+            columns => constants.len() / columns,
+        };
         let sincos = storage.sincos.window(storage.lead, reach.own)?;
         let joint_motions = match sizes.joints {
             true => storage.joint_motions.window(storage.lead, reach.own)?,
@@ -141,6 +156,10 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
         let torques = match sizes.forced {
             true => storage.torques.window(storage.lead, reach.own)?,
             false => storage.torques,
+        };
+        let held = match sizes.held {
+            true => storage.held.window(storage.lead, reach.own)?,
+            false => storage.held,
         };
         let all = |columns: usize, numbers: &[T]| columns * slots <= numbers.len();
         let there = reach.slot <= slots
@@ -165,6 +184,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
             omega,
             joint_motions: joint_motions.start(),
             torques: torques.start(),
+            held: held.start(),
             links: sincos.stride(),
             responses: storage.responses.as_mut_ptr(),
             sums: storage.sums.as_mut_ptr(),
@@ -205,6 +225,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
             omega: Cells::columns(self.omega, self.links),
             joint_motions: Cells::columns(self.joint_motions, self.links),
             torques: Cells::columns(self.torques, self.links),
+            held: Cells::columns(self.held, self.links),
             responses: Cells::columns(self.responses, self.slots),
             sums: Cells::columns(self.sums, self.slots),
             eliminations: Cells::columns(self.eliminations, self.slots),
@@ -219,6 +240,7 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
             omega: Cells::rows(self.omega, sizes.motion()),
             joint_motions: Cells::rows(self.joint_motions, sizes.motion()),
             torques: Cells::rows(self.torques, sizes.motion()),
+            held: Cells::rows(self.held, sizes.motion()),
             responses: Cells::rows(self.responses, sizes.responses),
             sums: Cells::rows(self.sums, sizes.sums),
             eliminations: Cells::rows(self.eliminations, sizes.eliminations),

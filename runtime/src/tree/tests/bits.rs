@@ -29,6 +29,7 @@ fn in_set<E: LinkEquations, T: Lane, const SET: usize>(tree: &Tree<E, T>, links:
             omega: &omega,
             torques: Some(&torques),
         },
+        None,
         &mut alpha,
         &mut Workspace::new(),
     );
@@ -60,7 +61,7 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
             &mut room,
             |link| V::splat(theta[link]) + offsets,
             |link| V::splat(omega[link]),
-            |link| V::splat(torques[link]),
+            |link| [V::splat(torques[link]), V::from_f64(0.0)],
             |link, value| {
                 let mut numbers = [T::from_f64(0.0); 16];
                 value.store(&mut numbers);

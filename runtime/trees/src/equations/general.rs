@@ -87,6 +87,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let joint_torque = spring.mul_add(joint_angle - rest, friction * joint_rate);
         let sum_with_outside_torque = outside_torque - drag.mul_add(omega, joint_torque);
@@ -183,6 +184,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let [
             deficit_xx_below, deficit_xy_below, deficit_yy_below, moment_x_below,
@@ -289,6 +291,7 @@ impl ::branched_pendulum::tree::LinkEquations for GeneralEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let [gravity_x, gravity_y] = pivot;
         let joint_torque = spring.mul_add(joint_angle - rest, friction * joint_rate);

@@ -89,6 +89,7 @@ impl ::branched_pendulum::tree::LinkEquations for RoughEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let speed_joint = friction_width
             .mul_add(friction_width, joint_rate * joint_rate)
@@ -196,6 +197,7 @@ impl ::branched_pendulum::tree::LinkEquations for RoughEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let [
             deficit_xx_below, deficit_xy_below, deficit_yy_below, moment_x_below,
@@ -313,6 +315,7 @@ impl ::branched_pendulum::tree::LinkEquations for RoughEquations {
             joint_angle,
             joint_rate,
             outside_torque,
+            ..
         } = link;
         let [gravity_x, gravity_y] = pivot;
         let speed_joint = friction_width

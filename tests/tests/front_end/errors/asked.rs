@@ -244,8 +244,9 @@ pub(super) const CASES: &[Case] = &[
     (
         "prescribed_in_loops",
         "#[branched_pendulum(gravity = 1, code = loops,
-    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
-    prescribed(a))] struct Pendulum;",
+    a: generations(count = 3, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
+    prescribed(a_1, a_2_2, a_3_2_1), prescribed(a_2), prescribed(a_3_1_3, a_3_1_1_1), prescribed(a_2_02))]
+    struct Pendulum;",
     ),
     (
         "no_transverse",
