@@ -181,6 +181,33 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
+/// Rows of the equations of trees by rule, for the links that stand for their generations,
+/// from the root on: link, place of its children and mass that they carry with them.
+pub(crate) fn by_rule(
+    links: &[LinkNumbers],
+    carries: &[bool],
+    gravity: Double,
+    generations: &[(usize, [Double; 2], Double)],
+) -> Vec<Double> {
+    let moments = moments(links, carries);
+    let rows = generations.iter().flat_map(|&(link, place, carried)| {
+        let own = links.get(link).zip(moments.get(link));
+        let row = own.map(|(link, moments)| {
+            let carried = [0, 1].map(|axis| link.mass * link.com[axis] + carried * place[axis]);
+            let mut row = moments.jointed(link);
+            // The children's pivot, where other equations have the link's own.
+            (row[7], row[8]) = (place[0], place[1]);
+            let body = [link.mass, link.inertia, link.com[0], link.com[1]];
+            let forces = [gravity, link.spring, link.friction, link.drag];
+            let no_torque = Double::from_f64(0.0);
+            let row = row.into_iter().chain(link.laws).chain(body).chain(place);
+            row.chain(carried).chain(forces).chain([no_torque])
+        });
+        row.into_iter().flatten()
+    });
+    rows.collect()
+}
+
 /// Rows of [`Bodies`](branched_pendulum::tree::Bodies).
 pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
     let half = Double::from_f64(0.5);
