@@ -1,10 +1,14 @@
 //! Growth of small differences: the class `Growth`.
 
-use branched_pendulum::analysis::growth::{Checked, Grown};
+use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::matrix;
+use crate::motions::Motions;
 
 /// Growth of a small difference along motions, a row or a number for each of them. NaN where a
 /// motion could not be followed.
@@ -41,8 +45,75 @@ impl Growth {
     }
 }
 
+/// Growth that is asked for.
+pub(crate) struct GrowthTask {
+    pub(crate) starts: Vec<State<f64>>,
+    pub(crate) horizons: Vec<f64>,
+    pub(crate) frequency_hz: Option<f64>,
+    pub(crate) tolerance: f64,
+}
+
+/// Largest part by which accelerations of copies differ, from rounding.
+const ALIKE: f64 = 1e-12;
+
+impl GrowthTask {
+    /// Growth of a difference between two links, by their names, along all motions.
+    pub(crate) fn grown(
+        self,
+        py: Python<'_>,
+        motions: &dyn Motions,
+        (one, other): (String, String),
+        ensemble: &Ensemble<'_>,
+    ) -> PyResult<Growth> {
+        let names = motions.names();
+        let place = |name: &String| {
+            let found = names.iter().position(|own| own == name);
+            found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
+        };
+        let copies = motions.copies([place(&one)?, place(&other)?]);
+        let start_alike = |copies: &Vec<[usize; 2]>| {
+            let mut starts = self.starts.iter();
+            starts.all(|start| are_alike(motions, copies, start))
+        };
+        let Some(copies) = copies.filter(start_alike) else {
+            let text = format!("`{one}` and `{other}` are no copies that start alike");
+            return Err(PyValueError::new_err(text));
+        };
+        let grown = py.detach(|| {
+            ensemble.map(&self.starts, |_, start| {
+                motions.growth(&self, &copies, start)
+            })
+        });
+        let grown = grown.into_iter().map(|grown| match grown {
+            Ok(grown) => Ok(Some(grown)),
+            Err(GrowthError::Integration(_)) => Ok(None),
+            Err(error) => Err(PyValueError::new_err(error.to_string())),
+        });
+        Growth::of(
+            py,
+            self.horizons.clone(),
+            &grown.collect::<PyResult<Vec<_>>>()?,
+        )
+    }
+}
+
+/// Returns true if copies are in one state, and remain so. NaN is alike.
+fn are_alike(motions: &dyn Motions, copies: &[[usize; 2]], start: &State<f64>) -> bool {
+    let state = &start.values;
+    let mut rates = vec![0.0; state.len()];
+    motions.rates(start.time, state, &mut rates);
+    let size = rates
+        .iter()
+        .fold(0.0, |size: f64, rate| size.max(rate.abs()));
+    let differ = |[one, other]: &[usize; 2]| {
+        (state[*one] - state[*other]).abs() > 0.0
+            || (rates[*one] - rates[*other]).abs() > ALIKE * size
+    };
+    !copies.iter().any(differ)
+}
+
 impl Growth {
-    pub(crate) fn of(py: Python<'_>, horizons: Vec<f64>, all: &[Option<Grown>]) -> PyResult<Self> {
+    fn of(py: Python<'_>, horizons: Vec<f64>, all: &[Option<Grown>]) -> PyResult<Self> {
         let columns = horizons.len();
         let nowhere = Checked {
             value: f64::NAN,

@@ -15,6 +15,7 @@ use branched_pendulum::integrate::{
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{CastOde, LaneOde, Ode, RatesOnly, State};
 
+use crate::growth::GrowthTask;
 use crate::smoothing::{Coordinates, Estimate};
 
 /// Equations of motion with the pendulum behind them.
@@ -92,9 +93,14 @@ pub(crate) trait Motions: Send + Sync {
     /// they do not carry as much.
     fn copies(&self, links: [usize; 2]) -> Option<Vec<[usize; 2]>>;
 
-    /// Growth of a difference between copies along a motion; without a frequency looked at
-    /// by that of the difference beside all links at rest.
-    fn growth(&self, search: &GrowthSearch, start: &State<f64>) -> Result<Grown, GrowthError>;
+    /// Growth of a difference between copies, by pairs of components, along a motion; without
+    /// a frequency looked at by that of the difference beside all links at rest.
+    fn growth(
+        &self,
+        task: &GrowthTask,
+        copies: &[[usize; 2]],
+        start: &State<f64>,
+    ) -> Result<Grown, GrowthError>;
 
     fn smoothed_coordinates(&self) -> Coordinates;
 
@@ -107,15 +113,6 @@ pub(crate) trait Motions: Send + Sync {
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
     ) -> Result<Estimate, SmoothingError>;
-}
-
-/// A growth that is asked for.
-pub(crate) struct GrowthSearch {
-    /// Components that differ.
-    pub(crate) copies: Vec<[usize; 2]>,
-    pub(crate) horizons: Vec<f64>,
-    pub(crate) frequency_hz: Option<f64>,
-    pub(crate) tolerance: f64,
 }
 
 /// A smoothing by equations of motion that is asked for.
@@ -265,17 +262,21 @@ impl<M: Model> Motions for M {
         are_apart.then(|| angles.iter().copied().chain(rates).collect())
     }
 
-    fn growth(&self, search: &GrowthSearch, start: &State<f64>) -> Result<Grown, GrowthError> {
-        let system = BetweenCopies::new(linearised(self.clone()), search.copies.clone());
+    fn growth(
+        &self,
+        task: &GrowthTask,
+        copies: &[[usize; 2]],
+        start: &State<f64>,
+    ) -> Result<Grown, GrowthError> {
+        let system = BetweenCopies::new(linearised(self.clone()), copies.to_vec());
+        let frequency = task.frequency_hz.or_else(|| system.frequency_at_rest());
         let growth = Growth {
-            frequency_hz: (search.frequency_hz)
-                .or_else(|| system.frequency_at_rest())
-                .unwrap_or(f64::NAN),
-            horizons: search.horizons.clone(),
-            tolerance: search.tolerance,
+            frequency_hz: frequency.unwrap_or(f64::NAN),
+            horizons: task.horizons.clone(),
+            tolerance: task.tolerance,
         };
         let n = start.values.len() / 2;
-        let one = search.copies.first().map_or(0, |[one, _]| *one);
+        let one = copies.first().map_or(0, |[one, _]| *one);
         let differences = [one..one + 1, n + one..n + one + 1];
         growth.along(&system, start, &system.opposite(), differences)
     }

@@ -3,20 +3,19 @@
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use branched_pendulum::analysis::growth::GrowthError;
 use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::IntegrationError;
 use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
 use crate::events::{FoundEvents, Watched, find_events};
-use crate::growth::Growth;
-use crate::motions::{GrowthSearch, Motions};
+use crate::growth::{Growth, GrowthTask};
+use crate::motions::Motions;
 use crate::smoothing::{SmoothedMotion, Smoother, refused, rows};
 use crate::solution::Solution;
 
@@ -297,49 +296,13 @@ impl Pendulum {
         rtol: f64,
         threads: Option<NonZeroUsize>,
     ) -> PyResult<Growth> {
-        let starts = self.starts(&starts, 0.0)?;
-        let names = self.motions.names();
-        let place = |name: &String| {
-            let found = names.iter().position(|own| own == name);
-            found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
-        };
-        let motions = &self.motions;
-        let different = || {
-            let (one, other) = &pair;
-            let text = format!("`{one}` and `{other}` are no copies that start alike");
-            PyValueError::new_err(text)
-        };
-        let copies = motions.copies([place(&pair.0)?, place(&pair.1)?]);
-        let copies = copies.ok_or_else(different)?;
-        for start in &starts {
-            let mut rates = vec![0.0; start.values.len()];
-            motions.rates(start.time, &start.values, &mut rates);
-            let size = rates
-                .iter()
-                .fold(0.0, |size: f64, rate| size.max(rate.abs()));
-            let is_off = |[one, other]: &[usize; 2]| {
-                start.values[*one] != start.values[*other]
-                    || (rates[*one] - rates[*other]).abs() > 1e-12 * size
-            };
-            if copies.iter().any(is_off) && start.values.iter().all(|value| value.is_finite()) {
-                return Err(different());
-            }
-        }
-        let horizons = horizons.as_array().to_vec();
-        let search = GrowthSearch {
-            copies,
-            horizons: horizons.clone(),
+        let task = GrowthTask {
+            starts: self.starts(&starts, 0.0)?,
+            horizons: horizons.as_array().to_vec(),
             frequency_hz: frequency,
             tolerance: rtol,
         };
-        let grown =
-            py.detach(|| ensemble(threads).map(&starts, |_, start| motions.growth(&search, start)));
-        let grown = grown.into_iter().map(|grown| match grown {
-            Ok(grown) => Ok(Some(grown)),
-            Err(GrowthError::Integration(_)) => Ok(None),
-            Err(error) => Err(PyValueError::new_err(error.to_string())),
-        });
-        Growth::of(py, horizons, &grown.collect::<PyResult<Vec<_>>>()?)
+        task.grown(py, &*self.motions, pair, &ensemble(threads))
     }
 
     /// Returns the motion behind measured angles `theta` (rad from the downward vertical, a

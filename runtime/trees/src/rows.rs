@@ -181,16 +181,30 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
-/// Rows of the equations of trees by rule, for the links that stand for their generations,
-/// from the root on: link, place of its children and mass that they carry with them.
+/// Links of one generation, all alike.
+pub(crate) struct Generation {
+    /// One of them.
+    pub(crate) link: usize,
+    /// Place of its children, along the link and across it.
+    pub(crate) place: [Double; 2],
+    /// Mass of all that hangs there.
+    pub(crate) carried: Double,
+}
+
+/// Rows of the equations of trees by rule, for each generation from the root on.
 pub(crate) fn by_rule(
     links: &[LinkNumbers],
     carries: &[bool],
     gravity: Double,
-    generations: &[(usize, [Double; 2], Double)],
+    generations: &[Generation],
 ) -> Vec<Double> {
     let moments = moments(links, carries);
-    let rows = generations.iter().flat_map(|&(link, place, carried)| {
+    let rows = generations.iter().flat_map(|generation| {
+        let &Generation {
+            link,
+            place,
+            carried,
+        } = generation;
         let own = links.get(link).zip(moments.get(link));
         let row = own.map(|(link, moments)| {
             let carried = [0, 1].map(|axis| link.mass * link.com[axis] + carried * place[axis]);

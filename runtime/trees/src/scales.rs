@@ -9,7 +9,7 @@ use branched_pendulum::tree::ScaleTree;
 
 use crate::equations::ByRuleEquations;
 use crate::numbers::LinkNumbers;
-use crate::rows;
+use crate::rows::{self, Generation};
 use crate::tree::{PendulumTree, in_numbers};
 
 /// A tree whose links of one generation are alike, with as many children each.
@@ -54,14 +54,18 @@ impl<T: Scalar> ByRule<T> {
             order.extend(&generation);
             copies.push(count);
         }
-        let mut below = Double::from_f64(0.0);
+        let mut carried = Double::from_f64(0.0);
         let mut rows = Vec::with_capacity(first.len());
         for (generation, &(link, child)) in first.iter().enumerate().rev() {
             let place = child.and_then(|child| links.get(child));
             let place = place.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
-            rows.push((link, place, below));
+            rows.push(Generation {
+                link,
+                place,
+                carried,
+            });
             let copies = *copies.get(generation)? as f64;
-            below = Double::from_f64(copies) * (links.get(link)?.mass + below);
+            carried = Double::from_f64(copies) * (links.get(link)?.mass + carried);
         }
         rows.reverse();
         let rows = rows::by_rule(links, carries, gravity, &rows);
