@@ -128,7 +128,8 @@ pub fn link_equations(
         program,
     };
     let strips = program.strips.as_ref()?;
-    Some(emission.link_equations(strips))
+    let (link, scales) = (emission.link_equations(strips), emission.scale_equations());
+    Some(quote!(#link #scales))
 }
 
 impl Emission<'_> {

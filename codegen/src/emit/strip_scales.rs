@@ -9,16 +9,27 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl Emission<'_> {
-    /// `impl ScaleEquations` and `impl Scales`, where energies by scale are asked for.
+    /// Returns `impl ScaleEquations` and `impl Scales`, where energies by scale are asked for.
     pub(super) fn strip_scales(&self) -> TokenStream {
+        let (equations, model) = (self.scale_equations(), self.scales_of_model());
+        quote!(#equations #model)
+    }
+
+    /// Returns the copies of each generation under each link of the one before, where energies
+    /// by scale are asked for.
+    fn scale_copies(&self) -> Option<Vec<usize>> {
         let Layout::Generations { branching, .. } = self.scene.layout else {
-            return TokenStream::new();
+            return None;
         };
-        if !self.scene.requests.scales() {
-            return TokenStream::new();
-        }
-        let runtime = self.runtime();
-        let (name, equations) = (&self.item.ident, self.equations_name());
+        let generations = 0..self.scene.links.len();
+        let copies = generations.map(|generation| if generation == 0 { 1 } else { branching });
+        (self.scene.requests.scales()).then(|| copies.collect())
+    }
+
+    /// Returns `impl ScaleEquations`.
+    pub(super) fn scale_equations(&self) -> Option<TokenStream> {
+        self.scale_copies()?;
+        let (runtime, equations) = (self.runtime(), self.equations_name());
         let functions = ScaleFunction::ALL.into_iter().filter_map(|function| {
             let results = Literal::usize_unsuffixed(function.results());
             self.equation_function(Purpose::Scale(function), &quote!([T; #results]))
@@ -28,15 +39,7 @@ impl Emission<'_> {
         let friction = any(|link| link.passive.has_friction());
         let drag = any(|link| link.passive.has_drag());
         let moved = self.has_moving_pivot();
-        let drive = match self.mechanics.drive {
-            Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
-            None => quote!(::core::option::Option::None),
-        };
-        let time = self.time_name();
-        let copies = (0..self.scene.links.len()).map(|generation| {
-            Literal::usize_unsuffixed(if generation == 0 { 1 } else { branching })
-        });
-        quote! {
+        Some(quote! {
             // Of commas: all tokens stand where the attribute does, see `emit`.
             #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
             impl #runtime::tree::ScaleEquations for #equations {
@@ -47,7 +50,19 @@ impl Emission<'_> {
 
                 #(#functions)*
             }
+        })
+    }
 
+    /// Returns `impl Scales` of the model.
+    fn scales_of_model(&self) -> Option<TokenStream> {
+        let copies = self.scale_copies()?.into_iter();
+        let copies = copies.map(Literal::usize_unsuffixed);
+        let (runtime, name, time) = (self.runtime(), &self.item.ident, self.time_name());
+        let drive = match self.mechanics.drive {
+            Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
+            None => quote!(::core::option::Option::None),
+        };
+        Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Scales<T> for #name<T> {
                 const COPIES: &'static [usize] = &[#(#copies),*];
 
@@ -96,7 +111,7 @@ impl Emission<'_> {
                     self.tree.budget_by_scale_under(workspace, #drive, given, budget);
                 }
             }
-        }
+        })
     }
 
     /// The derived formulas behind a function of a link.

@@ -1,8 +1,8 @@
 //! A motion, its energy and power from measured angles, with their errors.
 
 use branched_pendulum::analysis::{
-    Bands, KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, bands,
-    running_integral,
+    Bands, KinematicSmoother, LocalPolynomials, SmoothedCoordinates, SmoothedMotion,
+    SmoothingError, bands, running_integral,
 };
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -132,27 +132,20 @@ impl<const N: usize> Measured<'_, N> {
                 .map(|all| all.map(|all| all[coordinate]))
                 .collect()
         };
-        let series: Result<Vec<SmoothedMotion<3>>, SmoothingError> = (0..N)
-            .map(|coordinate| smooth(times, &of(coordinate)))
-            .collect();
-        let series = series?;
-        let joined = |states: &dyn Fn(usize, usize) -> [f64; 3]| -> Vec<Motion<N>> {
-            let at =
-                |time: usize| [0, 1].map(|order| std::array::from_fn(|of| states(of, time)[order]));
-            (0..times.len()).map(at).collect()
-        };
-        let white = series.iter().map(SmoothedMotion::whiteness);
-        let largest = |a: f64, b: f64| if a.abs() > b.abs() { a } else { b };
+        let smoothed = SmoothedCoordinates::new((0..N).map(of), |data| smooth(times, data))?;
+        let noise = smoothed.coordinates().first().map(SmoothedMotion::noise);
         let told = Told {
-            noise: series.first().map_or(f64::NAN, SmoothedMotion::noise),
-            whiteness: white.reduce(largest).unwrap_or(f64::NAN),
+            noise: noise.unwrap_or(f64::NAN),
+            whiteness: smoothed.whiteness(),
         };
-        let motion = joined(&|of, time| series[of].mean(time));
+        let parted = |state: Vec<f64>| -> Motion<N> {
+            [0, N].map(|first| std::array::from_fn(|of| state[first + of]))
+        };
+        let motion = (0..times.len()).map(|time| parted(smoothed.mean(time)));
         let draw = |normal: &mut dyn FnMut() -> f64| {
-            let drawn: Vec<_> = series.iter().map(|one| one.draw(&mut *normal)).collect();
-            joined(&|of, time| drawn[of][time])
+            smoothed.draw(normal).into_iter().map(parted).collect()
         };
-        Ok(self.estimate(draws, told, motion, draw))
+        Ok(self.estimate(draws, told, motion.collect(), draw))
     }
 
     /// Tells what follows from draws. They are drawn twice, with the same random numbers,

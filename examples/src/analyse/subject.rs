@@ -93,9 +93,6 @@ pub struct LinkMotion<const N: usize> {
     pub whiteness: f64,
 }
 
-/// Longest step from picture to picture, s: its error is far below that of any camera.
-const LONGEST_STEP: f64 = 2e-3;
-
 fn smoothed<const N: usize, const D: usize, L: Linearised<f64>>(
     system: &L,
     record: Record<'_, N>,
@@ -113,7 +110,7 @@ fn smoothed<const N: usize, const D: usize, L: Linearised<f64>>(
         disturbances,
         ..ModelSmoother::default()
     };
-    let method = Rk4::new(LONGEST_STEP);
+    let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
     let motion: SmoothedMotion<D> =
         smoother.smooth(&method, system, record.times, record.angles, &guess)?;
     Ok(LinkMotion {

@@ -6,6 +6,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// Numbers, from an array or a list.
 pub(crate) type Values<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
@@ -60,4 +61,24 @@ pub(crate) fn by_state<'py, const RESULTS: usize>(
         shape.push(RESULTS);
     }
     results.into_pyarray(py).reshape(shape)
+}
+
+/// Names of the components of a state: `theta_parent` to `omega_child_2`.
+pub(crate) fn state_names(links: &[String]) -> Vec<String> {
+    let of = |letter: &'static str| links.iter().map(move |name| format!("{letter}_{name}"));
+    of("theta").chain(of("omega")).collect()
+}
+
+/// A `pandas.DataFrame` of rows against times.
+pub(crate) fn frame<'py>(
+    py: Python<'py>,
+    times: &Py<PyArray1<f64>>,
+    rows: &Py<PyArray2<f64>>,
+    columns: Vec<String>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let pandas = py.import("pandas")?;
+    let name = PyDict::new(py);
+    name.set_item("name", "t")?;
+    let index = pandas.call_method("Index", (times,), Some(&name))?;
+    pandas.call_method1("DataFrame", (rows, index, columns))
 }

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use crate::arrays::{AnyShape, Table, by_state};
 use crate::motions::Model;
 use crate::pendulum::Pendulum;
+use crate::smoothing::Coordinates;
 use paper::Paper;
 
 /// The paper's scene as the tool wrote it: the repository checks that it is up to date.
@@ -47,6 +48,25 @@ impl Model for AbsoluteAngles<Paper> {
                 self.0.kinetic_energy(theta, omega) + self.0.potential_energy(theta)
             }
             None => f64::NAN,
+        }
+    }
+
+    fn link_parents(&self) -> Vec<Option<usize>> {
+        vec![None, Some(0), Some(0)]
+    }
+
+    fn smoothed_coordinates(&self) -> Coordinates {
+        let unit = |column: usize| -> [f64; LINKS] {
+            std::array::from_fn(|link| f64::from(u8::from(link == column)))
+        };
+        let rows = |of: &dyn Fn(&[f64; LINKS]) -> [f64; LINKS]| -> Vec<Vec<f64>> {
+            let columns: [[f64; LINKS]; LINKS] = std::array::from_fn(|column| of(&unit(column)));
+            let row = |row: usize| columns.iter().map(|column| column[row]).collect();
+            (0..LINKS).map(row).collect()
+        };
+        Coordinates {
+            of_links: rows(&|angles| self.0.to_symmetric(angles)),
+            links: rows(&|coordinates| self.0.from_symmetric(coordinates)),
         }
     }
 }

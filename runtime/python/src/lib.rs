@@ -2,20 +2,27 @@
 
 mod arrays;
 mod branched_double;
+mod budget;
 mod events;
+mod growth;
 mod motions;
 mod pendulum;
+mod recording;
+mod smoothing;
 mod solution;
+mod spectrum;
 mod tree;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 pyo3::create_exception!(
     branched_pendulum,
     DescriptionError,
     PyValueError,
-    "A text that is no description of a tree: all mistakes, each marked in its line."
+    "A text that is no description of a tree: all mistakes, each marked in its line; `mistakes` \
+     has line and column, counted from 1, and message of each."
 );
 pyo3::create_exception!(
     branched_pendulum,
@@ -24,14 +31,39 @@ pyo3::create_exception!(
     "A motion that could not be followed to its end."
 );
 
+pyo3::create_exception!(
+    branched_pendulum,
+    ReadError,
+    PyValueError,
+    "A file of measurements that is not understood: `file`, and where there is one the place in \
+     it, `line` and `column` counted from 1 and the column's `name`."
+);
+
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("DescriptionError", py.get_type::<DescriptionError>())?;
+    let description_error = py.get_type::<DescriptionError>();
+    description_error.setattr("mistakes", PyList::empty(py))?;
+    module.add("DescriptionError", description_error)?;
     module.add("IntegrationError", py.get_type::<IntegrationError>())?;
+    let read_error = py.get_type::<ReadError>();
+    for place in ["file", "line", "column", "name"] {
+        read_error.setattr(place, py.None())?;
+    }
+    module.add("ReadError", read_error)?;
     module.add_class::<pendulum::Pendulum>()?;
     module.add_class::<tree::Tree>()?;
     module.add_class::<branched_double::BranchedDouble>()?;
-    module.add_class::<solution::Solution>()
+    module.add_class::<solution::Solution>()?;
+    module.add_class::<budget::ScaleBudget>()?;
+    module.add_class::<growth::Growth>()?;
+    module.add_class::<recording::Recording>()?;
+    module.add_class::<smoothing::SmoothedMotion>()?;
+    module.add_class::<spectrum::Lines>()?;
+    module.add_function(wrap_pyfunction!(recording::read, module)?)?;
+    module.add_function(wrap_pyfunction!(smoothing::smooth, module)?)?;
+    module.add_function(wrap_pyfunction!(spectrum::spectrum, module)?)?;
+    module.add_function(wrap_pyfunction!(spectrum::lines, module)?)?;
+    module.add_function(wrap_pyfunction!(spectrum::running_integral, module)?)
 }

@@ -1,18 +1,22 @@
 //! Motions of pendulums of any kind, without Python.
 
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
+use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthError};
 use branched_pendulum::analysis::variational::{
-    Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
+    Linearised, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
+use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
-    Report, Solution, Trajectory,
+    Report, Rk4, Solution, Trajectory,
 };
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{CastOde, LaneOde, Ode, RatesOnly, State};
+
+use crate::growth::GrowthTask;
+use crate::smoothing::{Coordinates, Estimate};
 
 /// Equations of motion with the pendulum behind them.
 pub(crate) trait Model:
@@ -23,6 +27,14 @@ pub(crate) trait Model:
 
     /// The energy (J) of a state: angles, angular velocities.
     fn state_energy(&self, state: &[f64]) -> f64;
+
+    /// The link that each hangs from; of the root none.
+    fn link_parents(&self) -> Vec<Option<usize>>;
+
+    /// Coordinates in which measured angles are smoothed.
+    fn smoothed_coordinates(&self) -> Coordinates {
+        Coordinates::links(self.link_names().len())
+    }
 }
 
 /// The motions of a [`Model`], whatever its type.
@@ -65,7 +77,7 @@ pub(crate) trait Motions: Send + Sync {
     fn ensemble(
         &self,
         method: &AnyIntegrator<f64>,
-        threads: Option<NonZeroUsize>,
+        ensemble: &Ensemble<'_>,
         starts: &[State<f64>],
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>>;
@@ -76,6 +88,75 @@ pub(crate) trait Motions: Send + Sync {
         options: Options<f64>,
         start: &State<f64>,
     ) -> Result<LyapunovSpectrum, LyapunovError>;
+
+    /// Pairs of components of a state, of two links with all that hangs from them; none where
+    /// they do not carry as much.
+    fn copies(&self, links: [usize; 2]) -> Option<Vec<[usize; 2]>>;
+
+    /// Growth of a difference between copies, by pairs of components, along a motion; without
+    /// a frequency looked at by that of the difference beside all links at rest.
+    fn growth(
+        &self,
+        task: &GrowthTask,
+        copies: &[[usize; 2]],
+        start: &State<f64>,
+    ) -> Result<Grown, GrowthError>;
+
+    fn smoothed_coordinates(&self) -> Coordinates;
+
+    /// Smooths measured angles by the equations of motion, beginning from states near the
+    /// true ones.
+    fn smooth(
+        &self,
+        noise: Option<f64>,
+        times: &[f64],
+        angles: &[Vec<Option<f64>>],
+        guess: &[f64],
+    ) -> Result<Estimate, SmoothingError>;
+}
+
+/// A smoothing by equations of motion that is asked for.
+struct ModelSmoothing<'a> {
+    noise: Option<f64>,
+    /// Patterns of the accelerations that the equations lack: those of single coordinates.
+    patterns: &'a Coordinates,
+    times: &'a [f64],
+    angles: &'a [Vec<Option<f64>>],
+    guess: &'a [f64],
+}
+
+/// Most links of a pendulum whose equations smooth angles.
+const MOST_SMOOTHED: usize = 4;
+
+impl ModelSmoothing<'_> {
+    fn estimate<const N: usize, const D: usize>(
+        &self,
+        system: &impl Linearised<f64>,
+    ) -> Result<Estimate, SmoothingError> {
+        let array = |row: &Vec<Option<f64>>| std::array::from_fn(|link| row[link]);
+        let angles: Vec<[Option<f64>; N]> = self.angles.iter().map(array).collect();
+        let (guess, _) = self.guess.as_chunks::<D>();
+        let links = &self.patterns.links;
+        let pattern = |coordinate: usize| std::array::from_fn(|link| links[link][coordinate]);
+        let smoother = ModelSmoother {
+            noise: self.noise,
+            disturbances: (0..N).map(pattern).collect(),
+            ..ModelSmoother::<N>::default()
+        };
+        let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
+        let motion = smoother.smooth::<D, _, _>(&method, system, self.times, &angles, guess)?;
+        let rows = |of: &dyn Fn(usize) -> [f64; D]| (0..self.times.len()).flat_map(of).collect();
+        Ok(Estimate {
+            states: [
+                rows(&|time| motion.mean(time)),
+                rows(&|time| motion.deviation(time)),
+            ],
+            accelerations: None,
+            noise: vec![motion.noise(); N],
+            whiteness: motion.whiteness(),
+            draw: Box::new(move |normal| motion.draw(normal).into_flattened()),
+        })
+    }
 }
 
 impl<M: Model> Motions for M {
@@ -136,14 +217,10 @@ impl<M: Model> Motions for M {
     fn ensemble(
         &self,
         method: &AnyIntegrator<f64>,
-        threads: Option<NonZeroUsize>,
+        ensemble: &Ensemble<'_>,
         starts: &[State<f64>],
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>> {
-        let ensemble = match threads {
-            Some(threads) => Ensemble::new().threads(threads),
-            None => Ensemble::new(),
-        };
         Some(match method {
             AnyIntegrator::Dop853(method) => ensemble.sample_in_lanes(method, self, starts, times),
             AnyIntegrator::Dopri5(method) => ensemble.sample_in_lanes(method, self, starts, times),
@@ -161,5 +238,79 @@ impl<M: Model> Motions for M {
         start: &State<f64>,
     ) -> Result<LyapunovSpectrum, LyapunovError> {
         exponents.spectrum(&Dop853::new(options), &linearised(self.clone()), start)
+    }
+
+    fn copies(&self, links: [usize; 2]) -> Option<Vec<[usize; 2]>> {
+        let parents = self.link_parents();
+        let carried = |from: usize| -> Vec<usize> {
+            let mut own = vec![from];
+            // A link stands behind the one that it hangs from.
+            for (link, parent) in parents.iter().enumerate() {
+                if parent.is_some_and(|parent| own.contains(&parent)) {
+                    own.push(link);
+                }
+            }
+            own
+        };
+        let [one, other] = links.map(carried);
+        let are_apart = one.len() == other.len() && !one.iter().any(|link| other.contains(link));
+        let angles = one.into_iter().zip(other).map(|(one, other)| [one, other]);
+        let angles: Vec<[usize; 2]> = angles.collect();
+        let rates = angles
+            .iter()
+            .map(|pair| pair.map(|link| link + parents.len()));
+        are_apart.then(|| angles.iter().copied().chain(rates).collect())
+    }
+
+    fn growth(
+        &self,
+        task: &GrowthTask,
+        copies: &[[usize; 2]],
+        start: &State<f64>,
+    ) -> Result<Grown, GrowthError> {
+        let system = BetweenCopies::new(linearised(self.clone()), copies.to_vec());
+        let frequency = task.frequency_hz.or_else(|| system.frequency_at_rest());
+        let growth = Growth {
+            frequency_hz: frequency.unwrap_or(f64::NAN),
+            horizons: task.horizons.clone(),
+            tolerance: task.tolerance,
+        };
+        let n = start.values.len() / 2;
+        let one = copies.first().map_or(0, |[one, _]| *one);
+        let differences = [one..one + 1, n + one..n + one + 1];
+        growth.along(&system, start, &system.opposite(), differences)
+    }
+
+    fn smoothed_coordinates(&self) -> Coordinates {
+        Model::smoothed_coordinates(self)
+    }
+
+    fn smooth(
+        &self,
+        noise: Option<f64>,
+        times: &[f64],
+        angles: &[Vec<Option<f64>>],
+        guess: &[f64],
+    ) -> Result<Estimate, SmoothingError> {
+        let system = &linearised(self.clone());
+        let task = ModelSmoothing {
+            noise,
+            patterns: &Model::smoothed_coordinates(self),
+            times,
+            angles,
+            guess,
+        };
+        let links = Ode::<f64>::dimension(self) / 2;
+        match links {
+            1 => task.estimate::<1, 2>(system),
+            2 => task.estimate::<2, 4>(system),
+            3 => task.estimate::<3, 6>(system),
+            MOST_SMOOTHED => task.estimate::<4, 8>(system),
+            _ => Err(SmoothingError::Dimension {
+                dimension: 2 * links,
+                state: 2 * MOST_SMOOTHED,
+                measured: links,
+            }),
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
+use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
@@ -13,7 +14,9 @@ use pyo3::prelude::*;
 use crate::IntegrationError;
 use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
 use crate::events::{FoundEvents, Watched, find_events};
+use crate::growth::{Growth, GrowthTask};
 use crate::motions::Motions;
+use crate::smoothing::{SmoothedMotion, Smoother, refused, rows};
 use crate::solution::Solution;
 
 /// A pendulum whose motions can be followed: a tree that a text describes, or a compiled model.
@@ -57,6 +60,14 @@ impl Choice<'_> {
         }
         options.initial_step = self.step;
         options
+    }
+}
+
+/// An ensemble on all cores, or on as many threads as are given.
+fn ensemble(threads: Option<NonZeroUsize>) -> Ensemble<'static> {
+    match threads {
+        Some(threads) => Ensemble::new().threads(threads),
+        None => Ensemble::new(),
     }
 }
 
@@ -130,7 +141,13 @@ impl Pendulum {
         let watched = watched.collect::<PyResult<Vec<_>>>()?;
         let found = match watched.is_empty() {
             true => None,
-            false => Some(find_events(&*self.motions, &method, &start, last, &watched)?),
+            false => Some(find_events(
+                &*self.motions,
+                &method,
+                &start,
+                last,
+                &watched,
+            )?),
         };
         let end = found.as_ref().map_or(last, |found| found.end);
         if found.as_ref().is_some_and(FoundEvents::is_stopped) {
@@ -202,20 +219,9 @@ impl Pendulum {
             return Err(PyValueError::new_err("t has no times"));
         };
         let dimension = self.motions.dimension();
-        let starts = starts.as_array();
-        let [_, columns] = starts.shape() else {
-            return Err(PyValueError::new_err(
-                "starts must have two axes: starts, components",
-            ));
-        };
-        if *columns != dimension {
-            return Err(PyValueError::new_err(format!(
-                "a start has {columns} numbers, must have {dimension}"
-            )));
-        }
-        let rows = starts.rows().into_iter();
-        let starts: Vec<State<f64>> = rows.map(|row| State::new(first, row.to_vec())).collect();
-        let samples = py.detach(|| self.motions.ensemble(&chosen, threads, &starts, &times));
+        let starts = self.starts(&starts, first)?;
+        let ensemble = ensemble(threads);
+        let samples = py.detach(|| self.motions.ensemble(&chosen, &ensemble, &starts, &times));
         let Some(samples) = samples else {
             return Err(PyValueError::new_err(format!(
                 "ensembles go by `dop853`, `dopri5` or `verner98`, not by `{method}`"
@@ -267,5 +273,97 @@ impl Pendulum {
         })?;
         let [exponents, errors] = [spectrum.exponents, spectrum.standard_errors];
         Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
+    }
+
+    /// Follows motions from each row of `starts`, at rest or not, with a vanishing difference
+    /// between two identical links beside them, and returns its `Growth` up to the `horizons`
+    /// (s) after the start. The links are given by their names, and start alike with all that
+    /// hangs from them.
+    ///
+    /// Growth is looked at 32 times a period of `frequency` (Hz), by default that of the
+    /// difference beside all links hanging at rest. The tolerance `rtol` is used with a
+    /// hundredth of it besides, whose result is returned. All cores are used, or as many
+    /// threads as are given; other threads of Python run meanwhile.
+    #[pyo3(signature = (starts, pair, horizons, frequency = None, rtol = 1e-9, threads = None))]
+    #[allow(clippy::too_many_arguments)]
+    fn growth(
+        &self,
+        py: Python<'_>,
+        starts: AnyShape<'_>,
+        pair: (String, String),
+        horizons: Values<'_>,
+        frequency: Option<f64>,
+        rtol: f64,
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Growth> {
+        let task = GrowthTask {
+            starts: self.starts(&starts, 0.0)?,
+            horizons: horizons.as_array().to_vec(),
+            frequency_hz: frequency,
+            tolerance: rtol,
+        };
+        task.grown(py, &*self.motions, pair, &ensemble(threads))
+    }
+
+    /// Returns the motion behind measured angles `theta` (rad from the downward vertical, a
+    /// column for each link; NaN where they are missing) at times `t` (s), which may be uneven.
+    ///
+    /// "kinematic" knows that the motion is smooth and no more; "polynomials" fits one near each
+    /// time, a cross-check; "equations" knows the equations of motion, of pendulums of up to
+    /// four links, and finds out how much they lack: errors are far smaller where they hold.
+    /// Noise is found from the data, unless `noise` (rad) is given. A compiled model is
+    /// smoothed in its symmetric coordinates. Other threads of Python run meanwhile.
+    #[pyo3(signature = (t, theta, method = "kinematic", noise = None))]
+    fn smooth(
+        &self,
+        py: Python<'_>,
+        t: Values<'_>,
+        theta: AnyShape<'_>,
+        method: &str,
+        noise: Option<f64>,
+    ) -> PyResult<SmoothedMotion> {
+        let (times, angles) = (t.as_array().to_vec(), rows("theta", &theta)?);
+        let names = self.motions.names();
+        let columns = angles.first().map_or(0, Vec::len);
+        if columns != names.len() {
+            let links = names.len();
+            let text = format!("theta has {columns} columns, must have {links}, one for each link");
+            return Err(PyValueError::new_err(text));
+        }
+        let by_equations = method == "equations";
+        let first = if by_equations { "kinematic" } else { method };
+        let smoother = Smoother::of(first, noise).ok_or_else(|| {
+            let words = r#"must be "kinematic", "polynomials" or "equations""#;
+            PyValueError::new_err(format!("method is {method:?}, {words}"))
+        })?;
+        let motions = &self.motions;
+        let estimate = py.detach(|| {
+            let estimate = smoother.estimate(&times, &angles, motions.smoothed_coordinates())?;
+            match by_equations {
+                true => motions.smooth(noise, &times, &angles, &estimate.states[0]),
+                false => Ok(estimate),
+            }
+        });
+        SmoothedMotion::of(py, times, names, estimate.map_err(refused)?)
+    }
+}
+
+impl Pendulum {
+    /// States at a time, from the rows of an array.
+    fn starts(&self, starts: &AnyShape<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
+        let dimension = self.motions.dimension();
+        let starts = starts.as_array();
+        let [_, columns] = starts.shape() else {
+            return Err(PyValueError::new_err(
+                "starts must have two axes: starts, components",
+            ));
+        };
+        if *columns != dimension {
+            return Err(PyValueError::new_err(format!(
+                "a start has {columns} numbers, must have {dimension}"
+            )));
+        }
+        let rows = starts.rows().into_iter();
+        Ok(rows.map(|row| State::new(time, row.to_vec())).collect())
     }
 }

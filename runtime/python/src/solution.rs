@@ -4,9 +4,8 @@ use branched_pendulum::integrate::{Report, Trajectory};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
-use crate::arrays::{AnyShape, Table};
+use crate::arrays::{AnyShape, Table, frame, state_names};
 
 /// A motion at the times asked for, and between them where it was asked for with
 /// `dense_output=True`: `solution(t)`.
@@ -70,16 +69,7 @@ impl Solution {
     /// Returns the states as a `pandas.DataFrame`, a row for each time (s): columns
     /// `theta_parent` (rad) to `omega_child_2` (rad/s).
     fn frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let names = ["theta", "omega"].into_iter().flat_map(|letter| {
-            let names = self.names.iter();
-            names.map(move |name| format!("{letter}_{name}"))
-        });
-        let pandas = py.import("pandas")?;
-        let times = PyDict::new(py);
-        times.set_item("name", "t")?;
-        let index = pandas.call_method("Index", (&self.t,), Some(&times))?;
-        let columns: Vec<String> = names.collect();
-        pandas.call_method1("DataFrame", (&self.y, index, columns))
+        frame(py, &self.t, &self.y, state_names(&self.names))
     }
 
     fn __repr__(&self) -> String {

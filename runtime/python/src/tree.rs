@@ -10,7 +10,8 @@ use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::DescriptionError;
-use crate::arrays::{Matrix, Row, Values, matrix, numbers};
+use crate::arrays::{AnyShape, Matrix, Row, Table, Values, by_state, matrix, numbers};
+use crate::budget::ScaleBudget;
 use crate::motions::Model;
 use crate::pendulum::Pendulum;
 
@@ -29,6 +30,13 @@ impl Model for PendulumTree {
         self.names().to_vec()
     }
 
+    fn link_parents(&self) -> Vec<Option<usize>> {
+        let links = 0..self.links();
+        links
+            .map(|link| self.link_properties(link)?.parent)
+            .collect()
+    }
+
     fn state_energy(&self, state: &[f64]) -> f64 {
         match state.split_at_checked(self.links()) {
             Some((theta, omega)) => PendulumTree::energy(self, theta, omega),
@@ -37,9 +45,17 @@ impl Model for PendulumTree {
     }
 }
 
-fn wrong(error: TreeError) -> PyErr {
+fn wrong(py: Python<'_>, error: TreeError) -> PyErr {
     match error {
-        TreeError::Description(error) => DescriptionError::new_err(format!("\n{error}")),
+        TreeError::Description(error) => {
+            let refused = DescriptionError::new_err(format!("\n{error}"));
+            let mistakes = error.mistakes().iter();
+            let mistakes = mistakes.map(|mistake| (mistake.line, mistake.column, &mistake.message));
+            let told = refused
+                .value(py)
+                .setattr("mistakes", mistakes.collect::<Vec<_>>());
+            told.err().unwrap_or(refused)
+        }
         TreeError::UnknownParameter { .. } => PyKeyError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
@@ -56,13 +72,15 @@ impl Tree {
     #[new]
     #[pyo3(signature = (text, **parameters))]
     fn new(
+        py: Python<'_>,
         text: &str,
         parameters: Option<BTreeMap<String, f64>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let parameters = parameters.unwrap_or_default();
         let values: Vec<(&str, f64)> = parameters.iter().map(|(name, x)| (&**name, *x)).collect();
-        let description = TreeDescription::parse(text).map_err(|error| wrong(error.into()))?;
-        Ok(class(description.tree(&values).map_err(wrong)?))
+        let description = TreeDescription::parse(text).map_err(|error| wrong(py, error.into()))?;
+        let tree = description.tree(&values);
+        Ok(class(tree.map_err(|error| wrong(py, error))?))
     }
 
     /// Returns the tree with other values of parameters: `tree.changed(m=0.3)`.
@@ -74,7 +92,7 @@ impl Tree {
     ) -> PyResult<Py<Self>> {
         let mut tree = PendulumTree::clone(&self.tree);
         for (name, value) in parameters.unwrap_or_default() {
-            tree = tree.with(&name, value).map_err(wrong)?;
+            tree = tree.with(&name, value).map_err(|error| wrong(py, error))?;
         }
         Py::new(py, class(tree))
     }
@@ -133,6 +151,33 @@ impl Tree {
     fn potential_energy(&self, theta: Values<'_>) -> PyResult<f64> {
         let theta = numbers("theta", &theta, self.tree.links())?;
         Ok(self.tree.potential_energy(&theta))
+    }
+
+    /// Returns the power (W) of friction and drag, never positive, of each state of an array
+    /// whose last axis is that of the components.
+    fn friction_power<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+        let n = self.tree.links();
+        by_state(py, &y, 2 * n, |state| {
+            [self.tree.friction_power(state.get(n..).unwrap_or_default())]
+        })
+    }
+
+    /// Returns energies (J) by scale, transfers between scales and powers on them (W), of each
+    /// state of an array whose last axis is that of the components; `t` are the times (s) of
+    /// the drive, one for all states or one for each. Trees whose links of one generation
+    /// differ have no scales.
+    #[pyo3(signature = (y, t = None))]
+    fn budget(
+        &self,
+        py: Python<'_>,
+        y: AnyShape<'_>,
+        t: Option<AnyShape<'_>>,
+    ) -> PyResult<ScaleBudget> {
+        let times = match t {
+            Some(times) => times.as_array().iter().copied().collect(),
+            None => vec![0.0],
+        };
+        ScaleBudget::of(py, &self.tree, &y, &times)
     }
 
     /// Returns the generalized momenta (kg m²/s) at angles `theta` (rad) and angular

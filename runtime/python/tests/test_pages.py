@@ -26,6 +26,7 @@ def test_notebooks(path):
     # What is committed holds no outputs, and so no names of the machine that made them.
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     assert cells and not any(cell.outputs for cell in cells)
-    nbclient.NotebookClient(notebook, timeout=120).execute()
+    resources = {"metadata": {"path": path.parent}}
+    nbclient.NotebookClient(notebook, timeout=120, resources=resources).execute()
     kinds = {kind for cell in cells for output in cell.outputs for kind in output.get("data", {})}
     assert "image/png" in kinds

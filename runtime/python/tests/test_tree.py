@@ -177,10 +177,45 @@ def test_modes_and_points(tree):
     np.testing.assert_allclose(tree.points(theta)[0], [0.0, -0.27], atol=1e-16)
 
 
+def test_budget_by_scale():
+    """Along a motion energies by scale sum up, and change as transfers and powers tell."""
+    tree = bp.Tree("""
+        gravity = 9.81,
+        trunk: rod(mass = 0.3, length = 0.4, friction = 1e-3) [
+            bough: rod(mass = 0.1, length = 0.3, drag = 1e-3) [
+                twig: rod(mass = 0.05, length = 0.2) * 2
+            ] * 3
+        ],
+        drive(torque = 0.1 * cos(3 * t))
+    """)
+    start = np.concatenate([np.sin(np.arange(10.0)), np.zeros(10)])
+    motion = tree.integrate(start, np.linspace(0, 1, 2001), rtol=1e-12)
+    budget = tree.budget(motion.y, motion.t)
+    assert budget.energies.shape == (2001, 3) and budget.transfers.shape == (2001, 3, 3)
+    np.testing.assert_allclose(budget.energies.sum(axis=1), tree.energy(motion.y), rtol=1e-12)
+    np.testing.assert_array_equal(budget.transfers, -budget.transfers.swapaxes(1, 2))
+    powers = budget.friction + budget.drag + budget.drive
+    np.testing.assert_allclose(
+        (budget.friction + budget.drag).sum(axis=1), tree.friction_power(motion.y), atol=1e-14
+    )
+    for scale in range(3):
+        power = budget.transfers[:, :, scale].sum(axis=1) + powers[:, scale]
+        grown = bp.analysis.running_integral(motion.t, power)
+        change = budget.energies[:, scale] - budget.energies[0, scale]
+        np.testing.assert_allclose(grown, change, atol=1e-7 * np.abs(power).max())
+    assert tree.budget(start).energies.shape == (3,)
+    with pytest.raises(ValueError, match="2 times for 2001 states"):
+        tree.budget(motion.y, [0, 1])
+    unlike = bp.Tree("gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1), c: rod(mass = 2, length = 1)]")
+    with pytest.raises(ValueError, match="has no scales"):
+        unlike.budget(np.zeros(6))
+
+
 def test_mistakes():
     with pytest.raises(bp.DescriptionError) as error:
         bp.Tree("gravity = 9.81,\nrod: rod(mas = 1, length = 1)")
     assert "--> 2:10" in str(error.value) and "did you mean `mass`?" in str(error.value)
+    assert error.value.mistakes[0][:2] == (2, 10) and "`mas`" in error.value.mistakes[0][2]
     with pytest.raises(ValueError, match="no value for `m`"):
         bp.Tree(PAPER)
     with pytest.raises(ValueError, match="mass of `child` is -1, must be zero or positive"):

@@ -22,8 +22,8 @@ pub use identification::{AngleRecord, FamilyOf, Fit, Identification, Identificat
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};
 pub use smoothing::{
-    Bands, KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedMotion, SmoothingError,
-    bands, running_integral,
+    Bands, KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedCoordinates, SmoothedMotion,
+    SmoothingError, bands, running_integral,
 };
 #[cfg(feature = "spectra")]
 pub use spectrum::{

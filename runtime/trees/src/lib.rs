@@ -7,9 +7,9 @@
 //! part of this crate, and the runtime takes them through any tree.
 //!
 //! Accelerations, energies, momenta, linear modes, positions, forces, drives, every
-//! integrator and ensembles in lanes are there. Energy transfers, budgets, symmetric
-//! coordinates, observables and Taylor series are derived for one tree and stay with
-//! compiled models, as does the speed of code that is written out: `docs/run-time-trees.md`.
+//! integrator, ensembles in lanes and, of trees by rule, budgets by scale are there. Other
+//! energy transfers, symmetric coordinates, observables and Taylor series are derived for
+//! one tree and stay with compiled models, as does the speed of code that is written out: `docs/run-time-trees.md`.
 
 mod description;
 mod drive;
@@ -21,6 +21,7 @@ mod numbers;
 mod ode;
 mod positions;
 mod rows;
+mod scales;
 mod text;
 mod tree;
 

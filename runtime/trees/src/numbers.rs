@@ -10,7 +10,7 @@ use branched_pendulum_codegen::scene::{
 use crate::error::TreeError;
 
 /// A link. SI units; places are along the link and across it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LinkNumbers {
     pub(crate) parent: Option<usize>,
     pub(crate) mass: Double,

@@ -190,6 +190,47 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
+/// Links of one generation, all alike.
+pub(crate) struct Generation {
+    /// One of them.
+    pub(crate) link: usize,
+    /// Place of its children, along the link and across it.
+    pub(crate) place: [Double; 2],
+    /// Mass of all that hangs there.
+    pub(crate) carried: Double,
+}
+
+/// Rows of the equations of trees by rule, for each generation from the root on.
+pub(crate) fn by_rule(
+    links: &[LinkNumbers],
+    carries: &[bool],
+    gravity: Double,
+    generations: &[Generation],
+) -> Vec<Double> {
+    let moments = moments(links, carries);
+    let rows = generations.iter().flat_map(|generation| {
+        let &Generation {
+            link,
+            place,
+            carried,
+        } = generation;
+        let own = links.get(link).zip(moments.get(link));
+        let row = own.map(|(link, moments)| {
+            let carried = [0, 1].map(|axis| link.mass * link.com[axis] + carried * place[axis]);
+            let mut row = moments.jointed(link);
+            // The children's pivot, where other equations have the link's own.
+            (row[7], row[8]) = (place[0], place[1]);
+            let body = [link.mass, link.inertia, link.com[0], link.com[1]];
+            let forces = [gravity, link.spring, link.friction, link.drag];
+            let no_torque = Double::from_f64(0.0);
+            let row = row.into_iter().chain(link.laws).chain(body).chain(place);
+            row.chain(carried).chain(forces).chain([no_torque])
+        });
+        row.into_iter().flatten()
+    });
+    rows.collect()
+}
+
 /// Rows of [`Bodies`](branched_pendulum::tree::Bodies).
 pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
     let half = Double::from_f64(0.5);

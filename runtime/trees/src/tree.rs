@@ -14,6 +14,7 @@ use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 use crate::rows::{self, Form};
+use crate::scales::ByRule;
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
 ///
@@ -63,6 +64,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) bodies: Bodies<T>,
     pub(crate) properties: PropertyTable<T>,
     pub(crate) drive: Option<Courses<T>>,
+    pub(crate) rule: Option<ByRule<T>>,
 }
 
 /// Parts that trees on all scalars share.
@@ -114,6 +116,7 @@ impl<T: Scalar> PendulumTree<T> {
         let above = constant(-gravity);
         let form = Form::of(&links, drive.is_some());
         let rows = in_numbers(&form.rows(&links, &carries));
+        let rule = ByRule::of(&links, &carries, gravity);
         let equations = Equations::new(form, &parents, rows, above);
         let mut hasher = DefaultHasher::new();
         (&parents, form).hash(&mut hasher);
@@ -130,6 +133,7 @@ impl<T: Scalar> PendulumTree<T> {
             bodies: bodies(&links, gravity, &shape),
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links))),
             drive: drive.map(|drive| Courses::of(drive, &parameters)),
+            rule,
         })
     }
 
@@ -178,6 +182,7 @@ impl<T: Scalar> PendulumTree<T> {
             bodies: self.bodies.cast(&convert),
             properties: self.properties.cast(&convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
+            rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
         }
     }
 
@@ -245,6 +250,6 @@ fn constant<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }
 
-fn in_numbers<T: Scalar>(rows: &[Double]) -> Vec<T> {
+pub(crate) fn in_numbers<T: Scalar>(rows: &[Double]) -> Vec<T> {
     rows.iter().copied().map(constant).collect()
 }

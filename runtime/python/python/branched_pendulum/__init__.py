@@ -4,11 +4,13 @@ SI units; angles are absolute, in radians from the downward vertical. A state is
 followed by the angular velocities.
 """
 
-from . import models
+from . import analysis, data, models
 from ._native import (
     DescriptionError,
+    Growth,
     IntegrationError,
     Pendulum,
+    ScaleBudget,
     Solution,
     Tree,
     __version__,
@@ -16,10 +18,14 @@ from ._native import (
 
 __all__ = [
     "DescriptionError",
+    "Growth",
     "IntegrationError",
     "Pendulum",
+    "ScaleBudget",
     "Solution",
     "Tree",
     "__version__",
+    "analysis",
+    "data",
     "models",
 ]

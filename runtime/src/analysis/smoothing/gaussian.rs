@@ -101,16 +101,17 @@ pub(super) fn smooth<const D: usize>(steps: &[Step<D>]) -> (Vec<Gaussian<D>>, Ve
             .cholesky()
             .map(|factor| factor.solve(&cross).transpose());
         let gain = gain.unwrap_or_else(SMatrix::zeros);
-        let change = later.variance - predicted.variance;
-        let given = variance - gain * predicted.variance * gain.transpose();
+        let given = root(variance - gain * predicted.variance * gain.transpose());
         backs.push(Back {
             offset: mean - gain * predicted.mean,
             gain,
-            root: root(given),
+            root: given,
         });
+        // A sum of squares: a difference of variances may round to less than none.
+        let variance = gain * later.variance * gain.transpose() + given * given.transpose();
         smoothed.push(Gaussian {
             mean: mean + gain * (later.mean - predicted.mean),
-            variance: symmetric(variance + gain * change * gain.transpose()),
+            variance: symmetric(variance),
         });
     }
     smoothed.reverse();

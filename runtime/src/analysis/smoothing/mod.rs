@@ -5,13 +5,14 @@
 //! noise and how much jerk there is, it finds out by likelihood. [`ModelSmoother`] knows the
 //! equations of motion, [`LocalPolynomials`] nothing: a cross-check. A [`SmoothedMotion`] gives
 //! means and standard deviations, and draws: motions that the data allow, as likely as they
-//! are. What does not follow linearly from the motion (energies, W, its integral over time)
+//! are; [`SmoothedCoordinates`] those of several coordinates. What does not follow linearly from the motion (energies, W, its integral over time)
 //! is computed from draws, by [`bands`] and [`running_integral`].
 //!
 //! Smooth symmetric coordinates, not links' own angles: differences of identical branches
 //! are smaller and slower than the angles, and what belongs to both is not noise of either.
 
 mod bands;
+mod coordinates;
 mod error;
 mod gaussian;
 mod integral;
@@ -22,6 +23,7 @@ mod polynomials;
 mod series;
 
 pub use bands::{Bands, bands};
+pub use coordinates::SmoothedCoordinates;
 pub use error::SmoothingError;
 pub(in crate::analysis) use error::misplaced;
 pub use integral::running_integral;

@@ -68,6 +68,10 @@ const STEPS: [f64; 2] = [LOG_STEP, 0.3];
 const SEARCHES: usize = 2;
 
 impl<const N: usize> ModelSmoother<N> {
+    /// Longest step (s) from time to time of a method of fourth order: its error is far
+    /// below that of any camera.
+    pub const LONGEST_STEP: f64 = 2e-3;
+
     /// Estimates angles and angular velocities at all times, where data are missing too.
     ///
     /// `system` is that of the angles followed by their rates, `D` numbers in all, of which

@@ -15,6 +15,7 @@ mod parts;
 mod sectors;
 mod shape;
 
+use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 pub use equations::ScaleEquations;
@@ -22,7 +23,6 @@ pub use equations::ScaleEquations;
 use super::Tree;
 use super::equations::Row;
 use super::memory::take;
-use super::skeleton::Skeleton;
 use crate::scalar::Scalar;
 use crate::sectors::ScaleBudget;
 use crate::simd::dispatch::in_widest;
@@ -55,7 +55,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         budget: &mut ScaleBudget<T>,
     ) {
         let wanted = Wanted::Energies(budget);
-        self.by_scale(workspace, None, [theta, omega, &[]], wanted);
+        by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
     }
 
     /// Computes the energies of sectors, as
@@ -68,7 +68,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         energies: &mut [T],
     ) {
         let wanted = Wanted::Sectors(energies);
-        self.by_scale(workspace, None, [theta, omega, &[]], wanted);
+        by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
     }
 
     /// Computes all of the budget, as
@@ -82,7 +82,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         given: [&[T]; 3],
         budget: &mut ScaleBudget<T>,
     ) {
-        self.by_scale(workspace, drive, given, Wanted::Budget(budget));
+        let wanted = Wanted::Budget(budget);
+        by_scale(self.rule(), workspace, drive, given, wanted);
     }
 
     /// Computes all of the budget under torques from outside, the third slice.
@@ -97,55 +98,125 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             true => given,
             false => [[].as_slice(); 3],
         };
-        self.by_scale(workspace, drive, given, Wanted::Budget(budget));
+        let wanted = Wanted::Budget(budget);
+        by_scale(self.rule(), workspace, drive, given, wanted);
     }
 
-    fn by_scale(
+    fn rule(&self) -> Rule<'_, E, T> {
+        Rule {
+            copies: E::COPIES,
+            constants: &self.skeleton.constants,
+            equations: PhantomData,
+        }
+    }
+}
+
+/// A tree by rule that is known when a program runs: what [`Tree`] is for one whose copies
+/// stand in its equations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScaleTree<E, T> {
+    copies: Vec<usize>,
+    constants: Vec<T>,
+    equations: PhantomData<E>,
+}
+
+impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
+    /// The tree of so many copies of each generation under each link of the one before, 1 for
+    /// the root, with a row of constants for each generation, one after the other.
+    #[must_use]
+    pub fn new(copies: Vec<usize>, rows: Vec<T>) -> Self {
+        Self {
+            copies,
+            constants: rows,
+            equations: PhantomData,
+        }
+    }
+
+    /// Copies of each generation under each link of the one before, 1 for the root.
+    #[must_use]
+    pub fn copies(&self) -> &[usize] {
+        &self.copies
+    }
+
+    /// Returns the same tree on other scalars.
+    #[must_use]
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> ScaleTree<E, S> {
+        let constants = self.constants.iter().copied().map(convert);
+        ScaleTree::new(self.copies.clone(), constants.collect())
+    }
+
+    /// Computes all of the budget: of angles and angular velocities and, unless the third
+    /// slice is empty, torques from outside, link by link as those of
+    /// [`Scales`](crate::Scales); with the acceleration of the root's pivot and the torque on
+    /// the root.
+    pub fn budget_by_scale(
         &self,
         workspace: &mut Workspace<T>,
         drive: Option<[T; 3]>,
-        [theta, omega, torques]: [&[T]; 3],
-        mut wanted: Wanted<'_, T>,
+        given: [&[T]; 3],
+        budget: &mut ScaleBudget<T>,
     ) {
-        let shape = ScaleShape::new(E::COPIES.iter().copied());
-        let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
-        let pieces = shape.and_then(|shape| Pieces::new(E::COPIES, &shape));
-        wanted.start(
-            E::COPIES.len(),
-            match pieces {
-                Some(_) => T::from_f64(0.0),
-                None => T::from_f64(f64::NAN),
-            },
-        );
-        let (Some(shape), Some(pieces)) = (shape, pieces) else {
-            return;
-        };
-        let (columns, parts) = (ALL * shape.column, field::ALL * shape.parts);
-        let working = match wanted {
-            Wanted::Budget(_) => pieces.room(shape.count()),
-            _ => 0,
-        };
-        let mut numbers = workspace.numbers(columns + parts + working);
-        let own = take(&mut numbers, columns);
-        let parts = take(&mut numbers, parts);
-        in_widest::<T, _>(ByScale::<E, T> {
-            skeleton: &self.skeleton,
-            columns: ScaleColumns {
-                numbers: own,
-                length: shape.column,
-            },
-            parts,
-            working: numbers,
-            shape,
-            pieces: &pieces,
-            drive,
-            theta,
-            omega,
-            torques,
-            wanted,
+        let rule = Rule::<E, T> {
+            copies: &self.copies,
+            constants: &self.constants,
             equations: PhantomData,
-        });
+        };
+        by_scale(rule, workspace, drive, given, Wanted::Budget(budget));
     }
+}
+
+/// Copies of the generations, and a row of constants for each.
+struct Rule<'a, E, T> {
+    copies: &'a [usize],
+    constants: &'a [T],
+    equations: PhantomData<E>,
+}
+
+fn by_scale<E: ScaleEquations, T: Scalar>(
+    rule: Rule<'_, E, T>,
+    workspace: &mut Workspace<T>,
+    drive: Option<[T; 3]>,
+    [theta, omega, torques]: [&[T]; 3],
+    mut wanted: Wanted<'_, T>,
+) {
+    let shape = ScaleShape::new(rule.copies.iter().copied());
+    let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
+    let pieces = shape.and_then(|shape| Pieces::new(rule.copies, &shape));
+    wanted.start(
+        rule.copies.len(),
+        match pieces {
+            Some(_) => T::from_f64(0.0),
+            None => T::from_f64(f64::NAN),
+        },
+    );
+    let (Some(shape), Some(pieces)) = (shape, pieces) else {
+        return;
+    };
+    let (columns, parts) = (ALL * shape.column, field::ALL * shape.parts);
+    let working = match wanted {
+        Wanted::Budget(_) => pieces.room(shape.count()),
+        _ => 0,
+    };
+    let mut numbers = workspace.numbers(columns + parts + working);
+    let own = take(&mut numbers, columns);
+    let parts = take(&mut numbers, parts);
+    in_widest::<T, _>(ByScale::<E, T> {
+        constants: rule.constants,
+        columns: ScaleColumns {
+            numbers: own,
+            length: shape.column,
+        },
+        parts,
+        working: numbers,
+        shape,
+        pieces: &pieces,
+        drive,
+        theta,
+        omega,
+        torques,
+        wanted,
+        equations: PhantomData,
+    });
 }
 
 /// Quantities to be computed, and where they go.
@@ -167,7 +238,8 @@ impl<T: Scalar> Wanted<'_, T> {
 
 /// One computation.
 struct ByScale<'a, E, T: 'static> {
-    skeleton: &'a Skeleton<T>,
+    /// Constants of the generations.
+    constants: &'a [T],
     shape: ScaleShape,
     columns: ScaleColumns<'a, T>,
     /// Columns of parts.
@@ -213,7 +285,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     fn constants<V: Simd<T>>(&self, generation: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let length = <E::Constants<V> as Row<V>>::LENGTH;
-        let numbers = self.skeleton.constants.get(generation * length..);
+        let numbers = self.constants.get(generation * length..);
         for (place, &number) in row.as_mut().iter_mut().zip(numbers.unwrap_or_default()) {
             *place = V::splat(number);
         }

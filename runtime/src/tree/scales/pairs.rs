@@ -16,7 +16,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     /// and in the powers Σ u_s Q.
     #[inline(always)]
     pub(super) fn products<V: Simd<T>>(&mut self, piece: &Piece<'_>, flows: &ScaleColumns<'_, T>) {
-        for to in 0..E::COPIES.len() {
+        for to in 0..self.shape.count() {
             let mut from = 0;
             while from + TOGETHER <= to {
                 self.transfers::<V, TOGETHER>(piece, flows, from, to);

@@ -6,12 +6,15 @@
 //! equations/general.rs` writes them anew, and a test tells when that is due.
 
 #[rustfmt::skip]
+mod by_rule;
+#[rustfmt::skip]
 mod general;
 #[rustfmt::skip]
 mod rough;
 #[rustfmt::skip]
 mod straight;
 
+pub(crate) use by_rule::ByRuleEquations;
 pub(crate) use general::GeneralEquations;
 pub(crate) use rough::RoughEquations;
 pub(crate) use straight::StraightEquations;

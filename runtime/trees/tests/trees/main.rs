@@ -2,4 +2,5 @@
 
 mod costs;
 mod mechanics;
+mod scales;
 mod text;

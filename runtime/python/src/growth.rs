@@ -1,0 +1,144 @@
+//! Growth of small differences: the class `Growth`.
+
+use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::system::State;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::arrays::matrix;
+use crate::motions::Motions;
+
+/// Growth of a small difference along motions, a row or a number for each of them. NaN where a
+/// motion could not be followed.
+///
+/// Everything is computed at two tolerances: where motions are chaotic, growth over a long time
+/// is a number that no tolerance finds, and `factor_changes` says so.
+#[pyclass(frozen, module = "branched_pendulum")]
+pub(crate) struct Growth {
+    /// Growth factors up to each horizon: the largest difference over its amplitude at the
+    /// start; rows are motions.
+    #[pyo3(get)]
+    factors: Py<PyArray2<f64>>,
+    /// Relative differences of the factors between the two tolerances: beyond a hundredth they
+    /// are not determined.
+    #[pyo3(get)]
+    factor_changes: Py<PyArray2<f64>>,
+    /// Growth rates (1/s) over the last horizon; near zero where differences keep their size,
+    /// though they beat.
+    #[pyo3(get)]
+    rates: Py<PyArray1<f64>>,
+    /// Frequencies (Hz) of the differences: turns of the difference and its rate about zero.
+    #[pyo3(get)]
+    frequencies: Py<PyArray1<f64>>,
+    /// Times after the start (s) up to which growth was asked for.
+    #[pyo3(get)]
+    horizons: Py<PyArray1<f64>>,
+}
+
+#[pymethods]
+impl Growth {
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let (motions, horizons) = (self.rates.bind(py).len(), self.horizons.bind(py));
+        format!("Growth along {motions} motions up to {horizons} s")
+    }
+}
+
+/// Growth that is asked for.
+pub(crate) struct GrowthTask {
+    pub(crate) starts: Vec<State<f64>>,
+    pub(crate) horizons: Vec<f64>,
+    pub(crate) frequency_hz: Option<f64>,
+    pub(crate) tolerance: f64,
+}
+
+/// Largest part by which accelerations of copies differ, from rounding.
+const ALIKE: f64 = 1e-12;
+
+impl GrowthTask {
+    /// Growth of a difference between two links, by their names, along all motions.
+    pub(crate) fn grown(
+        self,
+        py: Python<'_>,
+        motions: &dyn Motions,
+        (one, other): (String, String),
+        ensemble: &Ensemble<'_>,
+    ) -> PyResult<Growth> {
+        let names = motions.names();
+        let place = |name: &String| {
+            let found = names.iter().position(|own| own == name);
+            found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
+        };
+        let copies = motions.copies([place(&one)?, place(&other)?]);
+        let start_alike = |copies: &Vec<[usize; 2]>| {
+            let mut starts = self.starts.iter();
+            starts.all(|start| are_alike(motions, copies, start))
+        };
+        let Some(copies) = copies.filter(start_alike) else {
+            let text = format!("`{one}` and `{other}` are no copies that start alike");
+            return Err(PyValueError::new_err(text));
+        };
+        let grown = py.detach(|| {
+            ensemble.map(&self.starts, |_, start| {
+                motions.growth(&self, &copies, start)
+            })
+        });
+        let grown = grown.into_iter().map(|grown| match grown {
+            Ok(grown) => Ok(Some(grown)),
+            Err(GrowthError::Integration(_)) => Ok(None),
+            Err(error) => Err(PyValueError::new_err(error.to_string())),
+        });
+        Growth::of(
+            py,
+            self.horizons.clone(),
+            &grown.collect::<PyResult<Vec<_>>>()?,
+        )
+    }
+}
+
+/// Returns true if copies are in one state, and remain so. NaN is alike.
+fn are_alike(motions: &dyn Motions, copies: &[[usize; 2]], start: &State<f64>) -> bool {
+    let state = &start.values;
+    let mut rates = vec![0.0; state.len()];
+    motions.rates(start.time, state, &mut rates);
+    let size = rates
+        .iter()
+        .fold(0.0, |size: f64, rate| size.max(rate.abs()));
+    let differ = |[one, other]: &[usize; 2]| {
+        (state[*one] - state[*other]).abs() > 0.0
+            || (rates[*one] - rates[*other]).abs() > ALIKE * size
+    };
+    !copies.iter().any(differ)
+}
+
+impl Growth {
+    fn of(py: Python<'_>, horizons: Vec<f64>, all: &[Option<Grown>]) -> PyResult<Self> {
+        let columns = horizons.len();
+        let nowhere = Checked {
+            value: f64::NAN,
+            difference: f64::NAN,
+        };
+        let factors: Vec<Checked> = all
+            .iter()
+            .flat_map(|grown| match grown {
+                Some(grown) => grown.factors.clone(),
+                None => vec![nowhere; columns],
+            })
+            .collect();
+        let of_factors = |of: fn(&Checked) -> f64| -> PyResult<Py<PyArray2<f64>>> {
+            Ok(matrix(py, factors.iter().map(of).collect(), columns)?.unbind())
+        };
+        let each = |of: fn(&Grown) -> f64| -> Py<PyArray1<f64>> {
+            let values = all.iter().map(|grown| grown.as_ref().map_or(f64::NAN, of));
+            values.collect::<Vec<f64>>().into_pyarray(py).unbind()
+        };
+        Ok(Self {
+            factors: of_factors(|factor| factor.value)?,
+            factor_changes: of_factors(|factor| factor.difference)?,
+            rates: each(|grown| grown.rate.value),
+            frequencies: each(|grown| grown.frequency_hz.value),
+            horizons: horizons.into_pyarray(py).unbind(),
+        })
+    }
+}

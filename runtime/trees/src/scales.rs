@@ -1,0 +1,169 @@
+//! Budgets by scale of trees by rule.
+
+use std::sync::Arc;
+
+use branched_pendulum::ScaleBudget;
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::system::Workspace;
+use branched_pendulum::tree::ScaleTree;
+
+use crate::equations::ByRuleEquations;
+use crate::numbers::LinkNumbers;
+use crate::rows::{self, Generation};
+use crate::tree::{PendulumTree, in_numbers};
+
+/// A tree whose links of one generation are alike, with as many children each.
+#[derive(Clone, Debug)]
+pub(crate) struct ByRule<T> {
+    tree: ScaleTree<ByRuleEquations, T>,
+    /// Links, generation by generation: first all that are the first child of their parent,
+    /// then all second ones.
+    order: Arc<[usize]>,
+}
+
+impl<T: Scalar> ByRule<T> {
+    /// Returns the tree by rule; none where links of one generation differ.
+    pub(crate) fn of(links: &[LinkNumbers], carries: &[bool], gravity: Double) -> Option<Self> {
+        let mut children = vec![Vec::new(); links.len()];
+        for (number, link) in links.iter().enumerate() {
+            if let Some(own) = link.parent.and_then(|parent| children.get_mut(parent)) {
+                own.push(number);
+            }
+        }
+        let (mut copies, mut order) = (vec![1], vec![0]);
+        let mut generation = vec![0];
+        // Of each generation the first link, and its first child.
+        let mut first = Vec::new();
+        loop {
+            let own = generation.iter().map(|&link: &usize| children.get(link));
+            let own: Vec<&Vec<usize>> = own.collect::<Option<_>>()?;
+            let (&link, count) = (generation.first()?, own.first()?.len());
+            first.push((link, own.first()?.first().copied()));
+            if own.iter().any(|children| children.len() != count) {
+                return None;
+            }
+            if count == 0 {
+                break;
+            }
+            let places = 0..count;
+            let next = places.flat_map(|place| own.iter().map(move |children| children.get(place)));
+            generation = next.map(Option::<&usize>::copied).collect::<Option<_>>()?;
+            if !are_alike(links, &generation) {
+                return None;
+            }
+            order.extend(&generation);
+            copies.push(count);
+        }
+        let mut carried = Double::from_f64(0.0);
+        let mut rows = Vec::with_capacity(first.len());
+        for (generation, &(link, child)) in first.iter().enumerate().rev() {
+            let place = child.and_then(|child| links.get(child));
+            let place = place.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
+            rows.push(Generation {
+                link,
+                place,
+                carried,
+            });
+            let copies = *copies.get(generation)? as f64;
+            carried = Double::from_f64(copies) * (links.get(link)?.mass + carried);
+        }
+        rows.reverse();
+        let rows = rows::by_rule(links, carries, gravity, &rows);
+        Some(Self {
+            tree: ScaleTree::new(copies, in_numbers(&rows)),
+            order: order.into(),
+        })
+    }
+
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> ByRule<S> {
+        ByRule {
+            tree: self.tree.cast(convert),
+            order: Arc::clone(&self.order),
+        }
+    }
+
+    /// Numbers of the links in the order of the rule; none of another number of links.
+    fn ordered(&self, numbers: &[T]) -> Vec<T> {
+        if numbers.len() != self.order.len() {
+            return Vec::new();
+        }
+        let places = self.order.iter();
+        places
+            .filter_map(|&link| numbers.get(link).copied())
+            .collect()
+    }
+}
+
+/// Returns true if links are alike but for their parents.
+fn are_alike(links: &[LinkNumbers], some: &[usize]) -> bool {
+    let own = |link: &usize| {
+        links.get(*link).map(|link| LinkNumbers {
+            parent: None,
+            ..*link
+        })
+    };
+    let mut all = some.iter().map(own);
+    let first = all.next();
+    all.all(|other| Some(other) == first)
+}
+
+impl<T: Scalar> PendulumTree<T> {
+    /// Copies of each generation under each link of the one before, 1 for the root; `None`
+    /// where links of one generation differ or have more children than others: such a tree
+    /// has no scales.
+    #[must_use]
+    pub fn copies(&self) -> Option<&[usize]> {
+        Some(self.rule.as_ref()?.tree.copies())
+    }
+
+    /// Returns energies by Parseval, transfers and powers by scale
+    /// ([`Scales`](branched_pendulum::Scales)), at a time of the drive, of angles, angular
+    /// velocities and, unless the third slice is empty, torques from outside (N m); `None`
+    /// where the tree has no scales.
+    ///
+    /// Scale 0 is what all copies do together, scale s what those of generation s do against
+    /// each other. NaN for slices of another length than there are links.
+    ///
+    /// # Examples
+    ///
+    /// The paper's tree: scale 1 is its antiphase mode.
+    ///
+    /// ```
+    /// use branched_pendulum_trees::PendulumTree;
+    ///
+    /// let tree = PendulumTree::parse(
+    ///     "gravity = 9.80665,
+    ///      parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+    ///          child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ///      ]",
+    /// )?;
+    /// assert_eq!(tree.copies(), Some(&[1, 2][..]));
+    /// let (theta, omega) = ([0.8, 0.1, -0.1], [-3.0, 1.0, 2.0]);
+    /// let budget = tree.budget_by_scale(0.0, [&theta, &omega, &[]]).unwrap();
+    /// let sum = budget.energy(0) + budget.energy(1);
+    /// assert!((sum - tree.energy(&theta, &omega)).abs() < 1e-15);
+    /// assert_eq!(budget.transfer(0, 1), -budget.transfer(1, 0));
+    /// # Ok::<(), branched_pendulum_trees::TreeError>(())
+    /// ```
+    #[must_use]
+    pub fn budget_by_scale(
+        &self,
+        time: T,
+        [theta, omega, torques]: [&[T]; 3],
+    ) -> Option<ScaleBudget<T>> {
+        let rule = self.rule.as_ref()?;
+        let [mut own, rates] = [theta, omega].map(|numbers| rule.ordered(numbers));
+        let on_links = rule.ordered(torques);
+        if on_links.len() != torques.len() {
+            // Nothing has so many links.
+            own.clear();
+        }
+        let mut budget = ScaleBudget::new();
+        let workspace = &mut Workspace::new();
+        let given = [&own[..], &rates, &on_links];
+        let drive = self.drive(time);
+        rule.tree
+            .budget_by_scale(workspace, drive, given, &mut budget);
+        Some(budget)
+    }
+}
