@@ -1,14 +1,15 @@
 //! A motion, its energy and power from measured angles, with their errors.
 
 use branched_pendulum::analysis::{
-    Bands, KinematicSmoother, LocalPolynomials, SmoothedCoordinates, SmoothedMotion,
-    SmoothingError, bands, running_integral,
+    Bands, KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, bands,
+    running_integral,
 };
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::subject::{Motion, Record, Subject};
+use super::motion::{Motion, Record, Smoothed, one_by_one};
+use super::subject::Subject;
 use crate::failure::Failure;
 
 /// Indices of the quantities in [`Estimate::energies`].
@@ -59,12 +60,6 @@ pub struct Measured<'a, const N: usize> {
     pub record: Record<'a, N>,
 }
 
-/// Quantities that are told of a motion beside itself.
-struct Told {
-    noise: f64,
-    whiteness: f64,
-}
-
 impl<const N: usize> Measured<'_, N> {
     /// Estimates the motion knowing only that it is smooth, each coordinate by itself; a
     /// picture that lacks a link counts as missing.
@@ -99,18 +94,8 @@ impl<const N: usize> Measured<'_, N> {
             .map(|motion| motion.each_ref().map(|part| subject.links(part)))
             .collect();
         let found = subject.by_model(self.record, &guess)?;
-        let symmetric = |motion: Vec<Motion<N>>| -> Vec<Motion<N>> {
-            let states = motion.iter();
-            states
-                .map(|state| state.each_ref().map(|part| subject.coordinates(part)))
-                .collect()
-        };
-        let told = Told {
-            noise: found.noise,
-            whiteness: found.whiteness,
-        };
-        let draw = |normal: &mut dyn FnMut() -> f64| symmetric((found.draw)(normal));
-        Ok(self.estimate(draws, told, symmetric(found.mean.clone()), draw))
+        let symmetric = |part: &[f64; N]| subject.coordinates(part);
+        Ok(self.estimate(draws, &found, |motion| motion.each_ref().map(symmetric)))
     }
 
     fn separately(
@@ -118,62 +103,53 @@ impl<const N: usize> Measured<'_, N> {
         draws: Draws,
         smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
     ) -> Result<Estimate<N>, Failure> {
-        let times = self.record.times;
-        let whole = |angles: &[Option<f64>; N]| -> Option<[f64; N]> {
+        let whole = |angles: &[Option<f64>; N]| -> [Option<f64>; N] {
             let mut links = [0.0; N];
             for (link, angle) in links.iter_mut().zip(angles) {
-                *link = (*angle)?;
+                let Some(angle) = *angle else {
+                    return [None; N];
+                };
+                *link = angle;
             }
-            Some(self.subject.coordinates(&links))
+            self.subject.coordinates(&links).map(Some)
         };
-        let data: Vec<Option<[f64; N]>> = self.record.angles.iter().map(whole).collect();
-        let of = |coordinate: usize| -> Vec<Option<f64>> {
-            data.iter()
-                .map(|all| all.map(|all| all[coordinate]))
-                .collect()
+        let coordinates: Vec<[Option<f64>; N]> = self.record.angles.iter().map(whole).collect();
+        let record = Record {
+            angles: &coordinates,
+            ..self.record
         };
-        let smoothed = SmoothedCoordinates::new((0..N).map(of), |data| smooth(times, data))?;
-        let noise = smoothed.coordinates().first().map(SmoothedMotion::noise);
-        let told = Told {
-            noise: noise.unwrap_or(f64::NAN),
-            whiteness: smoothed.whiteness(),
-        };
-        let parted = |state: Vec<f64>| -> Motion<N> {
-            [0, N].map(|first| std::array::from_fn(|of| state[first + of]))
-        };
-        let motion = (0..times.len()).map(|time| parted(smoothed.mean(time)));
-        let draw = |normal: &mut dyn FnMut() -> f64| {
-            smoothed.draw(normal).into_iter().map(parted).collect()
-        };
-        Ok(self.estimate(draws, told, motion.collect(), draw))
+        let found = one_by_one(record, smooth)?;
+        Ok(self.estimate(draws, &found, |motion| motion))
     }
 
-    /// Tells what follows from draws. They are drawn twice, with the same random numbers,
-    /// rather than kept.
+    /// Tells what follows from draws, whose states `coordinates` takes to those that are
+    /// told. They are drawn twice, with the same random numbers, rather than kept.
     fn estimate(
         &self,
         Draws { count, seed }: Draws,
-        told: Told,
-        motion: Vec<Motion<N>>,
-        draw: impl Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>,
+        found: &Smoothed<N>,
+        coordinates: impl Fn(Motion<N>) -> Motion<N>,
     ) -> Estimate<N> {
         let normal = || {
             let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
             move || StandardNormal.sample(&mut random)
         };
+        let told = |motion: Vec<Motion<N>>| -> Vec<Motion<N>> {
+            motion.into_iter().map(&coordinates).collect()
+        };
         let mut numbers = normal();
         let (rates, _) = bands(count, || {
-            let motion = draw(&mut numbers);
+            let motion = told((found.draw)(&mut numbers));
             motion.iter().map(|[_, rates]| *rates).collect()
         });
         let mut numbers = normal();
-        let (energies, _) = bands(count, || self.energies(&draw(&mut numbers)));
+        let (energies, _) = bands(count, || self.energies(&told((found.draw)(&mut numbers))));
         Estimate {
             rates,
             energies,
-            noise: told.noise,
-            whiteness: told.whiteness,
-            motion,
+            noise: found.noise,
+            whiteness: found.whiteness,
+            motion: told(found.mean.clone()),
         }
     }
 

@@ -3,7 +3,7 @@
 //! - [`arguments`]: the command line,
 //! - [`subject`]: the pendulums, [`scenes`] and [`parameters`]: their descriptions,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
-//! - [`estimate`]: the motion, and what follows from it,
+//! - [`motion`]: motions that the angles allow, [`estimate`]: what follows from them,
 //! - [`spectrogram`]: its lines,
 //! - [`report`]: words and tables, [`charts`]: charts.
 
@@ -11,6 +11,7 @@ pub mod arguments;
 pub mod camera;
 pub mod charts;
 pub mod estimate;
+pub mod motion;
 pub mod parameters;
 pub mod report;
 pub mod scenes;

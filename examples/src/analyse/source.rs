@@ -4,7 +4,7 @@ use branched_pendulum_data::{Finding, LinkMarkers, Markers, Table, TableOptions}
 
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
-use super::subject::Record;
+use super::motion::Record;
 use crate::failure::Failure;
 use crate::measured_file::check_links;
 

@@ -7,8 +7,9 @@ use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
 use branched_pendulum_data::Column;
 
 use super::estimate::Estimate;
+use super::motion::Motion;
 use super::source::Source;
-use super::subject::{Motion, Names};
+use super::subject::Names;
 use crate::failure::Failure;
 use crate::program::Job;
 

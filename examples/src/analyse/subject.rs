@@ -1,26 +1,15 @@
 //! The pendulums that can be analysed.
 
-use branched_pendulum::analysis::variational::{Linearised, linearised};
-use branched_pendulum::analysis::{ModelSmoother, SmoothedMotion, SmoothingError};
-use branched_pendulum::prelude::{AbsoluteAngles, Rk4};
+use branched_pendulum::analysis::SmoothingError;
+use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::{Cast, Parametric};
 
+use super::motion::{Motion, Record, Smoothed, by_equations};
 use crate::branched_double::Apparatus;
 use crate::branched_double::apparatus::EXACT;
 use crate::identify::scene::Chain;
-
-/// Coordinates and their rates.
-pub type Motion<const N: usize> = [[f64; N]; 2];
-
-/// Measured angles.
-#[derive(Clone, Copy, Debug)]
-pub struct Record<'a, const N: usize> {
-    /// Times, s.
-    pub times: &'a [f64],
-    /// Angles of the links, rad.
-    pub angles: &'a [[Option<f64>; N]],
-}
 
 /// Names of what is told about a pendulum.
 #[derive(Clone, Copy, Debug)]
@@ -75,52 +64,7 @@ pub trait Subject<const N: usize> {
         &self,
         record: Record<'_, N>,
         guess: &[Motion<N>],
-    ) -> Result<LinkMotion<N>, SmoothingError>;
-}
-
-/// Draws a motion by normal numbers.
-pub type Draw<const N: usize> = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>;
-
-/// A smoothed motion of links.
-pub struct LinkMotion<const N: usize> {
-    /// The likeliest motion.
-    pub mean: Vec<Motion<N>>,
-    /// Another motion that the data allow.
-    pub draw: Box<Draw<N>>,
-    /// Standard deviation of the angles, rad.
-    pub noise: f64,
-    /// Correlation of successive innovations, in standard deviations.
-    pub whiteness: f64,
-}
-
-fn smoothed<const N: usize, const D: usize, L: Linearised<f64>>(
-    system: &L,
-    record: Record<'_, N>,
-    guess: &[Motion<N>],
-    disturbances: Vec<[f64; N]>,
-) -> Result<LinkMotion<N>, SmoothingError> {
-    let flat = |[angles, rates]: &Motion<N>| -> [f64; D] {
-        std::array::from_fn(|i| if i < N { angles[i] } else { rates[i - N] })
-    };
-    let parted = |state: &[f64; D]| -> Motion<N> {
-        [0, N].map(|first| std::array::from_fn(|i| state[first + i]))
-    };
-    let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
-    let smoother = ModelSmoother {
-        disturbances,
-        ..ModelSmoother::default()
-    };
-    let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-    let motion: SmoothedMotion<D> =
-        smoother.smooth(&method, system, record.times, record.angles, &guess)?;
-    Ok(LinkMotion {
-        mean: (0..record.times.len())
-            .map(|index| parted(&motion.mean(index)))
-            .collect(),
-        noise: motion.noise(),
-        whiteness: motion.whiteness(),
-        draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
-    })
+    ) -> Result<Smoothed<N>, SmoothingError>;
 }
 
 impl Subject<3> for Apparatus {
@@ -162,16 +106,16 @@ impl Subject<3> for Apparatus {
         &self,
         record: Record<'_, 3>,
         guess: &[Motion<3>],
-    ) -> Result<LinkMotion<3>, SmoothingError> {
+    ) -> Result<Smoothed<3>, SmoothingError> {
         let patterns = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]];
         match self.damped() {
             Some(model) => {
                 let system = linearised(AbsoluteAngles(model));
-                smoothed::<3, 6, _>(&system, record, guess, patterns)
+                by_equations::<3, 6, _>(&system, record, guess, patterns)
             }
             None => {
                 let system = linearised(AbsoluteAngles(self.ideal()));
-                smoothed::<3, 6, _>(&system, record, guess, patterns)
+                by_equations::<3, 6, _>(&system, record, guess, patterns)
             }
         }
     }
@@ -240,9 +184,9 @@ impl Subject<2> for TwoLinks {
         &self,
         record: Record<'_, 2>,
         guess: &[Motion<2>],
-    ) -> Result<LinkMotion<2>, SmoothingError> {
+    ) -> Result<Smoothed<2>, SmoothingError> {
         let system = linearised(AbsoluteAngles(&self.model));
         let patterns = vec![[1.0, 0.0], [0.0, 1.0]];
-        smoothed::<2, 4, _>(&system, record, guess, patterns)
+        by_equations::<2, 4, _>(&system, record, guess, patterns)
     }
 }

@@ -294,10 +294,8 @@ fn median_errors(arguments: &Arguments, ways: &[Way]) -> Vec<f64> {
 #[test]
 #[ignore = "some minutes"]
 fn tables_of_noise_geometry_and_friction() {
-    const ALL: [Way; 3] = [Way::Smoothness, Way::Polynomials, Way::Model];
+    let ways = &[Way::Smoothness, Way::Polynomials, Way::Model];
     for rate in [60.0, 240.0, 1000.0] {
-        // A model goes over the record a hundred times: 1,000 pictures a second take long.
-        let ways = if rate < 500.0 { &ALL[..] } else { &ALL[..2] };
         for noise in [2e-4, 5e-4, 1e-3] {
             let usual = Arguments {
                 rate,

@@ -2,7 +2,9 @@
 //! tree in motion.
 
 use branched_pendulum::analysis::statistics::Average;
-use branched_pendulum_charts::{Axis, Chart, ChartError, Film, FilmLink, Panel, Series};
+use branched_pendulum_charts::{
+    Axis, Chart, ChartError, Color, Dash, Film, FilmLink, Panel, Series,
+};
 
 use super::arguments::Arguments;
 use super::findings::{Findings, Scale};
@@ -87,6 +89,9 @@ fn averages(panel: Panel, label: &str, rows: &[[f64; 3]]) -> Panel {
         .series(Series::line(label, &x, &mean).with_symbols())
 }
 
+/// Color of what is there to be compared with, which no scale has.
+const GREY: Color = Color::rgb(150, 150, 150);
+
 /// Densities of the fluxes, of zero mean and unit variance.
 pub fn densities(findings: &Findings) -> Chart {
     let mut panel = Panel::new(Axis::log("density").range(1e-6, 3.0));
@@ -102,7 +107,8 @@ pub fn densities(findings: &Findings) -> Chart {
         .iter()
         .map(|x| (-0.5 * x * x).exp() / std::f64::consts::TAU.sqrt())
         .collect();
-    panel = panel.line("normal", &x, &normal);
+    let normal = Series::line("normal", &x, &normal);
+    panel = panel.series(normal.color(GREY).dash(Dash::Solid));
     Chart::new(
         "Density of the flux into a scale and all younger ones",
         Axis::linear("(W − mean)/σ").range(-20.0, 20.0),

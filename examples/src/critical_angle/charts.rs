@@ -1,9 +1,10 @@
-//! Growth factors against the angle of release.
+//! Growth factors against the angle of release, and thresholds of trees.
 
-use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series};
 
 use super::arguments::Arguments;
 use super::scan::{Friction, PAPER, Scan};
+use super::trees::{COPIES, LENGTHS, MASSES, Threshold};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -43,25 +44,18 @@ fn chart(arguments: &Arguments, scans: &[Scan], [first, last]: [f64; 2]) -> Char
     horizons.fold(chart, |chart, (number, horizon)| {
         let [low, high] = SHOWN;
         let axis = Axis::log(format!("G({horizon} s)")).range(low, high);
-        let panel = scans
-            .iter()
-            .enumerate()
-            .fold(Panel::new(axis), |panel, (index, scan)| {
-                let points = scan
-                    .points()
-                    .filter(|(angle, _)| (first..=last).contains(angle));
-                let (x, y): (Vec<f64>, Vec<f64>) = points
-                    .map(|(angle, grown)| (angle, grown.factors[number].value.min(1e99)))
-                    .unzip();
-                if x.is_empty() {
-                    return panel;
-                }
-                panel.series(
-                    Series::line(label(scan.friction), &x, &y)
-                        .color(color(index, scans.len()))
-                        .dash(Dash::Solid),
-                )
-            });
+        let panel = scans.iter().fold(Panel::new(axis), |panel, scan| {
+            let points = scan
+                .points()
+                .filter(|(angle, _)| (first..=last).contains(angle));
+            let (x, y): (Vec<f64>, Vec<f64>) = points
+                .map(|(angle, grown)| (angle, grown.factors[number].value.min(1e99)))
+                .unzip();
+            if x.is_empty() {
+                return panel;
+            }
+            panel.series(Series::line(label(scan.friction), &x, &y).dash(Dash::Solid))
+        });
         let marked = PAPER.iter().filter(|_| number == 0);
         let panel = marked.fold(panel, |panel, angle| {
             panel.vertical(*angle, format!("{angle}°"))
@@ -71,16 +65,39 @@ fn chart(arguments: &Arguments, scans: &[Scan], [first, last]: [f64; 2]) -> Char
     })
 }
 
+/// Draws the thresholds of trees against their generations, a panel for each ratio of lengths.
+pub fn thresholds(arguments: &Arguments, thresholds: &[Threshold]) -> Chart {
+    let level = arguments.levels.first().copied().unwrap_or(f64::NAN);
+    let title = format!("From where differences of the first branching grow {level}-fold");
+    let chart = Chart::new(title, Axis::linear("generations").range(1.8, 6.2));
+    let chart = chart.columns(LENGTHS.len()).size(1100.0, 480.0);
+    LENGTHS.iter().fold(chart, |chart, &length| {
+        let axis = format!("θ of the root (°), lengths by {length}");
+        let rules = COPIES.iter().flat_map(|k| MASSES.map(|mass| (*k, mass)));
+        chart.panel(rules.fold(
+            Panel::new(Axis::linear(axis).range(0.0, 90.0)),
+            |panel, (copies, mass)| {
+                let own = thresholds.iter().filter(|threshold| {
+                    let rule = threshold.rule;
+                    (rule.copies, rule.mass_ratio, rule.length_ratio) == (copies, mass, length)
+                });
+                let points = own.filter_map(|threshold| {
+                    Some((threshold.rule.generations as f64, threshold.angle_deg?))
+                });
+                let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
+                if x.is_empty() {
+                    return panel;
+                }
+                let label = format!("{copies} copies, masses by {mass}");
+                panel.series(Series::line(label, &x, &y).with_symbols())
+            },
+        ))
+    })
+}
+
 fn label(friction: Friction) -> String {
     match friction {
         Friction::Without => "no friction".to_owned(),
         Friction::Quality(quality) => format!("Q = {quality}"),
     }
-}
-
-/// From black without friction to light orange with the most.
-fn color(index: usize, count: usize) -> Color {
-    let part = index as f64 / count.max(2) as f64;
-    let mix = |from: f64, to: f64| (from + part * (to - from)) as u8;
-    Color::rgb(mix(0.0, 250.0), mix(20.0, 190.0), mix(60.0, 90.0))
 }

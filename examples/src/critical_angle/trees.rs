@@ -9,6 +9,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
+use super::charts;
 use super::scene::{at_rest, first_sector};
 use crate::failure::Failure;
 use crate::program::Job;
@@ -95,9 +96,12 @@ const PERIODS: f64 = 12.58;
 /// Angles that are computed at a time.
 const BLOCK: usize = 16;
 
-/// Ratios of masses and of lengths.
-const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
-const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
+/// Numbers of copies.
+pub const COPIES: [u32; 2] = [2, 3];
+/// Ratios of masses.
+pub const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
+/// Ratios of lengths.
+pub const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 
 /// Releases from rest, the root at every angle and all others vertical, by ascending
 /// angle and not far beyond the threshold: above it motions are chaotic, and dear.
@@ -161,7 +165,7 @@ pub fn threshold(rule: Rule, arguments: &Arguments) -> Result<Threshold, Failure
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let mut rules = Vec::new();
-    for copies in [2, 3] {
+    for copies in COPIES {
         for mass_ratio in MASSES {
             for length_ratio in LENGTHS {
                 rules.extend(GENERATIONS.iter().map(|&generations| Rule {
@@ -187,6 +191,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         return Ok(());
     }
     job.print(&report(arguments, &thresholds))?;
+    if thresholds
+        .iter()
+        .any(|threshold| threshold.angle_deg.is_some())
+    {
+        let chart = charts::thresholds(arguments, &thresholds);
+        job.chart("critical-angles", &chart)?;
+    }
     let columns = [
         Column::new("copies", ""),
         Column::new("mass ratio", ""),

@@ -52,7 +52,7 @@ pub fn chart(measurement: &Measurement, outcomes: &[Outcome], energies: &Energie
     };
     let energy = Panel::new(Axis::linear("energy (J)"))
         .series(
-            Series::line("measured", &energies.times, &energies.measured)
+            Series::line("measured", &energies.times, &energies.by_equations.values)
                 .color(COLORS[1])
                 .dash(Dash::Solid),
         )

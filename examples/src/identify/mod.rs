@@ -29,12 +29,16 @@ use crate::program::Job;
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     match arguments.tree {
-        Tree::Chain => of_tree::<Chain>(arguments, job),
-        Tree::Branched => of_tree::<Branched>(arguments, job),
+        Tree::Chain => of_tree::<Chain, 2, 4>(arguments, job),
+        Tree::Branched => of_tree::<Branched, 3, 6>(arguments, job),
     }
 }
 
-fn of_tree<M: Described>(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+/// For a tree of N links and D = 2N.
+fn of_tree<M: Described, const N: usize, const D: usize>(
+    arguments: &Arguments,
+    job: &Job,
+) -> Result<(), Failure> {
     let measurement = Measurement::new::<M>(arguments)?;
     let study = Study::<M>::new(arguments, &measurement)?;
     let progress = job.progress(arguments.laws.len());
@@ -51,7 +55,7 @@ fn of_tree<M: Described>(arguments: &Arguments, job: &Job) -> Result<(), Failure
     let Some(last) = outcomes.last() else {
         return Ok(());
     };
-    let energies = study.energies(last)?;
+    let energies = study.energies::<N, D>(last)?;
     job.print(&report::report(
         arguments,
         &measurement,

@@ -9,12 +9,9 @@ use serde_json::{Map, Value, json};
 use super::arguments::Arguments;
 use super::scene::Described;
 use super::source::Measurement;
-use super::study::{Energies, Mismatch, Outcome, WINDOW};
+use super::study::{Energies, MeasuredEnergy, Mismatch, Outcome, WINDOW};
 use crate::failure::Failure;
 use crate::program::Job;
-
-/// Time next to the ends of the record in which smoothness has data on one side only, s.
-const MARGIN: f64 = 0.1;
 
 /// The report.
 pub fn report(
@@ -110,23 +107,24 @@ pub fn report(
              the real one; the motion is the same all the same."
         ));
     }
-    let compared = |margin: f64| {
+    let compared = |measured: &MeasuredEnergy| {
         let Mismatch {
             rms,
             largest: [largest, time],
             deviation,
-        } = energies.mismatch(margin);
+        } = energies.mismatch(measured);
         let [rms, largest, deviation] = [rms, largest, deviation].map(|part| 100.0 * part);
         format!(
-            "by {rms:.2} % (rms), by {largest:.2} % at most: at {time:.2} s, where smoothness \
-             tells the latter to {deviation:.2} %"
+            "{rms:.2} % (rms), {largest:.2} % at most, at {time:.2} s, where the latter is known \
+             to {deviation:.2} %"
         )
     };
     line(format!(
-        "Energy of the fitted motion and of the measured one differ, of that at the start,\n  {};\n  \
-         {MARGIN} s and more from the ends {}.",
-        compared(0.0),
-        compared(MARGIN)
+        "Energy of the fitted motion and of the measured one differ, of that at the start,\n  \
+         with velocities by the fitted equations by {},\n  \
+         with velocities by smoothness alone by {}.",
+        compared(&energies.by_equations),
+        compared(&energies.by_smoothness)
     ));
     text
 }
@@ -168,8 +166,11 @@ pub fn write<M: Described>(
         let links = measurement.links.iter();
         columns.extend(links.map(|link| Column::new(format!("{kind}_{link}"), "rad")));
     }
-    columns.push(Column::new("measured_energy", "J"));
-    columns.push(Column::new("measured_energy_error", "J"));
+    let measured = [&energies.by_equations, &energies.by_smoothness];
+    for by in ["equations", "smoothness"] {
+        columns.push(Column::new(format!("energy_by_{by}"), "J"));
+        columns.push(Column::new(format!("energy_by_{by}_error"), "J"));
+    }
     columns.push(Column::new("fitted_energy", "J"));
     let [fitted, later] = &outcome.windows;
     let windows = fitted.rows.iter().chain(&later.rows);
@@ -183,11 +184,10 @@ pub fn write<M: Described>(
                     .chain(one)
                     .map(|error| error.unwrap_or(f64::NAN)),
             );
-            row.extend([
-                energies.measured[index],
-                energies.deviations[index],
-                energies.fitted[index],
-            ]);
+            for energy in measured {
+                row.extend([energy.values[index], energy.deviations[index]]);
+            }
+            row.push(energies.fitted[index]);
             file.row(row)?;
         }
         Ok(())
@@ -215,12 +215,15 @@ pub fn record(job: &Job, measurement: &Measurement, outcomes: &[Outcome], energi
     }
     let findings = measurement.findings.iter().map(ToString::to_string);
     job.report("findings", findings.collect::<Vec<_>>());
-    for (name, margin) in [("energy_mismatch", 0.0), ("energy_mismatch_inside", MARGIN)] {
+    for (name, measured) in [
+        ("energy_mismatch", &energies.by_equations),
+        ("energy_mismatch_by_smoothness", &energies.by_smoothness),
+    ] {
         let Mismatch {
             rms,
             largest,
             deviation,
-        } = energies.mismatch(margin);
+        } = energies.mismatch(measured);
         let found = json!({"rms": rms, "largest": largest, "deviation": deviation});
         job.report(name, found);
     }

@@ -221,9 +221,11 @@ pub(crate) fn by_rule(
             // The children's pivot, where other equations have the link's own.
             (row[7], row[8]) = (place[0], place[1]);
             let body = [link.mass, link.inertia, link.com[0], link.com[1]];
-            let forces = [gravity, link.spring, link.friction, link.drag];
+            let passive = &link.passive;
+            let forces = [gravity, passive.spring, passive.friction, passive.drag];
+            let laws = passive.law_row().into_iter().copied();
             let no_torque = Double::from_f64(0.0);
-            let row = row.into_iter().chain(link.laws).chain(body).chain(place);
+            let row = row.into_iter().chain(laws).chain(body).chain(place);
             row.chain(carried).chain(forces).chain([no_torque])
         });
         row.into_iter().flatten()

@@ -52,7 +52,7 @@ impl Default for LocalPolynomials {
 }
 
 /// Largest number of data in a window that is tried.
-const WIDEST: usize = 201;
+const WIDEST: usize = 2001;
 /// Growth of the windows that are tried.
 const GROWTH: f64 = 1.15;
 /// Wider windows are not tried where the error is that of the best one, squared, so often.
@@ -60,7 +60,7 @@ const HOPELESS: f64 = 4.0;
 
 impl LocalPolynomials {
     /// Estimates the motion at all times, where data are missing too. Linear in the number of
-    /// times, for each of some 25 windows that are tried.
+    /// times, for each of up to 40 windows that are tried.
     ///
     /// # Errors
     ///

@@ -1,0 +1,93 @@
+//! Motions that measured angles allow.
+
+use branched_pendulum::analysis::variational::Linearised;
+use branched_pendulum::analysis::{
+    ModelSmoother, SmoothedCoordinates, SmoothedMotion, SmoothingError,
+};
+use branched_pendulum::prelude::Rk4;
+
+/// Coordinates and their rates.
+pub type Motion<const N: usize> = [[f64; N]; 2];
+
+/// Measured angles, or symmetric coordinates of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<'a, const N: usize> {
+    /// Times, s.
+    pub times: &'a [f64],
+    /// Angles at every time, rad.
+    pub angles: &'a [[Option<f64>; N]],
+}
+
+/// Draws a motion by normal numbers.
+pub type Draw<const N: usize> = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<Motion<N>>;
+
+/// The likeliest motion, and all others that the data allow.
+pub struct Smoothed<const N: usize> {
+    /// The likeliest motion.
+    pub mean: Vec<Motion<N>>,
+    /// Another motion that the data allow.
+    pub draw: Box<Draw<N>>,
+    /// Standard deviation of the angles, rad; of the first one, where each has its own.
+    pub noise: f64,
+    /// Correlation of successive innovations, in standard deviations, the largest; NaN where
+    /// nothing is foretold.
+    pub whiteness: f64,
+}
+
+/// Smooths each coordinate by itself.
+///
+/// # Errors
+/// [`SmoothingError`].
+pub fn one_by_one<const N: usize>(
+    record: Record<'_, N>,
+    smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
+) -> Result<Smoothed<N>, SmoothingError> {
+    let data = (0..N).map(|of| record.angles.iter().map(|all| all[of]).collect());
+    let series = SmoothedCoordinates::new(data, |data| smooth(record.times, data))?;
+    let parted = |state: Vec<f64>| -> Motion<N> {
+        [0, N].map(|first| std::array::from_fn(|of| state[first + of]))
+    };
+    let times = 0..record.times.len();
+    let noise = series.coordinates().first().map(SmoothedMotion::noise);
+    Ok(Smoothed {
+        mean: times.map(|time| parted(series.mean(time))).collect(),
+        noise: noise.unwrap_or(f64::NAN),
+        whiteness: series.whiteness(),
+        draw: Box::new(move |normal| series.draw(normal).into_iter().map(parted).collect()),
+    })
+}
+
+/// Smooths by equations of motion, beginning from a motion near the true one. What they lack
+/// acts in the patterns `disturbances`.
+///
+/// # Errors
+/// [`SmoothingError`].
+pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
+    system: &L,
+    record: Record<'_, N>,
+    guess: &[Motion<N>],
+    disturbances: Vec<[f64; N]>,
+) -> Result<Smoothed<N>, SmoothingError> {
+    let flat = |[angles, rates]: &Motion<N>| -> [f64; D] {
+        std::array::from_fn(|i| if i < N { angles[i] } else { rates[i - N] })
+    };
+    let parted = |state: &[f64; D]| -> Motion<N> {
+        [0, N].map(|first| std::array::from_fn(|i| state[first + i]))
+    };
+    let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
+    let smoother = ModelSmoother {
+        disturbances,
+        ..ModelSmoother::default()
+    };
+    let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
+    let motion: SmoothedMotion<D> =
+        smoother.smooth(&method, system, record.times, record.angles, &guess)?;
+    Ok(Smoothed {
+        mean: (0..record.times.len())
+            .map(|index| parted(&motion.mean(index)))
+            .collect(),
+        noise: motion.noise(),
+        whiteness: motion.whiteness(),
+        draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
+    })
+}
