@@ -45,8 +45,12 @@ impl Emission<'_> {
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
             _ => quote!(#[inline]),
         };
+        // Beside the model: clippy's limit is seven.
+        let crowded = entry.arguments.len() > 6;
+        let allowed = crowded.then(|| quote!(#[allow(clippy::too_many_arguments)]));
         quote! {
             #docs
+            #allowed
             #inline
             pub fn #name(&self, #(#arguments),*) -> #result {
                 #body

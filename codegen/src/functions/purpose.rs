@@ -205,7 +205,7 @@ purposes! { naming:
         let arguments = [Theta, Omega, SmallDifferences, SmallRates];
         naming.timed("small_accelerations", &arguments, Vector)
     };
-    /// The same under torques from outside.
+    /// Those accelerations under torques from outside.
     SmallAccelerationsUnder => {
         let motion = [Theta, Omega, SmallDifferences, SmallRates];
         let arguments = [&motion[..], &[Torques, SmallTorques]].concat();

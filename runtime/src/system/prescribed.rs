@@ -194,7 +194,8 @@ impl<P, F> PrescribedOde<P, F> {
         Self::of(pendulum, set, course)
     }
 
-    /// The same with a [`LinkCourses`] of a type of its own.
+    /// The pendulum with motions of a type of their own, as those of each lane; `None`
+    /// without such a set.
     pub fn of<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
     where
         P: Prescribed<T>,

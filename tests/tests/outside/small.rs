@@ -10,7 +10,7 @@ use branched_pendulum::system::{
 use branched_pendulum::{ForcedDifferences, SmallDifferences};
 use branched_pendulum_tests::random::Random;
 
-use super::lanes::{Couples, couples};
+use super::lanes::couples;
 
 /// Pairs on pairs, driven.
 macro_rules! twice {
@@ -268,13 +268,14 @@ fn trajectories_are_those_of_the_whole_tree() {
 
 #[test]
 fn trajectories_under_torques_in_lanes() {
-    let releases: Vec<(SmallUnderTorques<PairSmall<f64>, Couples<f64>>, State<f64>)> = couples(11)
-        .zip(0..)
-        .map(|(couples, i)| {
-            let start = State::at_rest(0.0, &[0.06 * f64::from(i), 0.0, 0.02 * f64::from(i)]);
-            (SmallUnderTorques::of(PairSmall::new(), couples), start)
-        })
-        .collect();
+    let releases = couples(11).zip(0..).map(|(couples, i)| {
+        let start = State::at_rest(0.0, &[0.06 * f64::from(i), 0.0, 0.02 * f64::from(i)]);
+        (
+            SmallUnderTorques::of(PairSmall::<f64>::new(), couples),
+            start,
+        )
+    });
+    let releases: Vec<_> = releases.collect();
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 2.0);
     for ((system, start), lane) in releases.iter().zip(lanes) {

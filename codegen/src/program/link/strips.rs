@@ -23,8 +23,7 @@ pub struct StripConstants {
     /// Its links as bodies, in SI units, where energies are asked for: half of the
     /// mass; first moments along and across; half of the moment of inertia about the
     /// pivot; place on the parent, along and across; weight, and weight times the two
-    /// components of the centre of mass; half of the spring's stiffness,
-    /// friction, drag.
+    /// components of the centre of mass; half of the spring's stiffness, friction, drag.
     pub body: Option<[ConstantId; 12]>,
     /// Angle at which its springs are at rest, where energies are asked for and any
     /// spring of the tree has one.

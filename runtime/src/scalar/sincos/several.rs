@@ -79,7 +79,7 @@ mod few {
         // Whole registers are stored: a load that crosses two stores would
         // have to wait.
         let (sines, cosines) = in_blocks::<N, 4>(angles);
-        let first = |block: [f64; 4]| core::array::from_fn(|i| block[i % 4]);
+        let first = |block: [f64; 4]| block.first_chunk::<N>().copied().unwrap_or([0.0; N]);
         (first(sines), first(cosines))
     }
 
