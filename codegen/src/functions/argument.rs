@@ -112,14 +112,4 @@ impl Argument {
             Self::Given(_) => "given",
         }
     }
-
-    /// Letter before a coordinate's name for an element of the argument.
-    pub(crate) fn letter(self) -> &'static str {
-        match self {
-            Self::Theta | Self::Coordinates | Self::Absolute | Self::Symmetric => "theta",
-            Self::Omega | Self::Rates => "omega",
-            Self::AbsoluteMomenta | Self::Momenta => "p",
-            other => other.name(),
-        }
-    }
 }

@@ -115,7 +115,7 @@ pub(super) fn motion(
                         .iter()
                         .map(|&LinkId(link)| tree.series.builder.input(argument, link))
                         .collect();
-                    tree.analysed(orbit, &links, argument.letter())
+                    tree.analysed(orbit, &links, argument.name())
                 })
                 .collect(),
             EntryState::Rates | EntryState::Momenta(_) => {
