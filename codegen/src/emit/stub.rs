@@ -136,13 +136,21 @@ fn naming(description: &Description) -> Naming {
 /// The functions that the model may have, as far as they can stand beside each other; what
 /// is no method of plain arrays is left out.
 fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
-    use Purpose::{Drive, SmallAccelerations, SmallEnergy, TaylorCoefficients};
+    use Purpose::{
+        Drive, SmallAccelerations, SmallAccelerationsUnder, SmallEnergy, TaylorCoefficients,
+    };
     let length = |count| match count {
         LINKS => quote!(N),
         count => Literal::usize_unsuffixed(count).into_token_stream(),
     };
     let mut taken = BTreeSet::new();
-    let others = [Drive, SmallAccelerations, SmallEnergy, TaylorCoefficients];
+    let others = [
+        Drive,
+        SmallAccelerations,
+        SmallAccelerationsUnder,
+        SmallEnergy,
+        TaylorCoefficients,
+    ];
     let purposes = naming.purposes().into_iter();
     let purposes = purposes.filter(|purpose| !others.contains(purpose));
     let functions = purposes.filter_map(|purpose| {

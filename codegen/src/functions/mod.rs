@@ -22,8 +22,8 @@ const OTHER_METHODS: &[&str] = &[
     "check_parameters", "children", "clone", "default", "degrees_of_freedom", "eq", "evaluate",
     "fmt", "from", "from_parameters_unchecked", "into", "kinetic_energy_of", "link_body", "new",
     "part", "point_torques_into", "point_velocities_into", "points_into", "potential_energy_of",
-    "properties_of", "small_accelerations_into", "small_accelerations_of", "small_accelerations_under_into",
-    "small_accelerations_under_of", "small_energy_of",
+    "properties_of", "small_accelerations_into", "small_accelerations_of",
+    "small_accelerations_under_into", "small_accelerations_under_of", "small_energy_of",
     "symmetric_accelerations_into", "symmetric_momenta_into", "taylor_coefficients_into",
     "taylor_coefficients_of", "taylor_workspace", "transfers_into", "with_parameters",
 ];

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
-use super::{LinkId, ParameterId, PassiveTorques, Quantity, Scene};
+use super::{FrictionPlace, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
 /// The meaning of a name.
 pub(super) enum Meaning {
@@ -167,10 +167,10 @@ fn add_constants<'a>(
         (&["rest"], |own| !own.rest.is_zero()),
         (
             &["coulomb", "quadratic_friction", "friction_width"],
-            |own| !own.laws[0].is_none(),
+            |own| !own.law(FrictionPlace::Joint).is_none(),
         ),
         (&["quadratic_drag", "drag_width"], |own| {
-            !own.laws[1].is_none()
+            !own.law(FrictionPlace::Ground).is_none()
         }),
     ];
     for (words, is_present) in torques {

@@ -129,6 +129,7 @@ fn assert_whole(folder: &Path, ended: &[&str]) {
                 let plain = text.lines().filter(|line| !line.contains('"'));
                 assert!(plain.map(count).all(|count| count == first), "{name}");
             }
+            Some("txt") => assert!(bytes.ends_with(b"\n"), "{name}"),
             Some("svg") => assert!(bytes.trim_ascii_end().ends_with(b"</svg>"), "{name}"),
             Some("png") => assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{name}"),
             Some("json") => {

@@ -101,7 +101,7 @@ impl<T: Real> SmallError<T> {
         } else if own + dropped == T::ZERO {
             T::ZERO
         } else {
-            // Copies that turn over may multiply differences by whatever.
+            // Copies that turn over may multiply differences by anything.
             T::from_f64(f64::INFINITY)
         };
         [error, Scalar::sqrt(small_square + swing_square)]

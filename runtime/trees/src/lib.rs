@@ -9,7 +9,8 @@
 //! Accelerations, energies, momenta, linear modes, positions, forces, drives, every
 //! integrator, ensembles in lanes and, of trees by rule, budgets by scale are there. Other
 //! energy transfers, symmetric coordinates, observables and Taylor series are derived for
-//! one tree and stay with compiled models, as does the speed of code that is written out: `docs/run-time-trees.md`.
+//! one tree and stay with compiled models, as does the speed of code that is written out:
+//! `docs/run-time-trees.md`.
 
 mod description;
 mod drive;

@@ -39,14 +39,16 @@ impl Form {
             }
             Self::General => {
                 let rows = moments.zip(links);
-                rows.flat_map(|(row, link)| row.jointed(link).into_iter().chain([no_torque]))
+                let rows = rows.map(|(row, link)| row.jointed(&link.passive, link.pivot));
+                rows.flat_map(|row| row.into_iter().chain([no_torque]))
                     .collect()
             }
             Self::Rough => {
                 let rows = moments.zip(links).flat_map(|(row, link)| {
                     let laws = link.passive.law_row().into_iter().copied();
                     let friction = laws.chain([no_torque]);
-                    row.jointed(link).into_iter().chain(friction)
+                    let row = row.jointed(&link.passive, link.pivot);
+                    row.into_iter().chain(friction)
                 });
                 rows.collect()
             }
@@ -116,8 +118,9 @@ impl Moments {
         [inertia, moment[0], mass, gain[0], inverse_inertia, place]
     }
 
-    /// Returns the columns that the general and the rough equations share.
-    fn jointed(self, link: &LinkNumbers) -> [Double; 13] {
+    /// Returns the columns that the general and the rough equations share, and, with the
+    /// children's pivot in place of the link's own, those of trees by rule.
+    fn jointed(self, passive: &PassiveTorques<Double>, pivot: [Double; 2]) -> [Double; 13] {
         let Self {
             inertia,
             moment,
@@ -133,12 +136,12 @@ impl Moments {
             gain[0],
             gain[1],
             inverse_inertia,
-            link.pivot[0],
-            link.pivot[1],
-            link.passive.friction,
-            link.passive.drag,
-            link.passive.spring,
-            link.passive.rest,
+            pivot[0],
+            pivot[1],
+            passive.friction,
+            passive.drag,
+            passive.spring,
+            passive.rest,
         ]
     }
 }
@@ -217,9 +220,7 @@ pub(crate) fn by_rule(
         let own = links.get(link).zip(moments.get(link));
         let row = own.map(|(link, moments)| {
             let carried = [0, 1].map(|axis| link.mass * link.com[axis] + carried * place[axis]);
-            let mut row = moments.jointed(link);
-            // The children's pivot, where other equations have the link's own.
-            (row[7], row[8]) = (place[0], place[1]);
+            let row = moments.jointed(&link.passive, place);
             let body = [link.mass, link.inertia, link.com[0], link.com[1]];
             let passive = &link.passive;
             let forces = [gravity, passive.spring, passive.friction, passive.drag];

@@ -102,9 +102,10 @@ impl<L: Linearised<f64>> Linearised<f64> for BetweenCopies<L> {
         rates: &mut [f64],
         deviation_rates: &mut [f64],
     ) {
+        let (differences, inner) = workspace.with_inner(deviation_rates.len());
         let system = &self.system;
-        system.linearised_rates(workspace, time, state, deviation, rates, deviation_rates);
-        let mut differences = vec![0.0; deviation_rates.len()];
+        system.linearised_rates(inner, time, state, deviation, rates, deviation_rates);
+        differences.fill(0.0);
         for &[one, other] in &self.pairs {
             let both = deviation_rates.get(one).zip(deviation_rates.get(other));
             let half = both.map_or(f64::NAN, |(one, other)| 0.5 * (one - other));
@@ -114,6 +115,6 @@ impl<L: Linearised<f64>> Linearised<f64> for BetweenCopies<L> {
                 }
             }
         }
-        deviation_rates.copy_from_slice(&differences);
+        deviation_rates.copy_from_slice(differences);
     }
 }

@@ -5,8 +5,9 @@
 //! noise and how much jerk there is, it finds out by likelihood. [`ModelSmoother`] knows the
 //! equations of motion, [`LocalPolynomials`] nothing: a cross-check. A [`SmoothedMotion`] gives
 //! means and standard deviations, and draws: motions that the data allow, as likely as they
-//! are; [`SmoothedCoordinates`] those of several coordinates. What does not follow linearly from the motion (energies, W, its integral over time)
-//! is computed from draws, by [`bands`] and [`running_integral`].
+//! are; [`SmoothedCoordinates`] those of several coordinates. What does not follow linearly
+//! from the motion (energies, W, its integral over time) is computed from draws, by [`bands`]
+//! and [`running_integral`].
 //!
 //! Smooth symmetric coordinates, not links' own angles: differences of identical branches
 //! are smaller and slower than the angles, and what belongs to both is not noise of either.
