@@ -4,7 +4,7 @@ use crate::description::{self, Description};
 use crate::emit;
 use crate::mechanics::{self, AlgebraError, Mechanics};
 use crate::program::{self, Pass, Program};
-use crate::report::{Diagnostic, Report, SizeMessage, ValueMessage};
+use crate::report::{Diagnostic, Faults, SizeMessage, ValueMessage};
 use crate::scene::{self, Scene};
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
@@ -29,7 +29,7 @@ pub struct Stages {
 /// # Errors
 /// The collected errors of the description, with the tokens that stand in for
 /// the item: its errors, and stubs so that an editor shows no others.
-pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Report, TokenStream)> {
+pub fn stages(attribute: TokenStream, item: TokenStream) -> Result<Stages, (Faults, TokenStream)> {
     stages_without(None, attribute, item)
 }
 
@@ -42,8 +42,8 @@ pub fn stages_without(
     off: Option<Pass>,
     attribute: TokenStream,
     item: TokenStream,
-) -> Result<Stages, (Report, TokenStream)> {
-    let mut report = Report::new();
+) -> Result<Stages, (Faults, TokenStream)> {
+    let mut report = Faults::new();
     let Some(description) = description::parse(attribute, item.clone(), &mut report) else {
         let errors = report.to_compile_errors();
         return Err((report, quote!(#errors #item)));
@@ -112,7 +112,7 @@ fn underivable(description: &Description, error: &AlgebraError) -> Diagnostic {
     Diagnostic::new(Span::call_site(), message)
 }
 
-fn refuse(description: &Description, report: Report) -> (Report, TokenStream) {
+fn refuse(description: &Description, report: Faults) -> (Faults, TokenStream) {
     let errors = report.to_compile_errors();
     if description.item.is_reserved() {
         // A stub would add errors.

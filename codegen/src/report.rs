@@ -1,6 +1,6 @@
 //! Collected errors of a description, each at its place in the source.
 //!
-//! Every stage of the front end adds to one [`Report`] and goes on as far as it
+//! Every stage of the front end adds to one [`Faults`] and goes on as far as it
 //! can, so that a user sees all mistakes at once. What can be said is listed in
 //! [`Message`].
 
@@ -37,11 +37,11 @@ impl Diagnostic {
 
 /// All errors found so far, in the order of finding.
 #[derive(Debug, Clone, Default)]
-pub struct Report {
+pub struct Faults {
     diagnostics: Vec<Diagnostic>,
 }
 
-impl Report {
+impl Faults {
     /// An empty report.
     pub fn new() -> Self {
         Self::default()

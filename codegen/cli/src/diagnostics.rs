@@ -1,7 +1,7 @@
 //! Errors of a source file in the manner of the compiler.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use branched_pendulum_codegen::report::{Diagnostic, Problem, Report};
+use branched_pendulum_codegen::report::{Diagnostic, Faults, Problem};
 use std::ops::Range;
 
 /// All errors of an attribute, in the order of the source. Those that are about
@@ -10,7 +10,7 @@ pub(crate) fn all(
     path: &str,
     source: &str,
     item: &Range<usize>,
-    report: &Report,
+    report: &Faults,
     styled: bool,
 ) -> String {
     let place = |diagnostic: &Diagnostic| {

@@ -3,7 +3,7 @@
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 use super::StructItem;
-use crate::report::{Report, SyntaxMessage, TreeMessage};
+use crate::report::{Faults, SyntaxMessage, TreeMessage};
 
 /// Deepest nesting of brackets and parentheses. A chain of more links is what
 /// `generations` is for.
@@ -38,7 +38,7 @@ impl StructItem {
 }
 
 /// Reads the struct.
-pub(super) fn parse_item(tokens: TokenStream, report: &mut Report) -> Option<StructItem> {
+pub(super) fn parse_item(tokens: TokenStream, report: &mut Faults) -> Option<StructItem> {
     if deepest(&tokens).is_some() {
         report.error(Span::call_site(), SyntaxMessage::NotAStruct);
         return None;

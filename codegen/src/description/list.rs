@@ -5,7 +5,7 @@ use syn::ext::IdentExt as _;
 use syn::parse::{ParseStream, Parser as _};
 use syn::{Token, token};
 
-use crate::report::{Diagnostic, Report, SyntaxMessage};
+use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
 /// The readable members of a list.
 pub(super) struct List<T> {
@@ -28,8 +28,8 @@ impl<T> Default for List<T> {
 /// the next comma.
 pub(super) fn list<T>(
     (tokens, end): (TokenStream, Span),
-    report: &mut Report,
-    mut member: impl FnMut(ParseStream<'_>, &mut Report) -> Result<T, ListFault>,
+    report: &mut Faults,
+    mut member: impl FnMut(ParseStream<'_>, &mut Faults) -> Result<T, ListFault>,
 ) -> List<T> {
     let mut found = List::default();
     let read = |input: ParseStream<'_>| {

@@ -17,7 +17,7 @@ use super::{
     Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
     PrescribedClause, Property, Reductions, Request, Value,
 };
-use crate::report::{Diagnostic, Report, SyntaxMessage};
+use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
 /// Reads an attribute and the struct that it stands on.
 ///
@@ -28,7 +28,7 @@ use crate::report::{Diagnostic, Report, SyntaxMessage};
 pub fn parse(
     attribute: TokenStream,
     item: TokenStream,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Description> {
     let entries = if let Some(span) = deepest(&attribute) {
         report.error(span, SyntaxMessage::Nesting { limit: MAX_NESTING });
@@ -62,7 +62,7 @@ pub fn parse(
 }
 
 /// Puts the members of an attribute in their places.
-fn gather(members: Vec<Member>, description: &mut Description, report: &mut Report) {
+fn gather(members: Vec<Member>, description: &mut Description, report: &mut Faults) {
     let (mut emits, mut observes) = (0, 0);
     for member in members {
         match member {
@@ -115,7 +115,7 @@ fn gather(members: Vec<Member>, description: &mut Description, report: &mut Repo
 }
 
 /// Keeps a setting, the last of several, which are a mistake.
-fn once<T>(place: &mut Option<T>, value: T, name: &Ident, report: &mut Report) {
+fn once<T>(place: &mut Option<T>, value: T, name: &Ident, report: &mut Faults) {
     if place.replace(value).is_some() {
         report.error(name.span(), SyntaxMessage::duplicate_property(name));
     }
@@ -137,7 +137,7 @@ enum Member {
     Link(Node),
 }
 
-fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFault> {
+fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFault> {
     let name = identifier(
         input,
         "a link, `gravity`, `drive`, `emit`, `observe` or `crate`",
@@ -184,7 +184,7 @@ fn entry(input: ParseStream<'_>, report: &mut Report) -> Result<Member, ListFaul
     }
     if name == "in_phase" {
         let nodes = group(input, Delimiter::Parenthesis, "`(` and links")?;
-        let node = |input: ParseStream<'_>, _: &mut Report| {
+        let node = |input: ParseStream<'_>, _: &mut Faults| {
             identifier(input, "a link with copies, or `all`")
         };
         return Ok(Member::InPhase(list(nodes, report, node).members));
@@ -253,7 +253,7 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
 }
 
 /// A link, after its name.
-fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node, ListFault> {
+fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node, ListFault> {
     let shape = if input.peek(Token![:]) {
         take::<Token![:]>(input, "`:`")?;
         Some(identifier(input, "a shape, as in `rod`")?)
@@ -300,7 +300,7 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Report) -> Result<Node
 }
 
 /// A property of a link, or those in the parentheses of a law of friction.
-fn members(input: ParseStream<'_>, report: &mut Report) -> Result<List<Property>, ListFault> {
+fn members(input: ParseStream<'_>, report: &mut Faults) -> Result<List<Property>, ListFault> {
     let name = identifier(input, "a property, as in `mass = 0.1`")?;
     let is_law = ["friction", "drag"].iter().any(|law| name == law);
     if is_law && input.peek(token::Paren) {
@@ -317,7 +317,7 @@ fn members(input: ParseStream<'_>, report: &mut Report) -> Result<List<Property>
     })
 }
 
-fn property(input: ParseStream<'_>, _: &mut Report) -> Result<Property, ListFault> {
+fn property(input: ParseStream<'_>, _: &mut Faults) -> Result<Property, ListFault> {
     let name = identifier(input, "a property, as in `mass = 0.1`")?;
     property_value(name, input)
 }

@@ -7,9 +7,9 @@ use syn::{Token, token};
 use super::expression::whole_number;
 use super::list::{ListFault, group, identifier, list, take};
 use super::{Expression, ObservableClause, Request, RequestForm};
-use crate::report::Report;
+use crate::report::Faults;
 
-pub(super) fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Request, ListFault> {
+pub(super) fn request(input: ParseStream<'_>, report: &mut Faults) -> Result<Request, ListFault> {
     let name = identifier(input, "an output, as in `energies`")?;
     let forms = if input.peek(token::Paren) {
         let forms = group(input, Delimiter::Parenthesis, "`(`")?;
@@ -26,7 +26,7 @@ pub(super) fn request(input: ParseStream<'_>, report: &mut Report) -> Result<Req
 
 pub(super) fn observable(
     input: ParseStream<'_>,
-    _: &mut Report,
+    _: &mut Faults,
 ) -> Result<ObservableClause, ListFault> {
     let name = identifier(input, "an observable, as in `height = cos(theta_bob)`")?;
     take::<Token![=]>(input, "`=` and an expression")?;
@@ -34,7 +34,7 @@ pub(super) fn observable(
     Ok(ObservableClause { name, value })
 }
 
-fn form(input: ParseStream<'_>, report: &mut Report) -> Result<RequestForm, ListFault> {
+fn form(input: ParseStream<'_>, report: &mut Faults) -> Result<RequestForm, ListFault> {
     let name = identifier(input, "`angle = 1`, `amplitude = 2` or `exact`")?;
     let value = if input.peek(Token![=]) {
         take::<Token![=]>(input, "`=`")?;
@@ -44,7 +44,7 @@ fn form(input: ParseStream<'_>, report: &mut Report) -> Result<RequestForm, List
     };
     let members = if value.is_none() && input.peek(token::Paren) {
         let names = group(input, Delimiter::Parenthesis, "`(`")?;
-        let member = |input: ParseStream<'_>, _: &mut Report| identifier(input, "a sector");
+        let member = |input: ParseStream<'_>, _: &mut Faults| identifier(input, "a sector");
         Some(list(names, report, member).members)
     } else {
         None

@@ -46,7 +46,7 @@ pub use friction::{BrakingTorque, TorqueSource};
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
-    CanonicalRate, EnergySymbols, FunctionOf, LinearSystem, NestedSymbols, ObservableFormulas,
+    AppliedFunction, CanonicalRate, EnergySymbols, LinearSystem, NestedSymbols, ObservableFormulas,
     ObservableFrame, Observables,
 };
 pub use positions::{LinkPositions, RelativePosition};

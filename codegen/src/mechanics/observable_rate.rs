@@ -29,8 +29,8 @@ use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::observable::Setting;
 use super::observables::{
-    CanonicalRate, FunctionOf, LinearSystem, NestedSymbols, ObservableFormulas, ObservableFrame,
-    Observables,
+    AppliedFunction, CanonicalRate, LinearSystem, NestedSymbols, ObservableFormulas,
+    ObservableFrame, Observables,
 };
 use super::print::latex_name;
 use super::rate_symbols::RateSymbols;
@@ -98,7 +98,7 @@ impl Derivation<'_> {
             .map(|(&symbol, composite)| {
                 let argument = self.expr(&composite.argument);
                 let function = composite.function;
-                (symbol, FunctionOf { function, argument })
+                (symbol, AppliedFunction { function, argument })
             })
             .collect();
         Ok(observables)

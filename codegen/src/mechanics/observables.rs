@@ -10,7 +10,7 @@ pub struct Observables {
     /// The observables, in the order of the description.
     pub list: Vec<ObservableFormulas>,
     /// Functions of whole expressions; arguments hold earlier ones only.
-    pub functions: BTreeMap<SymbolId, FunctionOf>,
+    pub functions: BTreeMap<SymbolId, AppliedFunction>,
     /// Quantities that the observables in absolute angles use.
     pub absolute: ObservableFrame,
     /// Quantities that the observables in symmetric coordinates use.
@@ -19,7 +19,7 @@ pub struct Observables {
 
 /// A function of an expression.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FunctionOf {
+pub struct AppliedFunction {
     /// The function.
     pub function: Function,
     /// Its argument.

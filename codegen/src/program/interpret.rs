@@ -50,12 +50,12 @@ fn product(number: &Rational, powers: &[(ConstantId, i32)], at: impl Fn(Constant
 pub struct Interpreter {
     /// One for each definition; those of numbers and constants stand in them.
     values: Vec<f64>,
-    steps: Vec<(ValueId, Step)>,
+    steps: Vec<(ValueId, Instruction)>,
     outputs: Vec<ValueId>,
 }
 
 #[derive(Clone, Debug)]
-enum Step {
+enum Instruction {
     Op(Op),
     /// Product and sum at once, with the product's factors.
     Fused([ValueId; 2], FusedSum),
@@ -86,22 +86,22 @@ impl Interpreter {
         for (id, step) in &self.steps {
             let at = |id: ValueId| values[id.0 as usize];
             values[id.0 as usize] = match *step {
-                Step::Fused([x, y], sum) => {
+                Instruction::Fused([x, y], sum) => {
                     let signed = |value: f64, minus: bool| if minus { -value } else { value };
                     let x = signed(at(x), sum.minus_product);
                     let addend = signed(at(sum.addend), sum.minus_addend);
                     mul_add(x, at(y), addend)
                 }
-                Step::Op(Op::Input(argument, index)) => input(argument, index),
-                Step::Op(Op::Constant(_) | Op::Number(_)) => at(*id),
-                Step::Op(Op::Sin(a)) => sin_cos(at(a)).0,
-                Step::Op(Op::Cos(a)) => sin_cos(at(a)).1,
-                Step::Op(Op::Sqrt(a)) => at(a).sqrt(),
-                Step::Op(Op::Neg(a)) => -at(a),
-                Step::Op(Op::Add(a, b)) => at(a) + at(b),
-                Step::Op(Op::Sub(a, b)) => at(a) - at(b),
-                Step::Op(Op::Mul(a, b)) => at(a) * at(b),
-                Step::Op(Op::Div(a, b)) => at(a) / at(b),
+                Instruction::Op(Op::Input(argument, index)) => input(argument, index),
+                Instruction::Op(Op::Constant(_) | Op::Number(_)) => at(*id),
+                Instruction::Op(Op::Sin(a)) => sin_cos(at(a)).0,
+                Instruction::Op(Op::Cos(a)) => sin_cos(at(a)).1,
+                Instruction::Op(Op::Sqrt(a)) => at(a).sqrt(),
+                Instruction::Op(Op::Neg(a)) => -at(a),
+                Instruction::Op(Op::Add(a, b)) => at(a) + at(b),
+                Instruction::Op(Op::Sub(a, b)) => at(a) - at(b),
+                Instruction::Op(Op::Mul(a, b)) => at(a) * at(b),
+                Instruction::Op(Op::Div(a, b)) => at(a) / at(b),
             };
         }
         let outputs = self.outputs.iter().map(|id| values[id.0 as usize]);
@@ -123,12 +123,14 @@ impl Program {
             let sum = fused.get(&id);
             let factors = sum.map(|sum| (&self.definition(sum.product).op, *sum));
             match (op, factors) {
-                (_, Some((&Op::Mul(x, y), sum))) => steps.push((id, Step::Fused([x, y], sum))),
+                (_, Some((&Op::Mul(x, y), sum))) => {
+                    steps.push((id, Instruction::Fused([x, y], sum)))
+                }
                 (Op::Constant(constant), _) => {
                     values[id.0 as usize] = constants[constant.0 as usize];
                 }
                 (Op::Number(number), _) => values[id.0 as usize] = number.to_f64(),
-                _ => steps.push((id, Step::Op(op.clone()))),
+                _ => steps.push((id, Instruction::Op(op.clone()))),
             }
         }
         let outputs = entry.outputs.clone();

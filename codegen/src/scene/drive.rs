@@ -4,7 +4,7 @@ use super::values::{Usage, Values};
 use super::{Quantity, Sign};
 use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
 use crate::named_members::named_members;
-use crate::report::{Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
+use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torque on the root and a motion of its pivot; at least one of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,7 +54,7 @@ const PARTS: &[&str] = &["torque", "x", "y"];
 pub(super) fn resolve_drive(
     drive: Option<&description::DriveClause>,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Drive> {
     let description::DriveClause {
         name,
@@ -112,7 +112,7 @@ fn signal(
     expression: &Expression,
     usage: &Usage<'_>,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Signal> {
     if is_plain(expression) {
         let value = values.evaluate(expression, usage, report)?;
@@ -141,7 +141,7 @@ fn part(
     expression: &Expression,
     usage: &Usage<'_>,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Signal> {
     let mut inner = |value: &Expression| part(value, usage, values, report);
     Some(match &expression.kind {
@@ -199,7 +199,7 @@ fn divisor(
     divisors: &[Expression],
     usage: &Usage<'_>,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Option<Signal>> {
     let mut product = Quantity::integer(1);
     for divisor in divisors {

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 
 use super::template::{MAX_LINKS, Template};
 use super::{Group, Link, LinkId, Orbit, OrbitId};
-use crate::report::{Report, SizeMessage, TreeMessage};
+use crate::report::{Faults, SizeMessage, TreeMessage};
 
 /// Most pairs of a link and one above it in a tree that is written out. A chain of 100
 /// links, 4,950 pairs, takes 2 s in an unoptimised build, with its energies 5 s.
@@ -152,7 +152,7 @@ fn group_name(template: &Template, suffix: &str) -> String {
 }
 
 /// Returns true if all copies together are at most [`MAX_LINKS`].
-pub(super) fn check_size(templates: &[Template], report: &mut Report) -> bool {
+pub(super) fn check_size(templates: &[Template], report: &mut Faults) -> bool {
     let totals = running_totals(templates);
     let beyond = templates
         .iter()
@@ -183,7 +183,7 @@ pub(super) fn running_totals(templates: &[Template]) -> Vec<usize> {
 
 /// Checks that a tree is small enough for code that is written out: pairs of a link and
 /// one above it are the entries of its mass matrix.
-pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Report) -> bool {
+pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Faults) -> bool {
     let mut depths: Vec<usize> = Vec::with_capacity(links.len());
     for link in links {
         let above = link.parent.and_then(|parent| depths.get(parent.0));
@@ -202,7 +202,7 @@ pub(super) fn check_pairs(links: &[Link], span: Span, report: &mut Report) -> bo
 pub(super) fn check_names(
     expansion: &ExpandedTree,
     templates: &[Template],
-    report: &mut Report,
+    report: &mut Faults,
 ) -> BTreeMap<String, usize> {
     let ExpandedTree {
         links,

@@ -8,7 +8,7 @@ use super::bodies::Body;
 use super::requests::Resolved;
 use super::rule::Code;
 use super::template::{MAX_LINKS, Template, WholeRule};
-use crate::report::{Report, SizeMessage};
+use crate::report::{Faults, SizeMessage};
 
 /// Trees by rule of at least so many links get loops: straight code for one state is slower,
 /// and takes several times as long to compile (`docs/performance.md`).
@@ -80,7 +80,7 @@ pub(super) fn of_rule(
     rule: WholeRule,
     templates: &mut [Template],
     asked: &Asked<'_>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Result<Layout, ()> {
     let links = links(rule.branching, templates.len());
     let wanted = match rule.code {
@@ -125,7 +125,7 @@ pub(super) fn of_links(
     links: usize,
     templates: &[Template],
     asked: &Asked<'_>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Layout {
     let span = match code {
         Some((Code::Unrolled, _)) => return Layout::Unrolled,

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use crate::description::TIME;
-use crate::report::{Lookalike, Message, Report, TreeMessage, ValueMessage};
+use crate::report::{Faults, Lookalike, Message, TreeMessage, ValueMessage};
 
 /// Keywords of Rust 2024, reserved ones included.
 #[rustfmt::skip]
@@ -79,14 +79,14 @@ fn lookalike(name: &str) -> Option<ValueMessage> {
 }
 
 /// Checks the name of a link; a fault goes to `report`.
-pub(super) fn check_link(name: &Ident, report: &mut Report) {
+pub(super) fn check_link(name: &Ident, report: &mut Faults) {
     if let Some(message) = fault(&name.to_string()) {
         report.error(name.span(), message);
     }
 }
 
 /// Checks the name of an observable; a fault goes to `report`.
-pub(super) fn check_observable(name: &Ident, report: &mut Report) -> Option<()> {
+pub(super) fn check_observable(name: &Ident, report: &mut Faults) -> Option<()> {
     match fault(&name.to_string()) {
         Some(message) => {
             report.error(name.span(), message);
@@ -107,7 +107,7 @@ pub(super) fn irrational(name: &str) -> Option<ValueMessage> {
 }
 
 /// Checks the name of a parameter; a fault goes to `report`.
-pub(super) fn check_parameter(name: &str, span: Span, report: &mut Report) -> Option<()> {
+pub(super) fn check_parameter(name: &str, span: Span, report: &mut Faults) -> Option<()> {
     if name == TIME {
         report.error(span, ValueMessage::TimeOutsideDrive);
         return None;

@@ -11,7 +11,7 @@ use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
 use crate::functions::is_method;
 use crate::named_members::named_members;
-use crate::report::{Message, OutputMessage, Report, TreeMessage, ValueMessage, nearest};
+use crate::report::{Faults, Message, OutputMessage, TreeMessage, ValueMessage, nearest};
 
 /// A quantity that the description defines by an expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ pub(super) fn resolve_observables(
     observables: &[description::ObservableClause],
     scene: &mut Scene,
     owners: &BTreeMap<String, usize>,
-    report: &mut Report,
+    report: &mut Faults,
 ) {
     if observables.is_empty() {
         return;
@@ -184,7 +184,7 @@ fn check_functions(
     name: &Ident,
     symbols: &ObservableSymbols,
     functions: &mut BTreeSet<String>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> bool {
     for form in ObservableForm::ALL {
         let function = format!("{name}{}", form.name());
@@ -207,7 +207,7 @@ fn check_functions(
 fn evaluate(
     expression: &Expression,
     symbols: &ObservableSymbols,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Observed> {
     let value = match &expression.kind {
         ExpressionKind::Number(number) => Observed::Known(Quantity::Exact(number.clone())),
@@ -291,7 +291,7 @@ fn quotient(
     divisors: &[Expression],
     above: Vec<Observed>,
     below: Vec<Observed>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Observed> {
     if let Some(at) = below.iter().position(Observed::is_zero) {
         let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
@@ -326,7 +326,7 @@ fn quotient(
 fn all(
     expressions: &[Expression],
     symbols: &ObservableSymbols,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Vec<Observed>> {
     let values: Vec<Option<Observed>> = expressions
         .iter()
@@ -344,7 +344,7 @@ fn known(values: &[Observed]) -> Option<Vec<Quantity>> {
     values.iter().map(quantity).collect()
 }
 
-fn symbol(name: &Ident, symbols: &ObservableSymbols, report: &mut Report) -> Option<Observed> {
+fn symbol(name: &Ident, symbols: &ObservableSymbols, report: &mut Faults) -> Option<Observed> {
     let text = name.to_string();
     let message = match symbols.get(&text) {
         Some(Meaning::One(value)) => return Some(value.clone()),

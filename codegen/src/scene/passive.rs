@@ -6,7 +6,7 @@ use super::bodies::GivenProperties;
 use super::reduction::times;
 use crate::description::Node;
 use crate::exact::Rational;
-use crate::report::{Report, TreeMessage};
+use crate::report::{Faults, TreeMessage};
 
 /// Friction and spring of a link; what it does not have is zero. Every stage has them with
 /// constants `V` of its own.
@@ -193,7 +193,7 @@ impl PassiveTorques {
 }
 
 /// Checks that a rest angle is that of a spring, and a width that of a law.
-pub(super) fn check_idle(node: &Node, report: &mut Report) {
+pub(super) fn check_idle(node: &Node, report: &mut Faults) {
     let find = |name: &str| node.properties.iter().find(|p| p.key() == name);
     let link = || node.name.to_string();
     if node.damaged {

@@ -4,14 +4,14 @@ use super::expand::ExpandedTree;
 use super::layout::Layout;
 use super::{LinkId, PrescribedSet};
 use crate::description::PrescribedClause;
-use crate::report::{OutputMessage, Report, TreeMessage, nearest};
+use crate::report::{Faults, OutputMessage, TreeMessage, nearest};
 
 /// Finds the links of each clause; what is wrong goes to `report`.
 pub(super) fn resolve_prescribed(
     clauses: &[PrescribedClause],
     expansion: &ExpandedTree,
     layout: Layout,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Vec<PrescribedSet> {
     let names: Vec<&str> = expansion
         .links

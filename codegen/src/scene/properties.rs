@@ -10,7 +10,7 @@ use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
-use crate::report::{Report, SyntaxMessage, TreeMessage, nearest};
+use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
 /// The properties of a link or rule, evaluated.
 pub(super) struct Properties {
@@ -40,7 +40,7 @@ impl Properties {
         node: &Node,
         is_rule: bool,
         values: &mut Values,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Self {
         let mut counts = Counts::default();
         let shape = if is_rule {
@@ -85,7 +85,7 @@ impl Properties {
         generation: usize,
         node: &Node,
         values: &mut Values,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<(Body, GivenProperties)> {
         let given = match scaled(&self.given, generation) {
             Ok(given) => given,
@@ -192,7 +192,7 @@ impl LinkKind {
         &self,
         node: &Node,
         values: &mut Values,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<GivenProperties> {
         let mut given = GivenProperties::default();
         let mut sound = !node.damaged;
@@ -265,7 +265,7 @@ impl LinkKind {
         given: &GivenProperties,
         node: &Node,
         values: &mut Values,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Body> {
         if let Some(Condition { what, value }) = self.shape.and_then(|shape| shape.condition) {
             let usage = Usage {
@@ -284,7 +284,7 @@ impl LinkKind {
         given: &GivenProperties,
         node: &Node,
         values: &mut Values,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Body> {
         let mut body = match self
             .shape
@@ -319,7 +319,7 @@ fn evaluate(
     property: &Property,
     node: &Node,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Offset> {
     let &Dimension {
         name, unit, sign, ..

@@ -18,7 +18,7 @@ use super::{NodeMotion, Quantity, Reduction, Sign, WholeNode, WholeOrder};
 use crate::description::{Expression, LockedClause, Reductions};
 use crate::exact::Rational;
 use crate::report::{
-    OutputMessage, Report, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
+    Faults, OutputMessage, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
 };
 
 /// Most links of a whole tree: what an index of 32 bits counts.
@@ -30,7 +30,7 @@ pub(super) fn reduce(
     reductions: &Reductions,
     builder: &mut TreeBuilder,
     asked: &Asked<'_>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Reduction> {
     if reductions.is_empty() {
         return None;
@@ -80,7 +80,7 @@ fn locks(
     clauses: &[LockedClause],
     templates: &[Template],
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Vec<Option<Rational>> {
     let mut locks = vec![None; templates.len()];
     for LockedClause { link, angle } in clauses {
@@ -122,7 +122,7 @@ fn locked_angle(
     written: &Expression,
     link: &str,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Rational> {
     let usage = Usage {
         what: format!("angle of `{link}`"),
@@ -142,7 +142,7 @@ fn locked_angle(
 }
 
 /// For each template, true if its copies move alike.
-fn alike(nodes: &[Ident], templates: &[Template], report: &mut Report) -> Vec<bool> {
+fn alike(nodes: &[Ident], templates: &[Template], report: &mut Faults) -> Vec<bool> {
     let mut alike = vec![false; templates.len()];
     for node in nodes {
         let name = node.to_string();
@@ -190,7 +190,7 @@ fn order(builder: &TreeBuilder, asked: &Asked<'_>) -> WholeOrder {
 }
 
 /// Number of links of the whole tree.
-fn whole_links(templates: &[Template], report: &mut Report) -> Option<usize> {
+fn whole_links(templates: &[Template], report: &mut Faults) -> Option<usize> {
     let links = *running_totals(templates).last()?;
     if links > MOST_WHOLE {
         let limit = MOST_WHOLE;
@@ -272,7 +272,7 @@ fn whole_orbits(
 fn lock(
     templates: &mut Vec<Template>,
     locks: &[Option<Rational>],
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<()> {
     // From the leaves up, so that a locked link below a locked one is part of it before.
     for index in (0..templates.len()).rev() {

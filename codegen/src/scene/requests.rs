@@ -9,7 +9,7 @@ use super::expand::ExpandedTree;
 use super::small_sectors::acting;
 use super::{BudgetRequest, LinkId, Requests, TransferRequest};
 use crate::description::{Request, RequestForm};
-use crate::report::{OutputMessage, Report, UnequalUse, nearest};
+use crate::report::{Faults, OutputMessage, UnequalUse, nearest};
 
 /// All outputs.
 const OUTPUTS: &[&str] = &[
@@ -65,7 +65,7 @@ pub(super) struct Resolved {
 }
 
 /// Reads the requests; what is wrong goes to `report`.
-pub(super) fn resolve_requests(requests: &[Request], report: &mut Report) -> Resolved {
+pub(super) fn resolve_requests(requests: &[Request], report: &mut Faults) -> Resolved {
     let mut resolved = Resolved {
         requests: Requests::default(),
         symmetric: None,
@@ -158,7 +158,7 @@ struct WrittenForm<'f> {
 }
 
 /// The forms that are written, each once: one may be asked for to several orders.
-fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Report) -> Vec<WrittenForm<'f>> {
+fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Faults) -> Vec<WrittenForm<'f>> {
     let mut written: Vec<WrittenForm<'f>> = Vec::new();
     for form in forms {
         let (text, span) = (form.name.to_string(), form.name.span());
@@ -186,7 +186,7 @@ fn written_forms<'f>(forms: &'f [RequestForm], report: &mut Report) -> Vec<Writt
 fn take_order(
     form: &WrittenForm<'_>,
     [angle, amplitude]: [&mut Vec<u32>; 2],
-    report: &mut Report,
+    report: &mut Faults,
 ) -> bool {
     let (known, orders, message) = match form.text.as_str() {
         "angle" => (ANGLE_ORDERS, angle, OutputMessage::AngleOrder),
@@ -206,7 +206,7 @@ fn budget(
     forms: Option<&[RequestForm]>,
     damaged: bool,
     small: &mut Vec<Ident>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> BudgetRequest {
     let mut request = BudgetRequest::default();
     let Some(forms) = forms else {
@@ -280,7 +280,7 @@ fn transfer(
     span: Span,
     forms: Option<&[RequestForm]>,
     damaged: bool,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> TransferRequest {
     let mut request = TransferRequest {
         angle_orders: Vec::new(),
@@ -325,7 +325,7 @@ fn transfer(
 pub(super) fn check_symmetry(
     resolved: &mut Resolved,
     expansion: &ExpandedTree,
-    report: &mut Report,
+    report: &mut Faults,
 ) {
     let ExpandedTree {
         links,

@@ -14,14 +14,14 @@ use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
 use super::{CratePath, Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, Value};
-use crate::report::{OutputMessage, Report, SyntaxMessage, TreeMessage, ValueMessage, nearest};
+use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::Ident;
 
 /// Checks a description and writes it out link by link.
 ///
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
-pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> {
+pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut builder = TreeBuilder {
         values: Values::declared(description.parameters.as_ref(), report),
         ..TreeBuilder::default()
@@ -145,7 +145,7 @@ pub fn resolve(description: &Description, report: &mut Report) -> Option<Scene> 
 fn gravity(
     description: &Description,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<Quantity> {
     let usage = Usage {
         what: "gravity".to_owned(),
@@ -187,7 +187,7 @@ fn gravity(
 }
 
 /// Checks that there is one root.
-fn check_roots(description: &Description, report: &mut Report) {
+fn check_roots(description: &Description, report: &mut Faults) {
     match description.roots.as_slice() {
         [] if description.damaged => {}
         [] => report.error(description.item.ident.span(), TreeMessage::EmptyTree),
@@ -216,7 +216,7 @@ fn crate_path(description: &Description) -> CratePath {
 }
 
 /// Reads `solve = ...`.
-fn resolve_solve(written: Option<&(Ident, Ident)>, report: &mut Report) -> Option<Solve> {
+fn resolve_solve(written: Option<&(Ident, Ident)>, report: &mut Faults) -> Option<Solve> {
     let (_, value) = written?;
     let name = value.to_string();
     let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);

@@ -7,7 +7,7 @@ use super::properties::{LinkKind, find_shape};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Report, SyntaxMessage, TreeMessage};
+use crate::report::{Faults, SyntaxMessage, TreeMessage};
 
 /// The settings of a generation rule.
 pub(super) struct GenerationRule {
@@ -42,7 +42,7 @@ impl Code {
 /// Reads the attribute's own `code = ...`, with its place.
 pub(super) fn resolve_code(
     written: Option<&(Ident, Ident)>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Option<(Code, Span)> {
     let (_, value) = written?;
     let found = Code::named(&value.to_string());
@@ -162,7 +162,7 @@ pub(super) struct Counts {
 impl Counts {
     /// Reads them; what is wrong goes to `report`. Properties given twice are
     /// reported elsewhere.
-    pub(super) fn read(&mut self, node: &Node, report: &mut Report) {
+    pub(super) fn read(&mut self, node: &Node, report: &mut Faults) {
         let mut named = false;
         for property in &node.properties {
             let Property { name, value, .. } = property;
@@ -225,7 +225,7 @@ fn code(value: &Value) -> Option<Code> {
 }
 
 /// A shape as the value of a property.
-fn shape(value: &Value, span: Span, report: &mut Report) -> Result<&'static BodyShape, ()> {
+fn shape(value: &Value, span: Span, report: &mut Faults) -> Result<&'static BodyShape, ()> {
     let Value::Single(Expression {
         kind: ExpressionKind::Name(name),
         ..

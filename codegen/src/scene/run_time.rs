@@ -4,7 +4,7 @@
 use super::layout::Layout;
 use super::{Scene, resolve};
 use crate::description::Description;
-use crate::report::{OutputMessage, Report, SizeMessage};
+use crate::report::{Faults, OutputMessage, SizeMessage};
 
 /// Outputs that hold for every tree, so that they need not be asked for.
 const ALWAYS: [&str; 5] = ["energies", "momenta", "modes", "positions", "forces"];
@@ -17,7 +17,7 @@ const MOST: usize = 1 << 16;
 
 /// Checks a description as [`resolve`] does, and that nothing is asked for which
 /// has to be derived. Outputs that hold for every tree may be asked for or not.
-pub fn resolve_at_run_time(description: &Description, report: &mut Report) -> Option<Scene> {
+pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut refuse = |name: &proc_macro2::Ident, what: String| {
         report.error(name.span(), OutputMessage::NotAtRunTime { what });
     };

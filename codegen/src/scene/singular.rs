@@ -23,11 +23,11 @@
 
 use super::template::Template;
 use super::{Offset, Quantity};
-use crate::report::{Report, TreeMessage};
+use crate::report::{Faults, TreeMessage};
 
 /// Reports links that can turn without kinetic energy, the lowest of each
 /// branch: those above it may be right once it is.
-pub(super) fn check_regular(templates: &[Template], report: &mut Report) {
+pub(super) fn check_regular(templates: &[Template], report: &mut Faults) {
     for index in singular(templates) {
         if let Some(Template { name, span, .. }) = templates.get(index) {
             report.error(*span, TreeMessage::Singular { link: name.clone() });

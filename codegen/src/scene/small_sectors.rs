@@ -7,14 +7,14 @@ use super::Scene;
 use super::coordinates::symmetric_coordinates;
 use super::sectors::sectors;
 use crate::description::RequestForm;
-use crate::report::{OutputMessage, Report, nearest};
+use crate::report::{Faults, OutputMessage, nearest};
 
 /// Reads the sectors whose differences act back: none where all shall.
 pub(super) fn acting(
     span: Span,
     forms: Option<&[RequestForm]>,
     damaged: bool,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Vec<Ident> {
     let Some(forms) = forms else {
         return Vec::new();
@@ -40,7 +40,7 @@ pub(super) fn acting(
 pub(super) fn resolve_acting(
     resolved: &Option<(Span, Vec<Ident>)>,
     scene: &mut Scene,
-    report: &mut Report,
+    report: &mut Faults,
 ) {
     let Some((_, named)) = resolved else {
         return;
@@ -61,7 +61,7 @@ pub(super) fn resolve_acting(
 }
 
 /// Finds the sectors that are named as small; what is wrong goes to `report`.
-pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut Report) {
+pub(super) fn resolve_small(resolved: &[Ident], scene: &mut Scene, report: &mut Faults) {
     if resolved.is_empty() {
         return;
     }
@@ -83,7 +83,7 @@ fn resolve_sectors<S: PartialEq>(
     written: &[Ident],
     names: &[&str],
     find: impl Fn(&str) -> Option<S>,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> Vec<S> {
     let mut sectors = Vec::new();
     for ident in written {

@@ -11,7 +11,7 @@ use super::unequal::unequal_copies;
 use super::values::{Usage, Values};
 use super::{Offset, Quantity, Sign};
 use crate::description::Node;
-use crate::report::{Report, SizeMessage, TreeMessage};
+use crate::report::{Faults, SizeMessage, TreeMessage};
 
 /// Most links that a scene may have, copies included.
 pub(super) const MAX_LINKS: usize = 4096;
@@ -66,7 +66,7 @@ struct Parent {
 impl TreeBuilder {
     /// Adds the root and all that hangs from it. After an error the templates
     /// still have their names and numbers of copies, but no meaningful bodies.
-    pub(super) fn add_root(&mut self, node: &Node, report: &mut Report) {
+    pub(super) fn add_root(&mut self, node: &Node, report: &mut Faults) {
         if let Some(copies) = node.copies.filter(|copies| copies.count > 1) {
             report.error(copies.span, TreeMessage::RootCopies);
         }
@@ -75,7 +75,7 @@ impl TreeBuilder {
 
     /// Adds a link or a rule, and its children: once for all copies, or for each where
     /// they differ.
-    fn add(&mut self, node: &Node, parent: Option<&Parent>, report: &mut Report) {
+    fn add(&mut self, node: &Node, parent: Option<&Parent>, report: &mut Faults) {
         // Too many already, which the check of the tree's size reports.
         if self.templates.len() > MAX_LINKS {
             return;
@@ -88,7 +88,7 @@ impl TreeBuilder {
         check_idle(node, report);
         let shape = node.shape.as_ref();
         let is_rule = shape.is_some_and(|shape| shape == "generations");
-        let right = |report: &Report| report.diagnostics().len() == before;
+        let right = |report: &Faults| report.diagnostics().len() == before;
         let unequal = match right(report) {
             true => unequal_copies(node, is_rule, report),
             false => None,
@@ -134,7 +134,7 @@ impl TreeBuilder {
         node: &Node,
         is_rule: bool,
         parent: Option<&Parent>,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> (Template, Properties) {
         let properties = Properties::read(node, is_rule, &mut self.values, report);
         let template = Template {
@@ -158,7 +158,7 @@ impl TreeBuilder {
         node: &Node,
         mut first: Template,
         properties: &Properties,
-        report: &mut Report,
+        report: &mut Faults,
     ) {
         first.origin = self.templates.len();
         if let Some(rule) = &properties.rule {
@@ -203,7 +203,7 @@ impl TreeBuilder {
         node: &Node,
         parent: Option<&Parent>,
         given: &GivenProperties,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Offset {
         match (parent, given.point("at")) {
             (Some(_), Some(at)) => at.clone(),
@@ -225,7 +225,7 @@ impl TreeBuilder {
         first: Template,
         properties: &Properties,
         rule: &GenerationRule,
-        report: &mut Report,
+        report: &mut Faults,
     ) {
         let span = first.span;
         // The templates alone may be too many, before any copies.
@@ -269,7 +269,7 @@ pub(super) fn accept_body(
     body: &Body,
     node: &Node,
     values: &mut Values,
-    report: &mut Report,
+    report: &mut Faults,
 ) -> bool {
     let Body {
         mass,
@@ -291,7 +291,7 @@ pub(super) fn accept_body(
     })
 }
 
-fn missing_joint(node: &Node, report: &mut Report) {
+fn missing_joint(node: &Node, report: &mut Faults) {
     let link = node.name.to_string();
     report.error(node.name.span(), TreeMessage::MissingJoint { link });
 }

@@ -6,11 +6,11 @@ use super::coordinates::Coordinate;
 use super::template::Template;
 use super::{LinkId, Orbit, Scene};
 use crate::description::{Node, Property, Value};
-use crate::report::{Report, ValueMessage};
+use crate::report::{Faults, ValueMessage};
 
 /// The copies of a node one by one, each with its own values, where the description says
 /// that they differ; `None` otherwise, and after reporting a wrong `each(...)`.
-pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Report) -> Option<Vec<Node>> {
+pub(super) fn unequal_copies(node: &Node, is_rule: bool, report: &mut Faults) -> Option<Vec<Node>> {
     let before = report.diagnostics().len();
     let copies = node.copies.map_or(1, |copies| copies.count as usize);
     let mut differ = false;

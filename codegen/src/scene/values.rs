@@ -6,7 +6,7 @@ use super::names::check_parameter;
 use super::{Parameter, ParameterId, Quantity, Requirement, Sign};
 use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
-use crate::report::{Report, SyntaxMessage, ValueMessage, nearest};
+use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
 
 /// Use of a value.
 pub(super) struct Usage<'a> {
@@ -31,7 +31,7 @@ pub(super) struct Values {
 
 impl Values {
     /// Starts with the parameters that the description declares, if it does.
-    pub(super) fn declared(clause: Option<&ParameterClause>, report: &mut Report) -> Self {
+    pub(super) fn declared(clause: Option<&ParameterClause>, report: &mut Faults) -> Self {
         let mut values = Self::default();
         for name in clause.iter().flat_map(|clause| &clause.names) {
             let text = name.to_string();
@@ -70,7 +70,7 @@ impl Values {
         &mut self,
         expression: &Expression,
         usage: &Usage<'_>,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Quantity> {
         let value = match &expression.kind {
             ExpressionKind::Name(name) => self.parameter(name, usage, true, report)?,
@@ -86,7 +86,7 @@ impl Values {
         value: Quantity,
         usage: &Usage<'_>,
         span: Span,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Quantity> {
         if let Some(message) = unrepresentable(&value) {
             report.error(span, message);
@@ -122,7 +122,7 @@ impl Values {
         &mut self,
         expression: &Expression,
         usage: &Usage<'_>,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Quantity> {
         let value = match &expression.kind {
             ExpressionKind::Number(number) => Ok(Quantity::Exact(number.clone())),
@@ -169,7 +169,7 @@ impl Values {
         &mut self,
         expressions: &[Expression],
         usage: &Usage<'_>,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Vec<Quantity>> {
         let values: Vec<Option<Quantity>> = expressions
             .iter()
@@ -184,7 +184,7 @@ impl Values {
         name: &Ident,
         usage: &Usage<'_>,
         alone: bool,
-        report: &mut Report,
+        report: &mut Faults,
     ) -> Option<Quantity> {
         let text = name.to_string();
         check_parameter(&text, name.span(), report)?;
@@ -218,7 +218,7 @@ impl Values {
 }
 
 /// Reports the declared parameters that no value names.
-pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut Report) {
+pub(super) fn check_used(parameters: &[Parameter], spans: &[Span], report: &mut Faults) {
     for (parameter, &span) in parameters.iter().zip(spans) {
         if parameter.doc.is_empty() {
             let name = parameter.name.clone();

@@ -38,7 +38,7 @@ impl Linear {
         }
         check_size(P::LINKS)?;
         let dual = model.cast(Dual::<f64, 1>::constant);
-        let slopes = Slopes::at_rest(&dual, near)?;
+        let slopes = RestSlopes::at_rest(&dual, near)?;
         let mass = mass(&dual, &slopes.equilibrium);
         let negative = |entries: &[f64]| {
             let slopes = PreciseMatrix::new(near.len(), near.len(), |row, column| {
@@ -55,13 +55,13 @@ impl Linear {
 }
 
 /// An equilibrium and the derivatives of accelerations there, row by row.
-pub(super) struct Slopes {
+pub(super) struct RestSlopes {
     pub(super) equilibrium: Vec<f64>,
     pub(super) by_angles: Vec<f64>,
     pub(super) by_rates: Vec<f64>,
 }
 
-impl Slopes {
+impl RestSlopes {
     /// Searches for rest next to the angles `near`.
     fn at_rest(model: &impl Pendulum<Dual<f64, 1>>, near: &[f64]) -> Result<Self, LinearError> {
         let n = near.len();

@@ -27,12 +27,12 @@ pub struct LinearFrames<T> {
     frame: T,
     links: usize,
     equilibrium: Vec<T>,
-    groups: Vec<Group<T>>,
+    groups: Vec<CoupledModes<T>>,
     /// Shapes of the modes that take part, in the order of the groups.
     shapes: Vec<T>,
     /// Of all modes, those that take part first.
     projections: Vec<T>,
-    estimates: Vec<Estimate<T>>,
+    estimates: Vec<ModeError<T>>,
     /// Coordinates and rates of the modes, group by group, at a frame and at the next.
     now: Vec<T>,
     next: Vec<T>,
@@ -41,7 +41,7 @@ pub struct LinearFrames<T> {
 
 /// Modes that friction couples.
 #[derive(Clone, Debug, PartialEq)]
-struct Group<T> {
+struct CoupledModes<T> {
     size: usize,
     /// Column by column: from coordinates and rates to those a frame later.
     propagator: Vec<T>,
@@ -51,7 +51,7 @@ struct Group<T> {
 
 /// How the error of a mode is estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Estimate<T> {
+struct ModeError<T> {
     /// Amplitude of a rate, s.
     per_rate: T,
     /// Largest part of an angle in the shape.
@@ -74,14 +74,15 @@ impl<T: Real> LinearFrames<T> {
         let mut order: Vec<usize> = groups.iter().flatten().copied().collect();
         let group = |modes: &Vec<usize>| {
             let (propagator, response) = linear.propagator(modes, frame);
-            Group {
+            CoupledModes {
                 size: modes.len(),
                 propagator: by_columns(&propagator),
                 response: by_columns(&response),
             }
         };
-        let groups: Vec<Group<T>> = groups.iter().map(group).collect();
-        let finite = |group: &Group<T>| group.propagator.iter().all(|entry| entry.is_finite());
+        let groups: Vec<CoupledModes<T>> = groups.iter().map(group).collect();
+        let finite =
+            |group: &CoupledModes<T>| group.propagator.iter().all(|entry| entry.is_finite());
         if !groups.iter().all(finite) {
             return Err(LinearError::NotFinite);
         }
@@ -101,7 +102,7 @@ impl<T: Real> LinearFrames<T> {
             projections: order.iter().flat_map(projection).collect(),
             estimates: order
                 .iter()
-                .map(|&mode| Estimate::new(linear, mode))
+                .map(|&mode| ModeError::new(linear, mode))
                 .collect(),
             now: vec![T::ZERO; 2 * kept],
             next: vec![T::ZERO; 2 * kept],
@@ -275,7 +276,7 @@ impl<T: Real> Approximation<T> for LinearFrames<T> {
     }
 }
 
-impl<T: Real> Estimate<T> {
+impl<T: Real> ModeError<T> {
     fn new(linear: &Linear, mode: usize) -> Self {
         let square = linear.squares[mode].high().abs();
         // A mode slower than the second that counts goes as far as its rate takes it.

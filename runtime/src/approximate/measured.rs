@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::about::Slopes;
+use super::about::RestSlopes;
 use super::linear::Linear;
 use crate::integrate::{Frames, longest_sub_step};
 use crate::system::{AbsoluteAngles, Cast, Ode, OdeFn, State};
@@ -19,7 +19,11 @@ const FRAMES: u32 = 60;
 /// E₁ a² + E₂ a³ for a motion of the mode alone from rest, whose largest angle is a.
 ///
 /// E₁ vanishes about an equilibrium to whose two sides a tree is alike.
-pub(super) fn errors<P: Cast<f64>>(model: &P, linear: &Linear, slopes: &Slopes) -> Vec<[f64; 2]> {
+pub(super) fn errors<P: Cast<f64>>(
+    model: &P,
+    linear: &Linear,
+    slopes: &RestSlopes,
+) -> Vec<[f64; 2]> {
     let n = slopes.equilibrium.len();
     let sub_step = longest_sub_step(model);
     let small = OdeFn::new(2 * n, |_: f64, state: &[f64], rates: &mut [f64]| {

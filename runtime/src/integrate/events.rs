@@ -125,7 +125,7 @@ struct Search<'a, T> {
 
 /// A place of a step and the value of a function there.
 #[derive(Clone, Copy)]
-struct Place<T> {
+struct EventSample<T> {
     time: T,
     value: T,
 }
@@ -184,7 +184,7 @@ impl<'a, T: Real> Search<'a, T> {
             } else {
                 self.value(index, start, step)?
             };
-            let mut left = Place { time: start, value };
+            let mut left = EventSample { time: start, value };
             for check in 1..=checks {
                 let time = if check == checks {
                     end
@@ -193,7 +193,7 @@ impl<'a, T: Real> Search<'a, T> {
                     start + part * (end - start)
                 };
                 let value = self.value(index, time, step)?;
-                let right = Place { time, value };
+                let right = EventSample { time, value };
                 self.look(index, left, right, step)?;
                 left = right;
             }
@@ -229,8 +229,8 @@ impl<'a, T: Real> Search<'a, T> {
     fn look(
         &mut self,
         event: usize,
-        left: Place<T>,
-        right: Place<T>,
+        left: EventSample<T>,
+        right: EventSample<T>,
         step: &mut DenseStep<'_, T>,
     ) -> Result<(), SearchError<T>> {
         let rising = left.value < T::ZERO && right.value >= T::ZERO;
@@ -257,8 +257,8 @@ impl<'a, T: Real> Search<'a, T> {
     fn locate(
         &mut self,
         event: usize,
-        mut left: Place<T>,
-        mut right: Place<T>,
+        mut left: EventSample<T>,
+        mut right: EventSample<T>,
         step: &mut DenseStep<'_, T>,
     ) -> Result<T, SearchError<T>> {
         let half = T::from_f64(0.5);
@@ -285,13 +285,13 @@ impl<'a, T: Real> Search<'a, T> {
             let value = self.value(event, time, step)?;
             let before = value != T::ZERO && (value < T::ZERO) == negative;
             if before {
-                left = Place { time, value };
+                left = EventSample { time, value };
                 if kept_right {
                     right.value = half * right.value;
                 }
                 (kept_left, kept_right) = (false, true);
             } else {
-                right = Place { time, value };
+                right = EventSample { time, value };
                 if kept_left {
                     left.value = half * left.value;
                 }

@@ -145,12 +145,12 @@ impl WholeTree {
                 }
             }
         } else {
-            self.visit(0, Place::default(), &mut visit);
+            self.visit(0, LinkInModel::default(), &mut visit);
         }
     }
 
     /// Visits all copies of a node under one link, each with what hangs from it.
-    fn visit(&self, orbit: usize, above: Place, visit: &mut impl FnMut(usize, f64)) {
+    fn visit(&self, orbit: usize, above: LinkInModel, visit: &mut impl FnMut(usize, f64)) {
         let Some(&WholeOrbit {
             copies,
             in_phase,
@@ -166,11 +166,11 @@ impl WholeTree {
                 false => above.apart * copies + copy,
             };
             let place = match motion {
-                WholeMotion::Moving { offset, stride } => Place {
+                WholeMotion::Moving { offset, stride } => LinkInModel {
                     link: above.link + offset + apart * stride,
-                    ..Place::default()
+                    ..LinkInModel::default()
                 },
-                WholeMotion::Locked { angle } => Place {
+                WholeMotion::Locked { angle } => LinkInModel {
                     link: above.link,
                     angle: above.angle + angle,
                     apart,
@@ -269,7 +269,7 @@ impl WholeTree {
 
 /// Where a link of the whole tree stands in the model.
 #[derive(Clone, Copy, Default)]
-struct Place {
+struct LinkInModel {
     /// Link of the model.
     link: usize,
     /// Angle to that link.

@@ -12,7 +12,7 @@
 
 use super::elimination::LinkColumn;
 use super::expand::{Connectivity, LinkConstants, Start};
-use super::linear::LinearSystem;
+use super::linear::OrderSystem;
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
@@ -23,7 +23,7 @@ pub(super) struct Matrices<T, const N: usize, const Q: usize> {
     turning: [LinkColumn<T, Q>; N],
 }
 
-impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for Matrices<T, N, Q> {
+impl<T: Scalar, const N: usize, const Q: usize> OrderSystem<T, N> for Matrices<T, N, Q> {
     #[inline(always)]
     fn new<C: Connectivity<N>, P: Simd<T>>(
         start: &Start<'_, T, N>,

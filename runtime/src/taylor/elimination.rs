@@ -30,7 +30,7 @@
 
 use super::eliminated_link::EliminatedLink;
 use super::expand::{Connectivity, LinkConstants, Start};
-use super::linear::LinearSystem;
+use super::linear::OrderSystem;
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
@@ -62,7 +62,7 @@ pub(super) struct TaylorElimination<T, const Q: usize> {
     of_cosine: Vectors<T, Q>,
 }
 
-impl<T: Scalar, const N: usize, const Q: usize> LinearSystem<T, N> for TaylorElimination<T, Q> {
+impl<T: Scalar, const N: usize, const Q: usize> OrderSystem<T, N> for TaylorElimination<T, Q> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
     fn new<C: Connectivity<N>, W: Simd<T>>(

@@ -19,7 +19,7 @@
 use super::bias::{Bias, ConstantBias, MovingBias};
 use super::dense::Matrices;
 use super::elimination::TaylorElimination;
-use super::linear::LinearSystem;
+use super::linear::OrderSystem;
 use super::orders::Orders;
 use super::series::{SERIES, SeriesRow};
 use crate::scalar::Scalar;
@@ -206,7 +206,7 @@ where
 {
     /// Solved by `L`, in `M` packs.
     #[inline(always)]
-    fn by<L: LinearSystem<T, N>, const M: usize>(self) -> Orders<'a, T, C, B, L, N, Q, M> {
+    fn by<L: OrderSystem<T, N>, const M: usize>(self) -> Orders<'a, T, C, B, L, N, Q, M> {
         Orders::new(
             self.start,
             self.constants,

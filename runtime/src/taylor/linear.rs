@@ -4,7 +4,7 @@ use super::expand::{Connectivity, LinkConstants, Start};
 use crate::simd::Simd;
 
 /// The equations X, Y = linear functions of S, C at a start, solved for S and Y.
-pub(super) trait LinearSystem<T, const N: usize>: Sized {
+pub(super) trait OrderSystem<T, const N: usize>: Sized {
     /// Forms what serves all orders.
     fn new<C: Connectivity<N>, P: Simd<T>>(
         start: &Start<'_, T, N>,

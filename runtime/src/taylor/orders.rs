@@ -14,7 +14,7 @@
 use super::bias::Bias;
 use super::elimination::LinkColumn;
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
-use super::linear::LinearSystem;
+use super::linear::OrderSystem;
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
 use super::series::{SeriesRow, SeriesSums};
@@ -43,7 +43,7 @@ where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: LinearSystem<T, N>,
+    L: OrderSystem<T, N>,
 {
     type Output = ();
 
@@ -58,7 +58,7 @@ where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: LinearSystem<T, N>,
+    L: OrderSystem<T, N>,
 {
     #[inline(always)]
     pub(super) fn new(

@@ -267,8 +267,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             tree: self,
             drive: drive.map(|drive| drive.map(V::splat)),
             room: match wide_slice::<T, V>(room) {
-                Some(values) => Room::Lent(values),
-                None => Room::Own(alloc::vec![V::from_f64(0.0); self.room()]),
+                Some(values) => LentOrOwn::Lent(values),
+                None => LentOrOwn::Own(alloc::vec![V::from_f64(0.0); self.room()]),
             },
         }
     }
@@ -278,11 +278,11 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
 struct WithRoom<'t, 'r, E, T, V> {
     tree: &'t Tree<E, T>,
     drive: Option<RootDrive<V>>,
-    room: Room<'r, V>,
+    room: LentOrOwn<'r, V>,
 }
 
 /// Memory for values.
-enum Room<'r, V> {
+enum LentOrOwn<'r, V> {
     Lent(&'r mut [V]),
     Own(Vec<V>),
 }
@@ -296,8 +296,8 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
         alpha: impl FnMut(usize, V),
     ) {
         let room = match &mut self.room {
-            Room::Lent(values) => &mut **values,
-            Room::Own(values) => values,
+            LentOrOwn::Lent(values) => &mut **values,
+            LentOrOwn::Own(values) => values,
         };
         let tree = &self.tree.skeleton;
         let none = |_| [V::from_f64(0.0); 2];

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use branched_pendulum_codegen::report::{Problem, Report};
+use branched_pendulum_codegen::report::{Faults, Problem};
 use thiserror::Error;
 
 use crate::text::LONGEST;
@@ -76,7 +76,7 @@ pub struct Mistake {
 }
 
 impl DescriptionError {
-    pub(crate) fn of(report: &Report, source: &str) -> Self {
+    pub(crate) fn of(report: &Faults, source: &str) -> Self {
         let mistakes = report.diagnostics().iter().map(|diagnostic| {
             let start = diagnostic.span.start();
             let Problem { text, label, hint } = diagnostic.message.problem();

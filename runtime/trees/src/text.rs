@@ -3,7 +3,7 @@
 use std::thread;
 
 use branched_pendulum_codegen::description;
-use branched_pendulum_codegen::report::Report;
+use branched_pendulum_codegen::report::Faults;
 use branched_pendulum_codegen::scene::{self, Scene};
 
 use crate::error::DescriptionError;
@@ -36,7 +36,7 @@ pub(crate) fn scene(text: &str) -> Result<Scene, DescriptionError> {
 }
 
 fn read(text: &str) -> Result<Scene, DescriptionError> {
-    let mut report = Report::new();
+    let mut report = Faults::new();
     let scene = description::parse_text(text, &mut report)
         .and_then(|description| scene::resolve_at_run_time(&description, &mut report));
     scene.ok_or_else(|| DescriptionError::of(&report, text))

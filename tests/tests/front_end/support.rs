@@ -1,7 +1,7 @@
 //! Runs the front end on source text.
 
 use branched_pendulum_codegen::description::{self, Description};
-use branched_pendulum_codegen::report::Report;
+use branched_pendulum_codegen::report::Faults;
 use branched_pendulum_codegen::scene::{self, Scene};
 pub(crate) use branched_pendulum_tests::random::Random;
 use proc_macro2::{TokenStream, TokenTree};
@@ -10,12 +10,12 @@ use proc_macro2::{TokenStream, TokenTree};
 pub(crate) struct Outcome {
     pub(crate) description: Option<Description>,
     pub(crate) scene: Option<Scene>,
-    pub(crate) report: Report,
+    pub(crate) report: Faults,
 }
 
 /// Runs the front end on the tokens of an attribute and of the item under it.
 pub(crate) fn run(attribute: TokenStream, item: TokenStream) -> Outcome {
-    let mut report = Report::new();
+    let mut report = Faults::new();
     let description = description::parse(attribute, item, &mut report);
     let scene = description
         .as_ref()

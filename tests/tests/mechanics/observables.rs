@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
-use branched_pendulum_codegen::report::{Message, OutputMessage, Report, TreeMessage};
+use branched_pendulum_codegen::report::{Faults, Message, OutputMessage, TreeMessage};
 use branched_pendulum_codegen::{description, scene};
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
@@ -38,7 +38,7 @@ fn no_emitted_function_can_be_defined_again() {
         }
         assert!(!functions.is_empty());
         for function in functions {
-            let mut report = Report::new();
+            let mut report = Faults::new();
             let attribute = quote::quote!(observe(#function = 1), #attribute);
             let description = description::parse(attribute, item.clone(), &mut report);
             let scene = description.and_then(|d| scene::resolve(&d, &mut report));

@@ -10,7 +10,7 @@ use crate::program::{Op, ValueId};
 
 /// A link: its constants in reduced units (`reduced_units`), and its motion.
 #[derive(Clone)]
-pub(super) struct Link {
+pub(super) struct ReducedLink {
     /// The first moment ĥ = h + i e about the pivot.
     pub(super) moment: Pair,
     /// The moment of inertia M about the pivot.
@@ -90,7 +90,7 @@ pub(super) struct Elimination {
     pub(super) offset: ValueId,
 }
 
-impl Link {
+impl ReducedLink {
     /// ω² in units of length.
     pub(super) fn centripetal(&self, builder: &mut Builder) -> ValueId {
         let squared = builder.mul(self.omega, self.omega);

@@ -3,7 +3,7 @@
 
 use super::columns::Column;
 use super::deficit::{Deficit, Rest};
-use super::equations::{Attached, Elimination, Link, Response};
+use super::equations::{Attached, Elimination, ReducedLink, Response};
 use super::strips::Table;
 use crate::functions::{Argument, LinkFunction};
 use crate::program::ValueId;
@@ -65,7 +65,7 @@ impl Functions<'_> {
         list: &mut EntryList<'_, '_>,
         kind: Kind,
         torque: Option<ValueId>,
-    ) -> (Link, ValueId) {
+    ) -> (ReducedLink, ValueId) {
         let direction = [Motion::Cosine, Motion::Sine].map(|part| self.motion(list, part));
         let omega = self.motion(list, Motion::Omega);
         let own = match kind {
@@ -92,7 +92,7 @@ impl Functions<'_> {
         let pushed = builder.add(pushed, outside);
         let torque = builder.sub(pushed, resisting);
         let torque = builder.mul(inverse_length, torque);
-        let link = Link {
+        let link = ReducedLink {
             moment,
             inertia,
             mass,
@@ -224,7 +224,11 @@ impl Functions<'_> {
         self.outputs(list, &response, self.joints.then_some(joint))
     }
 
-    fn leaf_response(&self, list: &mut EntryList<'_, '_>, link: &Link) -> (Response, Elimination) {
+    fn leaf_response(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        link: &ReducedLink,
+    ) -> (Response, Elimination) {
         let (gain, inverse) = self.leaf_constants(list);
         let grip = self.grip(list, link);
         let builder = &mut list.lowering.builder;

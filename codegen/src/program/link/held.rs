@@ -4,7 +4,7 @@
 
 use super::columns::Column;
 use super::deficit::Deficit;
-use super::equations::{Attached, Elimination, Link, Response, passed_on};
+use super::equations::{Attached, Elimination, ReducedLink, Response, passed_on};
 use super::functions::{Functions, Kind, Motion};
 use crate::program::ValueId;
 use crate::program::builder::Builder;
@@ -41,7 +41,7 @@ impl HeldLink {
     }
 }
 
-impl Link {
+impl ReducedLink {
     /// The response of a link with a given acceleration, of which nothing is eliminated:
     /// N = Σ N, γ = γ' + b ω̇. `whole` is the link with what hangs from it.
     pub(super) fn hold(
@@ -112,7 +112,7 @@ impl Link {
 impl Functions<'_> {
     /// The choice between a given acceleration and one that follows, where links may be
     /// held.
-    pub(super) fn grip(&self, list: &mut EntryList<'_, '_>, link: &Link) -> Option<Grip> {
+    pub(super) fn grip(&self, list: &mut EntryList<'_, '_>, link: &ReducedLink) -> Option<Grip> {
         if !self.prescribed {
             return None;
         }
@@ -134,7 +134,7 @@ impl Functions<'_> {
         &self,
         list: &mut EntryList<'_, '_>,
         kind: Kind,
-        link: &Link,
+        link: &ReducedLink,
         [tangential, alpha]: [ValueId; 2],
     ) -> [ValueId; 2] {
         let Some(grip) = self.grip(list, link) else {

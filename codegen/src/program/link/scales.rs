@@ -2,7 +2,7 @@
 
 use super::columns::Column;
 use super::deficit::{Deficit, Rest};
-use super::equations::{Elimination, Link, Response};
+use super::equations::{Elimination, ReducedLink, Response};
 use super::functions::{Functions, Kind, Motion};
 use crate::functions::{Argument, Purpose, ScaleFunction};
 use crate::mechanics::expression::{Expr, SymbolId};
@@ -153,7 +153,11 @@ impl Functions<'_> {
     }
 
     /// The link at rest, in the units of the recursion, under a torque in N m.
-    fn resting(&self, list: &mut EntryList<'_, '_>, torque: Option<ValueId>) -> (Link, Pair) {
+    fn resting(
+        &self,
+        list: &mut EntryList<'_, '_>,
+        torque: Option<ValueId>,
+    ) -> (ReducedLink, Pair) {
         let direction = [Motion::Cosine, Motion::Sine].map(|part| self.motion(list, part));
         let mut at = |column| self.column(list, Kind::Any, column);
         let moment = [at(Column::Moment), at(Column::LateralMoment)];
@@ -170,7 +174,7 @@ impl Functions<'_> {
             }
             None => zero,
         };
-        let link = Link {
+        let link = ReducedLink {
             moment,
             inertia,
             mass,

@@ -1,6 +1,6 @@
 //! The recursion through a tree that is written out, link by link.
 
-use super::equations::{Attached, Elimination, Link, Response};
+use super::equations::{Attached, Elimination, ReducedLink, Response};
 use super::held::HeldLink;
 use super::numbered;
 use super::reduced_units::Units;
@@ -13,11 +13,11 @@ use crate::program::pair::Pair;
 use crate::scene::Scene;
 
 /// The recursion in progress.
-struct Sweep<'s> {
+struct LinkRecursion<'s> {
     scene: &'s Scene,
     units: Units,
     children: Vec<Vec<usize>>,
-    links: Vec<Link>,
+    links: Vec<ReducedLink>,
     /// Of the subtrees that are eliminated and not yet attached.
     responses: Vec<Option<Response>>,
     /// Accelerations that are given.
@@ -25,14 +25,14 @@ struct Sweep<'s> {
 }
 
 /// A link for the way down.
-struct Solved {
-    way: Way,
+struct SolvedLink {
+    way: Descent,
     /// The pivots on the link and what hangs from each.
     groups: Vec<(Pair, Vec<usize>)>,
 }
 
 /// Knowledge of a link's acceleration on the way down.
-enum Way {
+enum Descent {
     /// The factors of it.
     Free(Elimination),
     /// Itself.
@@ -75,7 +75,7 @@ impl Lowering<'_> {
         let zero = self.builder.integer(0);
         let links = scene.links.iter().enumerate().map(|(index, link)| {
             let unit = &units.links[link.orbit.0];
-            Link {
+            ReducedLink {
                 moment: unit.moment,
                 inertia: unit.inertia,
                 // All mass is in the constants of the parents.
@@ -89,7 +89,7 @@ impl Lowering<'_> {
             }
         });
         let links = links.collect();
-        let mut sweep = Sweep {
+        let mut sweep = LinkRecursion {
             scene,
             units,
             children: super::children(scene),
@@ -98,7 +98,7 @@ impl Lowering<'_> {
             held,
         };
         let builder = &mut self.builder;
-        let mut solved: Vec<Solved> = Vec::with_capacity(scene.links.len());
+        let mut solved: Vec<SolvedLink> = Vec::with_capacity(scene.links.len());
         for link in (0..scene.links.len()).rev() {
             solved.push(sweep.eliminate(builder, link, root));
         }
@@ -122,7 +122,7 @@ impl Lowering<'_> {
     }
 }
 
-impl Sweep<'_> {
+impl LinkRecursion<'_> {
     /// Subtrees below a link, by pivot: place, members, their responses added up.
     fn groups(&mut self, builder: &mut Builder, link: usize) -> Vec<(Pair, Vec<usize>, Response)> {
         let mut groups: Vec<(Pair, Vec<usize>, Response)> = Vec::new();
@@ -149,7 +149,7 @@ impl Sweep<'_> {
     }
 
     /// The way up, at one link.
-    fn eliminate(&mut self, builder: &mut Builder, index: usize, root: Pair) -> Solved {
+    fn eliminate(&mut self, builder: &mut Builder, index: usize, root: Pair) -> SolvedLink {
         let groups = self.groups(builder, index);
         let link = &self.links[index];
         let is_root = self.scene.links[index].parent.is_none();
@@ -168,26 +168,26 @@ impl Sweep<'_> {
             (Some(&alpha), _) => {
                 let whole = whole.unwrap_or_else(|| link.alone(builder));
                 let (response, held) = link.hold(builder, &whole, alpha);
-                (Some(response), Way::Held(held))
+                (Some(response), Descent::Held(held))
             }
             (None, None) => self.leaf(builder, index),
             (None, Some(whole)) if is_root => {
-                (None, Way::Free(solve_root(builder, link, whole, root)))
+                (None, Descent::Free(solve_root(builder, link, whole, root)))
             }
             (None, Some(whole)) => {
                 let (response, elimination) = link.eliminate(builder, whole);
-                (Some(response), Way::Free(elimination))
+                (Some(response), Descent::Free(elimination))
             }
         };
         self.responses[index] = response;
         let groups = groups.into_iter();
-        Solved {
+        SolvedLink {
             way,
             groups: groups.map(|(place, members, _)| (place, members)).collect(),
         }
     }
 
-    fn leaf(&self, builder: &mut Builder, index: usize) -> (Option<Response>, Way) {
+    fn leaf(&self, builder: &mut Builder, index: usize) -> (Option<Response>, Descent) {
         let link = &self.links[index];
         let gain = link
             .moment
@@ -197,20 +197,20 @@ impl Sweep<'_> {
         let (mut response, elimination) = link.leaf(builder, gain, inverse);
         let trace = builder.dot(link.moment, gain);
         response.deficit.rest = super::deficit::Rest::Trace(trace);
-        (Some(response), Way::Free(elimination))
+        (Some(response), Descent::Free(elimination))
     }
 
     /// From the root to the leaves, (10.8): ω̇ of each link and the apparent gravity at
     /// the pivots on it.
-    fn descend(&self, builder: &mut Builder, solved: &[Solved], root: Pair) -> Moved {
+    fn descend(&self, builder: &mut Builder, solved: &[SolvedLink], root: Pair) -> Moved {
         let mut gravity = vec![root; solved.len()];
         let mut accelerations = Vec::with_capacity(solved.len());
         let mut reactions = Vec::new();
         for (index, solved) in solved.iter().enumerate() {
             let link = &self.links[index];
             let [tangential, alpha] = match &solved.way {
-                Way::Free(elimination) => link.accelerate(builder, elimination, gravity[index]),
-                Way::Held(held) => {
+                Descent::Free(elimination) => link.accelerate(builder, elimination, gravity[index]),
+                Descent::Held(held) => {
                     let reduced = held.reaction(builder, gravity[index]);
                     let unit = &self.units.links[self.scene.links[index].orbit.0];
                     let one = builder.integer(1);
@@ -238,7 +238,12 @@ impl Sweep<'_> {
 }
 
 /// The root's pivot is accelerated as given: nothing of the root is eliminated.
-fn solve_root(builder: &mut Builder, link: &Link, whole: &Attached, gravity: Pair) -> Elimination {
+fn solve_root(
+    builder: &mut Builder,
+    link: &ReducedLink,
+    whole: &Attached,
+    gravity: Pair,
+) -> Elimination {
     let torque = link.net_torque(builder, whole);
     let driving = builder.dot(whole.first_moment, gravity);
     let rest = builder.add(driving, torque);

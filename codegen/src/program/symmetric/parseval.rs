@@ -9,16 +9,16 @@ use super::sector::SectorId;
 use super::series::TruncatedSeries;
 
 /// A vector in the plane for every link of an orbit: x, y.
-type Plane = [SymmetricField; 2];
+type PlaneFields = [SymmetricField; 2];
 
 /// Velocities of the centres of mass, and how they change.
 pub(in crate::program) struct Kinematics {
-    velocities: Vec<Plane>,
+    velocities: Vec<PlaneFields>,
 }
 
 /// Slopes of a sector's energy: for each link, by its angle at fixed momenta,
 /// and by its momentum.
-pub(in crate::program) struct Slopes {
+pub(in crate::program) struct EnergySlopes {
     angles: Fields,
     momenta: Fields,
 }
@@ -26,7 +26,7 @@ pub(in crate::program) struct Slopes {
 impl SymmetricTree<'_> {
     /// Derivative of a point of the links in their angle: (a cos − b sin,
     /// a sin + b cos).
-    fn lever(&mut self, [a, b]: &[TruncatedSeries; 2], direction: &Direction) -> Plane {
+    fn lever(&mut self, [a, b]: &[TruncatedSeries; 2], direction: &Direction) -> PlaneFields {
         let Direction { cos, sin } = direction;
         let parts = [
             self.scale(a, cos),
@@ -43,22 +43,22 @@ impl SymmetricTree<'_> {
     }
 
     /// Hints at what the components of vectors are.
-    fn plane_hinted(&mut self, plane: &Plane, what: &str) {
+    fn plane_hinted(&mut self, plane: &PlaneFields, what: &str) {
         for (axis, component) in ["x", "y"].iter().zip(plane) {
             self.hinted(component, &format!("{what}_{axis}"));
         }
     }
 
     /// Second derivative: the lever turned by a right angle.
-    fn across(&mut self, [x, y]: &Plane) -> Plane {
+    fn across(&mut self, [x, y]: &PlaneFields) -> PlaneFields {
         [self.neg(y), x.clone()]
     }
 
-    fn add_planes(&mut self, a: &Plane, b: &Plane) -> Plane {
+    fn add_planes(&mut self, a: &PlaneFields, b: &PlaneFields) -> PlaneFields {
         [self.add(&a[0], &b[0]), self.add(&a[1], &b[1])]
     }
 
-    fn times(&mut self, plane: &Plane, factor: &SymmetricField) -> Plane {
+    fn times(&mut self, plane: &PlaneFields, factor: &SymmetricField) -> PlaneFields {
         [self.mul(&plane[0], factor), self.mul(&plane[1], factor)]
     }
 
@@ -69,9 +69,9 @@ impl SymmetricTree<'_> {
         values: &ConstantValues,
         motion: &SymmetricMotion,
         what: &str,
-        mut contribution: impl FnMut(&mut Self, &Plane, usize) -> Plane,
-    ) -> Vec<Plane> {
-        let mut pivots: Vec<Plane> = Vec::new();
+        mut contribution: impl FnMut(&mut Self, &PlaneFields, usize) -> PlaneFields,
+    ) -> Vec<PlaneFields> {
+        let mut pivots: Vec<PlaneFields> = Vec::new();
         let mut centres = Vec::new();
         for orbit in 0..self.orbits.len() {
             let constants = &values.orbits[orbit];
@@ -112,7 +112,7 @@ impl SymmetricTree<'_> {
         &mut self,
         values: &ConstantValues,
         sector: SectorId,
-        [v, x]: [&[Plane]; 2],
+        [v, x]: [&[PlaneFields]; 2],
         [omega, y]: [&Fields; 2],
     ) -> TruncatedSeries {
         let mut sum = TruncatedSeries::default();
@@ -169,7 +169,7 @@ impl SymmetricTree<'_> {
         sectors
             .iter()
             .map(|&sector| {
-                let product = |tree: &mut Self, x: &[Plane], y: &Fields| {
+                let product = |tree: &mut Self, x: &[PlaneFields], y: &Fields| {
                     tree.kinetic_product(values, sector, [velocities, x], [&motion.rates, y])
                 };
                 let twice = product(self, velocities, &motion.rates);
@@ -196,11 +196,11 @@ impl SymmetricTree<'_> {
         kinematics: &Kinematics,
         factors: &super::solve::MassFactors,
         sector: SectorId,
-    ) -> Slopes {
+    ) -> EnergySlopes {
         let orbits = 0..self.orbits.len();
         // Impulses m v_s of the centres of mass, and what they sum to at each
         // pivot, from the leaves to the root.
-        let impulses: Vec<Plane> = orbits
+        let impulses: Vec<PlaneFields> = orbits
             .clone()
             .map(|orbit| {
                 let mass = &values.orbits[orbit].mass;
@@ -245,7 +245,7 @@ impl SymmetricTree<'_> {
         let change = self.bilinear_gradient(&motion.pose, &momenta, &motion.rates);
         let angles = self.subtract(&by_angles, &change);
         self.all_hinted(&angles, "energy_slope");
-        Slopes { angles, momenta }
+        EnergySlopes { angles, momenta }
     }
 
     /// lever · impulse to the derivative in ω, ω lever′ · impulse to that in θ.
@@ -253,12 +253,12 @@ impl SymmetricTree<'_> {
         &mut self,
         by_rates: &mut Fields,
         by_angles: &mut Fields,
-        lever: &Plane,
-        impulse: &Plane,
+        lever: &PlaneFields,
+        impulse: &PlaneFields,
         motion: &SymmetricMotion,
     ) {
         let orbit = lever[0].orbit;
-        let dot = |tree: &mut Self, a: &Plane| {
+        let dot = |tree: &mut Self, a: &PlaneFields| {
             let products = [tree.mul(&a[0], &impulse[0]), tree.mul(&a[1], &impulse[1])];
             tree.add(&products[0], &products[1])
         };
@@ -281,7 +281,7 @@ impl SymmetricTree<'_> {
     ) -> Vec<Vec<TruncatedSeries>> {
         let kinematics = self.kinematics(values, motion);
         let factors = self.factors(values, &motion.pose);
-        let slopes: Vec<Slopes> = sectors
+        let slopes: Vec<EnergySlopes> = sectors
             .iter()
             .map(|&sector| self.slopes(values, motion, &kinematics, &factors, sector))
             .collect();

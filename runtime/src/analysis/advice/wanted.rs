@@ -6,7 +6,7 @@ use std::fmt;
 use crate::system::{Energy, LinkPoint, Positions, Workspace};
 
 /// Writes the values of an output at a time and a state of the scene.
-type Values<'a> = Box<dyn Fn(f64, &[f64], &mut Vec<f64>) + 'a>;
+type WriteOutput<'a> = Box<dyn Fn(f64, &[f64], &mut Vec<f64>) + 'a>;
 
 /// An output that must be right: a function of the state, and the largest error that
 /// any of its values may have.
@@ -14,7 +14,7 @@ pub struct Wanted<'a> {
     pub(super) name: String,
     pub(super) unit: &'static str,
     pub(super) tolerance: f64,
-    values: Values<'a>,
+    values: WriteOutput<'a>,
 }
 
 impl<'a> Wanted<'a> {

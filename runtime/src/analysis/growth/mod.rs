@@ -121,36 +121,36 @@ pub fn frequency_at_rest<P: Transverse<f64>>(ode: &TransverseOde<P>) -> f64 {
 
 /// Where differences stand in a state.
 #[derive(Clone, Debug)]
-struct Place {
+struct DifferenceRanges {
     angles: Range<usize>,
     rates: Range<usize>,
 }
 
-fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> Place {
+fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> DifferenceRanges {
     let (motion, all) = (P::LINKS, P::LINKS + ode.sector().links);
-    Place {
+    DifferenceRanges {
         angles: motion..all,
         rates: all + motion..2 * all,
     }
 }
 
 /// A motion on its way, and what was seen of it.
-struct Run {
+struct GrowthRun {
     state: State<f64>,
-    place: Place,
+    place: DifferenceRanges,
     record: GrowthRecord,
 }
 
-impl Run {
+impl GrowthRun {
     fn look(&mut self, time: f64, state: &[f64]) {
-        let Place { angles, rates } = self.place.clone();
+        let DifferenceRanges { angles, rates } = self.place.clone();
         self.record.look(time, &state[angles], &state[rates]);
     }
 
     /// Divides the differences by their amplitude, so that they stay within numbers.
     fn scale(&mut self) {
         let factor = self.record.scale();
-        let Place { angles, rates } = self.place.clone();
+        let DifferenceRanges { angles, rates } = self.place.clone();
         for place in [angles, rates] {
             for value in &mut self.state.values[place] {
                 *value /= factor;
@@ -186,7 +186,7 @@ impl Growth {
                 }
                 self.begin(start.clone(), differences(ode))
             });
-            let mut runs: Vec<Result<Run, GrowthError>> = runs.collect();
+            let mut runs: Vec<Result<GrowthRun, GrowthError>> = runs.collect();
             let start = releases.first().map_or(0.0, |(_, start)| start.time);
             for times in scales(&self.looks(start)) {
                 let both = runs.iter().zip(releases);
@@ -239,7 +239,7 @@ impl Growth {
         if start.values.len() != n || deviation.len() != n || rates.end.max(angles.end) > n {
             return Err(GrowthError::Difference);
         }
-        let place = Place {
+        let place = DifferenceRanges {
             angles: n + angles.start..n + angles.end,
             rates: n + rates.start..n + rates.end,
         };
@@ -262,7 +262,7 @@ impl Growth {
                 let factor = run.record.scale();
                 run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
             }
-            Ok::<Run, GrowthError>(run)
+            Ok::<GrowthRun, GrowthError>(run)
         });
         Ok(Grown::of(&coarse?.record, &fine?.record))
     }
@@ -271,7 +271,7 @@ impl Growth {
         [self.tolerance, FINER * self.tolerance]
     }
 
-    fn begin(&self, start: State<f64>, place: Place) -> Result<Run, GrowthError> {
+    fn begin(&self, start: State<f64>, place: DifferenceRanges) -> Result<GrowthRun, GrowthError> {
         if !(self.frequency_hz.is_finite() && self.frequency_hz > 0.0) {
             return Err(GrowthError::Frequency(self.frequency_hz));
         }
@@ -284,7 +284,7 @@ impl Growth {
         let parts = start.values.get(angles).zip(start.values.get(rates));
         let (angles, rates) = parts.ok_or(GrowthError::Difference)?;
         let record = GrowthRecord::new(self, start.time, angles, rates)?;
-        Ok(Run {
+        Ok(GrowthRun {
             state: start,
             place,
             record,

@@ -46,7 +46,7 @@ const COUNTED: usize = 8;
 pub fn longest_sub_step<T: Real, P: Cast<T>>(model: &P) -> T {
     let dual = model.cast(Dual::<T, 1>::constant);
     let mut largest = T::ZERO;
-    let mut slopes = Slopes::new(P::LINKS);
+    let mut slopes = SlopeMemory::new(P::LINKS);
     for configuration in 0..CONFIGURATIONS {
         let angle = |link: usize| match configuration {
             0 => 0.0,
@@ -76,14 +76,14 @@ enum Of {
 }
 
 /// Memory for derivatives of accelerations.
-struct Slopes<T> {
+struct SlopeMemory<T> {
     theta: Vec<Dual<T, 1>>,
     omega: Vec<Dual<T, 1>>,
     alpha: Vec<Dual<T, 1>>,
     workspace: Workspace<Dual<T, 1>>,
 }
 
-impl<T: Real> Slopes<T> {
+impl<T: Real> SlopeMemory<T> {
     fn new(links: usize) -> Self {
         let zeros = || vec![Dual::constant(T::ZERO); links];
         Self {

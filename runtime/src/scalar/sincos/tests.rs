@@ -54,9 +54,9 @@ fn f32_is_nearly_always_rounded_correctly() {
 }
 
 /// Angles of one state and of lanes in fused arithmetic.
-struct InFused<T, const N: usize>([T; N]);
+struct SinesInFused<T, const N: usize>([T; N]);
 
-impl<T: Lane, const N: usize> Kernel<T> for InFused<T, N>
+impl<T: Lane, const N: usize> Kernel<T> for SinesInFused<T, N>
 where
     Fused<T>: Scalar,
 {
@@ -94,7 +94,7 @@ fn fused_f64_is_right_to_an_ulp_everywhere() {
     let reference = Reference::new();
     let mut worst = (0.0, 0.0);
     for angle in angles(4000) {
-        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+        let Ok(([sine], [cosine])) = run_fused(SinesInFused([angle])) else {
             return or_skip(InstructionSet::Avx2);
         };
         let (exact_sine, exact_cosine) = reference.sin_cos(&[angle]);
@@ -119,7 +119,7 @@ fn fused_f32_is_right_to_an_ulp_everywhere() {
     let mut worst = (0.0, 0.0);
     let angles = angles(4000).into_iter().map(|angle| angle as f32);
     for angle in angles.filter(|angle| angle.is_finite()).chain([f32::MAX]) {
-        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+        let Ok(([sine], [cosine])) = run_fused(SinesInFused([angle])) else {
             return or_skip(InstructionSet::Avx2);
         };
         let (exact_sine, exact_cosine) = reference.sin_cos(&[f64::from(angle)]);
@@ -142,16 +142,16 @@ fn fused_f32_is_right_to_an_ulp_everywhere() {
 #[test]
 fn fused_sines_are_odd() {
     for angle in signed() {
-        let Ok(([sine], [cosine])) = run_fused(InFused([angle])) else {
+        let Ok(([sine], [cosine])) = run_fused(SinesInFused([angle])) else {
             return or_skip(InstructionSet::Avx2);
         };
-        let Ok(([minus_sine], [same_cosine])) = run_fused(InFused([-angle])) else {
+        let Ok(([minus_sine], [same_cosine])) = run_fused(SinesInFused([-angle])) else {
             return or_skip(InstructionSet::Avx2);
         };
         assert_eq!(bits((-sine, cosine)), bits((minus_sine, same_cosine)));
     }
-    let one = |angle: f64| run_fused(InFused([angle])).ok().unwrap();
-    let one_single = |angle: f32| run_fused(InFused([angle])).ok().unwrap();
+    let one = |angle: f64| run_fused(SinesInFused([angle])).ok().unwrap();
+    let one_single = |angle: f32| run_fused(SinesInFused([angle])).ok().unwrap();
     assert_eq!(one(0.0).0[0].to_bits(), 0);
     assert_eq!(one(-0.0).0[0].to_bits(), (-0.0_f64).to_bits());
     assert_eq!(one_single(0.0).0[0].to_bits(), 0);
@@ -173,17 +173,18 @@ fn fused_agrees<const N: usize>() {
     let all = signed();
     for &angles in all.as_chunks::<N>().0 {
         let small = angles.map(|angle| angle as f32);
-        let (Ok((sines, cosines)), Ok(single)) =
-            (run_fused(InFused(angles)), run_fused(InFused(small)))
-        else {
+        let (Ok((sines, cosines)), Ok(single)) = (
+            run_fused(SinesInFused(angles)),
+            run_fused(SinesInFused(small)),
+        ) else {
             return or_skip(InstructionSet::Avx2);
         };
         for i in 0..N {
-            let Ok(([sine], [cosine])) = run_fused(InFused([angles[i]])) else {
+            let Ok(([sine], [cosine])) = run_fused(SinesInFused([angles[i]])) else {
                 return or_skip(InstructionSet::Avx2);
             };
             assert_eq!(bits((sines[i], cosines[i])), bits((sine, cosine)));
-            let Ok(([sine], [cosine])) = run_fused(InFused([small[i]])) else {
+            let Ok(([sine], [cosine])) = run_fused(SinesInFused([small[i]])) else {
                 return or_skip(InstructionSet::Avx2);
             };
             assert_eq!(
@@ -212,7 +213,7 @@ fn registers_have_the_bits_of_one_angle() {
         for set in InstructionSet::ALL {
             let found = run_in_registers(set, InRegister(block));
             for (&angle, found) in block.iter().zip(found) {
-                let alone = match run_fused(InFused([angle])) {
+                let alone = match run_fused(SinesInFused([angle])) {
                     Ok(([sine], [cosine])) if set > InstructionSet::Build => (sine, cosine),
                     _ => Scalar::sin_cos(angle),
                 };
@@ -221,7 +222,7 @@ fn registers_have_the_bits_of_one_angle() {
             let small: Vec<f32> = block.iter().map(|angle| *angle as f32).collect();
             let found = run_in_registers(set, InRegister(&small));
             for (&angle, (sine, cosine)) in small.iter().zip(found) {
-                let alone = match run_fused(InFused([angle])) {
+                let alone = match run_fused(SinesInFused([angle])) {
                     Ok(([sine], [cosine])) if set > InstructionSet::Build => (sine, cosine),
                     _ => Scalar::sin_cos(angle),
                 };

@@ -23,7 +23,7 @@ pub(super) fn under_in_fused<T: Scalar, P: Forced<T>>(
     let pushed = Pushed { pendulum, torques };
     P::LINKS <= MOST_LINKS
         && torques.len() == P::LINKS
-        && in_fused::<T, OneState<'_, P, T>>(&pushed, time, theta, omega, alpha)
+        && in_fused::<T, OneStateUnder<'_, P, T>>(&pushed, time, theta, omega, alpha)
 }
 
 /// A pendulum and the torques on its links.
@@ -33,9 +33,9 @@ struct Pushed<'a, P, T> {
 }
 
 /// The accelerations of one state.
-struct OneState<'a, P, T>(PhantomData<&'a (P, T)>);
+struct OneStateUnder<'a, P, T>(PhantomData<&'a (P, T)>);
 
-impl<'a, T: Scalar, P: Forced<T>> StateKernel<T> for OneState<'a, P, T> {
+impl<'a, T: Scalar, P: Forced<T>> StateKernel<T> for OneStateUnder<'a, P, T> {
     type Model = Pushed<'a, P, T>;
 
     const LINKS: usize = P::LINKS;

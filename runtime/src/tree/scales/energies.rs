@@ -1,6 +1,6 @@
 //! Energies of scales, by generation.
 
-use super::{ByScale, ScaleEquations, Wanted, field};
+use super::{ByScale, ScaleEquations, ScaleOutput, field};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 use crate::tree::sum::Sum;
@@ -23,7 +23,9 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 }
                 let each = T::from_f64((count / values) as f64);
                 let energy = each * in_all_lanes::<T, V>(sum.total());
-                if let Wanted::Energies(budget) | Wanted::Budget(budget) = &mut self.wanted {
+                if let ScaleOutput::Energies(budget) | ScaleOutput::Budget(budget) =
+                    &mut self.wanted
+                {
                     budget.set_energy(scale, generation, energy);
                 }
             }

@@ -54,7 +54,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         omega: &[T],
         budget: &mut ScaleBudget<T>,
     ) {
-        let wanted = Wanted::Energies(budget);
+        let wanted = ScaleOutput::Energies(budget);
         by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
     }
 
@@ -67,7 +67,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         omega: &[T],
         energies: &mut [T],
     ) {
-        let wanted = Wanted::Sectors(energies);
+        let wanted = ScaleOutput::Sectors(energies);
         by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
     }
 
@@ -82,7 +82,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         given: [&[T]; 3],
         budget: &mut ScaleBudget<T>,
     ) {
-        let wanted = Wanted::Budget(budget);
+        let wanted = ScaleOutput::Budget(budget);
         by_scale(self.rule(), workspace, drive, given, wanted);
     }
 
@@ -98,12 +98,12 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             true => given,
             false => [[].as_slice(); 3],
         };
-        let wanted = Wanted::Budget(budget);
+        let wanted = ScaleOutput::Budget(budget);
         by_scale(self.rule(), workspace, drive, given, wanted);
     }
 
-    fn rule(&self) -> Rule<'_, E, T> {
-        Rule {
+    fn rule(&self) -> RuleTree<'_, E, T> {
+        RuleTree {
             copies: E::COPIES,
             constants: &self.skeleton.constants,
             equations: PhantomData,
@@ -156,28 +156,28 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
         given: [&[T]; 3],
         budget: &mut ScaleBudget<T>,
     ) {
-        let rule = Rule::<E, T> {
+        let rule = RuleTree::<E, T> {
             copies: &self.copies,
             constants: &self.constants,
             equations: PhantomData,
         };
-        by_scale(rule, workspace, drive, given, Wanted::Budget(budget));
+        by_scale(rule, workspace, drive, given, ScaleOutput::Budget(budget));
     }
 }
 
 /// Copies of the generations, and a row of constants for each.
-struct Rule<'a, E, T> {
+struct RuleTree<'a, E, T> {
     copies: &'a [usize],
     constants: &'a [T],
     equations: PhantomData<E>,
 }
 
 fn by_scale<E: ScaleEquations, T: Scalar>(
-    rule: Rule<'_, E, T>,
+    rule: RuleTree<'_, E, T>,
     workspace: &mut Workspace<T>,
     drive: Option<[T; 3]>,
     [theta, omega, torques]: [&[T]; 3],
-    mut wanted: Wanted<'_, T>,
+    mut wanted: ScaleOutput<'_, T>,
 ) {
     let shape = ScaleShape::new(rule.copies.iter().copied());
     let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
@@ -194,7 +194,7 @@ fn by_scale<E: ScaleEquations, T: Scalar>(
     };
     let (columns, parts) = (ALL * shape.column, field::ALL * shape.parts);
     let working = match wanted {
-        Wanted::Budget(_) => pieces.room(shape.count()),
+        ScaleOutput::Budget(_) => pieces.room(shape.count()),
         _ => 0,
     };
     let mut numbers = workspace.numbers(columns + parts + working);
@@ -220,13 +220,13 @@ fn by_scale<E: ScaleEquations, T: Scalar>(
 }
 
 /// Quantities to be computed, and where they go.
-enum Wanted<'a, T> {
+enum ScaleOutput<'a, T> {
     Energies(&'a mut ScaleBudget<T>),
     Sectors(&'a mut [T]),
     Budget(&'a mut ScaleBudget<T>),
 }
 
-impl<T: Scalar> Wanted<'_, T> {
+impl<T: Scalar> ScaleOutput<'_, T> {
     /// Writes one number everywhere.
     fn start(&mut self, scales: usize, value: T) {
         match self {
@@ -251,7 +251,7 @@ struct ByScale<'a, E, T: 'static> {
     theta: &'a [T],
     omega: &'a [T],
     torques: &'a [T],
-    wanted: Wanted<'a, T>,
+    wanted: ScaleOutput<'a, T>,
     equations: PhantomData<E>,
 }
 
@@ -260,7 +260,7 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
 
     #[inline(always)]
     fn run<V: Simd<T>>(mut self) {
-        let all = matches!(self.wanted, Wanted::Budget(_));
+        let all = matches!(self.wanted, ScaleOutput::Budget(_));
         self.motions::<V>();
         self.velocities::<V>();
         if all {
@@ -269,7 +269,7 @@ impl<E: ScaleEquations, T: Scalar> Kernel<T> for ByScale<'_, E, T> {
         }
         self.split_all::<V>(all);
         match self.wanted {
-            Wanted::Sectors(_) => self.sectors(),
+            ScaleOutput::Sectors(_) => self.sectors(),
             _ => self.energies::<V>(),
         }
         if all {

@@ -1,9 +1,9 @@
 //! Transfers between scales and powers on them: sums of products over all links.
 
-use super::blocks::Piece;
+use super::blocks::GenerationRange;
 use super::columns::{DRAG, DRIVE, FRICTION, OUTSIDE, ScaleColumns};
 use super::energies::in_all_lanes;
-use super::{ByScale, ScaleEquations, Wanted};
+use super::{ByScale, ScaleEquations, ScaleOutput};
 use crate::scalar::Scalar;
 use crate::sectors::PowerKind;
 use crate::simd::Simd;
@@ -15,7 +15,11 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     /// Adds what links of a piece have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
     /// and in the powers Σ u_s Q.
     #[inline(always)]
-    pub(super) fn products<V: Simd<T>>(&mut self, piece: &Piece<'_>, flows: &ScaleColumns<'_, T>) {
+    pub(super) fn products<V: Simd<T>>(
+        &mut self,
+        piece: &GenerationRange<'_>,
+        flows: &ScaleColumns<'_, T>,
+    ) {
         for to in 0..self.shape.count() {
             let mut from = 0;
             while from + TOGETHER <= to {
@@ -34,7 +38,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     fn transfers<V: Simd<T>, const N: usize>(
         &mut self,
-        piece: &Piece<'_>,
+        piece: &GenerationRange<'_>,
         flows: &ScaleColumns<'_, T>,
         from: usize,
         to: usize,
@@ -53,7 +57,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 place += V::LANES;
             }
         }
-        let Wanted::Budget(budget) = &mut self.wanted else {
+        let ScaleOutput::Budget(budget) = &mut self.wanted else {
             return;
         };
         for (index, sum) in sums.into_iter().enumerate() {
@@ -65,7 +69,12 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
 
     /// Powers of all that acts on a scale.
     #[inline(always)]
-    fn powers<V: Simd<T>>(&mut self, piece: &Piece<'_>, flows: &ScaleColumns<'_, T>, scale: usize) {
+    fn powers<V: Simd<T>>(
+        &mut self,
+        piece: &GenerationRange<'_>,
+        flows: &ScaleColumns<'_, T>,
+        scale: usize,
+    ) {
         let columns = [
             (PowerKind::Friction, FRICTION, E::FRICTION),
             (PowerKind::Drag, DRAG, E::DRAG),
@@ -98,7 +107,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
 
     #[inline(always)]
     fn add_power(&mut self, kind: PowerKind, scale: usize, power: T) {
-        if let Wanted::Budget(budget) = &mut self.wanted {
+        if let ScaleOutput::Budget(budget) = &mut self.wanted {
             budget.add_power(kind, scale, power);
         }
     }

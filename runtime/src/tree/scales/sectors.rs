@@ -1,6 +1,6 @@
 //! Energies of single sectors: parts of copies, by Helmert's differences.
 
-use super::{ByScale, ScaleEquations, Wanted, field};
+use super::{ByScale, ScaleEquations, ScaleOutput, field};
 use crate::scalar::Scalar;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
@@ -21,7 +21,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             }
             first += parents * differences;
         }
-        if let Wanted::Sectors(energies) = &mut self.wanted
+        if let ScaleOutput::Sectors(energies) = &mut self.wanted
             && energies.len() != first
         {
             energies.fill(T::from_f64(f64::NAN));
@@ -29,7 +29,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     }
 
     fn put(&mut self, index: usize, energy: T) {
-        if let Wanted::Sectors(energies) = &mut self.wanted
+        if let ScaleOutput::Sectors(energies) = &mut self.wanted
             && let Some(place) = energies.get_mut(index)
         {
             *place = energy;

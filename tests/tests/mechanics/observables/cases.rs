@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use branched_pendulum_codegen::report::Report;
+use branched_pendulum_codegen::report::Faults;
 use branched_pendulum_codegen::scene::coordinates::{Coordinate, symmetric_coordinates};
 use branched_pendulum_codegen::{description, scene};
 use branched_pendulum_tests::oracle::Tree;
@@ -81,7 +81,7 @@ fn case(seed: u64) -> Case {
 fn names(arguments: &str) -> (Vec<String>, Vec<Coordinate>) {
     let source = format!("#[branched_pendulum({arguments})] struct Sample;");
     let (attribute, item) = attributed_struct(&source);
-    let mut report = Report::new();
+    let mut report = Faults::new();
     let scene = description::parse(attribute, item, &mut report)
         .and_then(|description| scene::resolve(&description, &mut report))
         .expect("samples have no mistakes");

@@ -22,9 +22,9 @@ pub(super) struct Lopsided<T> {
 /// In absolute angles.
 pub(super) type LopsidedOde<T> = AbsoluteAngles<Lopsided<T>>;
 
-struct Pair;
+struct TwoLinks;
 
-impl Connectivity<2> for Pair {
+impl Connectivity<2> for TwoLinks {
     const PARENTS: [usize; 2] = [0, 0];
     const LATERAL: bool = true;
 }
@@ -159,7 +159,7 @@ impl<T: Scalar> TaylorPendulum<T> for Lopsided<T> {
             let [first, second] = known.omega.map(|omega| friction * omega);
             [first - drive(known.order), second]
         };
-        taylor::expand::<T, Pair, 2, 1, _>(&start, &constants, rows, work, Some(bias));
+        taylor::expand::<T, TwoLinks, 2, 1, _>(&start, &constants, rows, work, Some(bias));
     }
 
     #[inline(always)]

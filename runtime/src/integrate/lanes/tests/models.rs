@@ -74,9 +74,9 @@ fn bits_are_those_of_the_model_alone() {
     with_each(&single, &mut BitsAreThoseOfTheModelAlone);
 }
 
-struct ThePlainMethodIsMet(Vec<StopReason>);
+struct ThePlainMethodStopsAlike(Vec<StopReason>);
 
-impl Each<f64> for ThePlainMethodIsMet {
+impl Each<f64> for ThePlainMethodStopsAlike {
     fn each<M>(&mut self, method: &M)
     where
         M: LaneMethod<LopsidedOde<f64>, f64>,
@@ -103,7 +103,7 @@ impl Each<f64> for ThePlainMethodIsMet {
 /// A trajectory without an answer fails alone, and as the plain method fails.
 #[test]
 fn the_plain_methods_are_met_one_by_one() {
-    let mut stops = ThePlainMethodIsMet(Vec::new());
+    let mut stops = ThePlainMethodStopsAlike(Vec::new());
     with_each(&Options::with_tolerance(1e-9), &mut stops);
     for stop in [StopReason::NonFinite, StopReason::StepTooSmall] {
         assert!(stops.0.contains(&stop), "{stop}");
