@@ -23,6 +23,7 @@ mod sink;
 mod slices;
 mod small;
 mod strip_docs;
+mod strip_equations;
 mod strip_forced;
 mod strip_powers;
 mod strip_scales;

@@ -1,12 +1,11 @@
 //! Links whose motion is handed over: docs, and the runtime's trait.
 
 use super::Emission;
-use super::doc_text::doc_lines;
 use super::docs::wrapped_names;
 use crate::functions::Purpose;
 use crate::scene::PrescribedSet;
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 impl Emission<'_> {
     pub(super) fn prescribed_meaning(&self, set: usize) -> Vec<String> {
@@ -49,8 +48,8 @@ impl Emission<'_> {
         if self.scene.in_loops() {
             return Some(self.prescribed_in_loops());
         }
-        let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
-        let (constants, other) = (self.prescribed_sets(), super::other_scalar(name));
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let constants = self.prescribed_sets();
         let outputs = ["alpha", "reactions"];
         let arms = (0..sets.len()).map(|number| {
             let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
@@ -59,40 +58,29 @@ impl Emission<'_> {
             quote!(#number => #written,)
         });
         let unknown = self.unknown(&outputs);
+        let accelerations = self.on_any_scalar(
+            ["Prescribed", "accelerations_prescribed", "pendulum"],
+            &quote!(set, time, motion, alpha, reactions),
+            |time, t| {
+                quote! {
+                    set: usize, #time: #t, motion: #runtime::system::PrescribedMotion<'_, #t>,
+                    alpha: &mut [#t], reactions: &mut [#t]
+                }
+            },
+            &quote! {
+                let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
+                    motion;
+                match set {
+                    #(#arms)*
+                    _ => #unknown
+                }
+            },
+        );
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 #constants
 
-                #[inline(always)]
-                fn accelerations_prescribed_into(
-                    &self,
-                    set: usize,
-                    #time: T,
-                    motion: #runtime::system::PrescribedMotion<'_, T>,
-                    alpha: &mut [T],
-                    reactions: &mut [T],
-                ) {
-                    let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
-                        motion;
-                    match set {
-                        #(#arms)*
-                        _ => #unknown
-                    }
-                }
-
-                #[inline(always)]
-                fn accelerations_prescribed_of<#other: #runtime::Scalar>(
-                    pendulum: &#name<#other>,
-                    set: usize,
-                    time: #other,
-                    motion: #runtime::system::PrescribedMotion<'_, #other>,
-                    alpha: &mut [#other],
-                    reactions: &mut [#other],
-                ) {
-                    #runtime::Prescribed::accelerations_prescribed_into(
-                        pendulum, set, time, motion, alpha, reactions,
-                    );
-                }
+                #accelerations
             }
         })
     }
@@ -150,41 +138,6 @@ impl Emission<'_> {
                         #drive_of, links, motion, [alpha, reactions],
                     );
                 }
-            }
-        }
-    }
-
-    /// Accelerations and reactions of a tree in loops, on arrays.
-    pub(super) fn prescribed_function(&self, number: usize) -> TokenStream {
-        let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
-        let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
-        let docs = doc_lines(&self.prescribed_meaning(number));
-        let set = &self.scene.prescribed[number];
-        let name = format_ident!("accelerations_prescribed_{}", set.name);
-        let held = Literal::usize_unsuffixed(set.links.len());
-        let number = Literal::usize_unsuffixed(number);
-        quote! {
-            #docs
-            #[must_use]
-            pub fn #name(
-                &self,
-                #time
-                theta: &[T; #links],
-                omega: &[T; #links],
-                torques: &[T; #links],
-                prescribed: &[T; #held],
-            ) -> ([T; #links], [T; #held]) {
-                let (mut alpha, mut reactions) = (
-                    [T::from_f64(0.0); #links],
-                    [T::from_f64(0.0); #held],
-                );
-                let mut workspace = #runtime::system::Workspace::new();
-                let held = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(#number);
-                let motion = #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
-                self.tree.accelerations_prescribed_with(
-                    &mut workspace, #drive, held, motion, [&mut alpha, &mut reactions],
-                );
-                (alpha, reactions)
             }
         }
     }

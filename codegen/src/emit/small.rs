@@ -88,8 +88,24 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let sectors = self.scene.requests.small.iter();
         let sectors = sectors.map(|&sector| Literal::usize_unsuffixed(sector));
-        let (other, time) = (super::other_scalar(name), self.time_name());
-        let accelerations = self.fill("accelerations", Purpose::SmallAccelerations);
+        let accelerations = self.on_any_scalar(
+            ["SmallDifferences", "small_accelerations", "model"],
+            &quote!(
+                time,
+                theta,
+                omega,
+                difference,
+                difference_rate,
+                accelerations
+            ),
+            |time, t| {
+                quote! {
+                    #time: #t, theta: &[#t], omega: &[#t], difference: &[#t],
+                    difference_rate: &[#t], accelerations: &mut [#t]
+                }
+            },
+            &self.fill("accelerations", Purpose::SmallAccelerations),
+        );
         let energy = self.value_at_slices(Purpose::SmallEnergy);
         let forced = self.forced_differences();
         Some(quote! {
@@ -98,33 +114,7 @@ impl Emission<'_> {
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];
 
-                #[inline(always)]
-                fn small_accelerations_into(
-                    &self,
-                    #time: T,
-                    theta: &[T],
-                    omega: &[T],
-                    difference: &[T],
-                    difference_rate: &[T],
-                    accelerations: &mut [T],
-                ) {
-                    #accelerations
-                }
-
-                #[inline(always)]
-                fn small_accelerations_of<#other: #runtime::Scalar>(
-                    model: &#name<#other>,
-                    time: #other,
-                    theta: &[#other],
-                    omega: &[#other],
-                    difference: &[#other],
-                    difference_rate: &[#other],
-                    accelerations: &mut [#other],
-                ) {
-                    #runtime::SmallDifferences::small_accelerations_into(
-                        model, time, theta, omega, difference, difference_rate, accelerations,
-                    );
-                }
+                #accelerations
 
                 #[inline]
                 fn small_energy_of(
@@ -145,35 +135,26 @@ impl Emission<'_> {
     fn forced_differences(&self) -> Option<TokenStream> {
         self.entry(Purpose::SmallAccelerationsUnder)?;
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let (other, time) = (super::other_scalar(name), self.time_name());
         let accelerations = self.fill("accelerations", Purpose::SmallAccelerationsUnder);
+        let accelerations = self.on_any_scalar(
+            ["ForcedDifferences", "small_accelerations_under", "model"],
+            &quote!(time, angles, rates, torques, accelerations),
+            |time, t| {
+                quote! {
+                    #time: #t, angles: [&[#t]; 2], rates: [&[#t]; 2], torques: [&[#t]; 2],
+                    accelerations: &mut [#t]
+                }
+            },
+            &quote! {
+                let [theta, difference] = angles;
+                let [omega, difference_rate] = rates;
+                let [torques, difference_torques] = torques;
+                #accelerations
+            },
+        );
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::ForcedDifferences<T> for #name<T> {
-                #[inline(always)]
-                fn small_accelerations_under_into(
-                    &self,
-                    #time: T,
-                    [theta, difference]: [&[T]; 2],
-                    [omega, difference_rate]: [&[T]; 2],
-                    [torques, difference_torques]: [&[T]; 2],
-                    accelerations: &mut [T],
-                ) {
-                    #accelerations
-                }
-
-                #[inline(always)]
-                fn small_accelerations_under_of<#other: #runtime::Scalar>(
-                    model: &#name<#other>,
-                    time: #other,
-                    angles: [&[#other]; 2],
-                    rates: [&[#other]; 2],
-                    torques: [&[#other]; 2],
-                    accelerations: &mut [#other],
-                ) {
-                    #runtime::ForcedDifferences::small_accelerations_under_into(
-                        model, time, angles, rates, torques, accelerations,
-                    );
-                }
+                #accelerations
             }
         })
     }

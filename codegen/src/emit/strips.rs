@@ -1,11 +1,10 @@
-//! Trees in loops: the equations of one link as an implementation of the runtime's
-//! trait, and the model that holds a tree of them.
+//! Trees in loops: the model that holds a tree of links.
 
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{count, ident};
-use crate::functions::{Argument, LinkFunction, Purpose};
-use crate::program::{Entry, LoopTree, Op};
+use crate::functions::Purpose;
+use crate::program::LoopTree;
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -68,134 +67,6 @@ impl Emission<'_> {
         first.chain(stored).collect()
     }
 
-    /// The equations of one link: a type without values, and its trait.
-    pub(super) fn link_equations(&self, strips: &LoopTree) -> TokenStream {
-        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
-        let docs = doc_lines(&self.equations_docs());
-        let length = |argument| Literal::usize_unsuffixed(strips.length(argument));
-        let [constants, response, sums, elimination, carried] = [
-            Argument::Constants,
-            Argument::Response,
-            Argument::Sums,
-            Argument::Elimination,
-            Argument::Carried,
-        ]
-        .map(length);
-        let (mut copies, mut names) = (Vec::new(), Vec::new());
-        if let Layout::Generations { branching, .. } = self.scene.layout {
-            for (generation, link) in self.scene.links.iter().enumerate() {
-                let number = if generation == 0 { 1 } else { branching };
-                copies.push(Literal::usize_unsuffixed(number));
-                names.push(&link.name);
-            }
-        }
-        let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
-        let forced = strips.has_outside_torques.then(|| {
-            quote!(
-                const FORCED: bool = true;
-            )
-        });
-        let held = strips.has_held_links.then(|| {
-            quote!(
-                const HELD: bool = true;
-            )
-        });
-        let functions = LinkFunction::ALL.into_iter();
-        let functions = functions.filter_map(|function| self.link_function(function));
-        quote! {
-            #docs
-            #[derive(
-                ::core::clone::Clone,
-                ::core::marker::Copy,
-                ::core::fmt::Debug,
-                ::core::cmp::PartialEq,
-            )]
-            #vis struct #name;
-
-            // Of commas: all tokens stand where the attribute does, see `emit`.
-            #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
-            impl #runtime::tree::LinkEquations for #name {
-                type Constants<T: #runtime::Scalar> = [T; #constants];
-                type Response<T: #runtime::Scalar> = [T; #response];
-                type Sums<T: #runtime::Scalar> = [T; #sums];
-                type Elimination<T: #runtime::Scalar> = [T; #elimination];
-                type Carried<T: #runtime::Scalar> = [T; #carried];
-
-                const COPIES: &'static [usize] = &[#(#copies),*];
-                const NAMES: &'static [&'static str] = &[#(#names),*];
-                const JOINTS: bool = #joints;
-                const TORQUE: bool = #torque;
-                #forced
-                #held
-
-                #(#functions)*
-            }
-        }
-    }
-
-    /// A function of the trait.
-    fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
-        let result = match function {
-            LinkFunction::Leaf => quote!(Self::Response<T>),
-            LinkFunction::Attach => quote!(Self::Sums<T>),
-            LinkFunction::Inner => quote!((Self::Response<T>, Self::Elimination<T>)),
-            LinkFunction::Pivot => quote!([T; 2]),
-            LinkFunction::Accelerate => quote!((T, Self::Carried<T>)),
-            LinkFunction::AccelerateLeaf => quote!(T),
-        };
-        self.equation_function(Purpose::Link(function), &result)
-    }
-
-    /// A function of a trait of equations, from its entry point.
-    pub(super) fn equation_function(
-        &self,
-        purpose: Purpose,
-        result: &TokenStream,
-    ) -> Option<TokenStream> {
-        let entry = self.entry(purpose)?;
-        let (runtime, docs, name) = (self.runtime(), self.entry_docs(entry), ident(&entry.name));
-        let body = match self.handed_on(entry) {
-            Some(body) => body,
-            None => self.plain_body(entry),
-        };
-        let arguments = entry.arguments.iter().map(|&argument| {
-            let name = ident(argument.name());
-            let kind = match argument {
-                Argument::Constants => quote!(&Self::Constants<T>),
-                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
-                Argument::Response => quote!(Self::Response<T>),
-                Argument::Sums => quote!(Self::Sums<T>),
-                Argument::Elimination => quote!(Self::Elimination<T>),
-                Argument::Carried => quote!(Self::Carried<T>),
-                Argument::Given(function) => {
-                    let given = Literal::usize_unsuffixed(function.given().len());
-                    quote!([T; #given])
-                }
-                _ => quote!([T; 2]),
-            };
-            quote!(#name: #kind)
-        });
-        Some(quote! {
-            #docs
-            #[inline(always)]
-            fn #name<T: #runtime::Scalar>(#(#arguments),*) -> #result {
-                #body
-            }
-        })
-    }
-
-    /// The body of a function that returns its last argument as it is.
-    fn handed_on(&self, entry: &Entry) -> Option<TokenStream> {
-        let (&last, others) = entry.arguments.split_last()?;
-        let mut outputs = (0..).zip(&entry.outputs);
-        let same = outputs.all(|(index, &id)| *self.op(id) == Op::Input(last, index));
-        let names = others
-            .iter()
-            .map(|argument| format_ident!("{}", argument.name()));
-        let last = format_ident!("{}", last.name());
-        same.then(|| quote!(#(let _ = #names;)* #last))
-    }
-
     fn strip_functions(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let own = match self.scene.layout {
@@ -205,7 +76,8 @@ impl Emission<'_> {
                 let under = under.then(|| self.array_function(Purpose::AccelerationsUnder));
                 let own = self.array_function(Purpose::Accelerations);
                 let sets = 0..self.scene.prescribed.len();
-                let prescribed = sets.map(|number| self.prescribed_function(number));
+                let prescribed =
+                    sets.map(|number| self.array_function(Purpose::Prescribed(number)));
                 quote!(#own #under #(#prescribed)*)
             }
         };
@@ -246,29 +118,61 @@ impl Emission<'_> {
         }
     }
 
-    /// `accelerations` on arrays, or those under torques from outside.
+    /// `accelerations` on arrays, those under torques from outside, or those of which some
+    /// are prescribed, with the reactions.
     fn array_function(&self, purpose: Purpose) -> TokenStream {
         let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
         let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
-        let (name, docs, torques, call) = match purpose {
+        let workspace = quote!(let mut workspace = #runtime::system::Workspace::new(););
+        let alone = quote!([T; #links]);
+        let (name, docs, given, result, body) = match purpose {
+            Purpose::Prescribed(number) => {
+                let set = &self.scene.prescribed[number];
+                let held = Literal::usize_unsuffixed(set.links.len());
+                let number = Literal::usize_unsuffixed(number);
+                let body = quote! {
+                    let mut reactions = [T::from_f64(0.0); #held];
+                    #workspace
+                    let held = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(#number);
+                    let motion =
+                        #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
+                    self.tree.accelerations_prescribed_with(
+                        &mut workspace, #drive, held, motion, [&mut alpha, &mut reactions],
+                    );
+                    (alpha, reactions)
+                };
+                (
+                    format_ident!("accelerations_prescribed_{}", set.name),
+                    self.meaning(purpose),
+                    quote!(torques: &[T; #links], prescribed: &[T; #held],),
+                    quote!(([T; #links], [T; #held])),
+                    body,
+                )
+            }
             Purpose::AccelerationsUnder => (
-                quote!(accelerations_under),
+                ident("accelerations_under"),
                 self.meaning(purpose),
-                Some(quote!(torques: &[T; #links],)),
+                quote!(torques: &[T; #links],),
+                alone,
                 quote! {
-                    let mut workspace = #runtime::system::Workspace::new();
+                    #workspace
                     let given: [&[T]; 3] = [theta, omega, torques];
                     self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
+                    alpha
                 },
             ),
             _ => (
-                quote!(accelerations),
+                ident("accelerations"),
                 vec![format!(
                     "Angular accelerations (in rad/s²) at {}angles `theta` (in rad) and angular velocities `omega` (in rad/s), in fused arithmetic where the machine has it. O(links).",
                     self.at_time()
                 )],
-                None,
-                quote!(self.tree.accelerations_into(#drive, theta, omega, &mut alpha);),
+                quote!(),
+                alone,
+                quote! {
+                    self.tree.accelerations_into(#drive, theta, omega, &mut alpha);
+                    alpha
+                },
             ),
         };
         let docs = doc_lines(&docs);
@@ -280,11 +184,10 @@ impl Emission<'_> {
                 #time
                 theta: &[T; #links],
                 omega: &[T; #links],
-                #torques
-            ) -> [T; #links] {
+                #given
+            ) -> #result {
                 let mut alpha = [T::from_f64(0.0); #links];
-                #call
-                alpha
+                #body
             }
         }
     }

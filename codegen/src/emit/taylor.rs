@@ -161,14 +161,12 @@ impl Emission<'_> {
     /// The runtime's trait for it, in slices of any length.
     pub(super) fn taylor_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let other = super::other_scalar(name);
         let Some(entry) = self.entry(Purpose::TaylorCoefficients) else {
             unreachable!("the request makes the entry");
         };
         let outputs = TaylorOutputs::of(&entry.outputs, self.scene.links.len());
         let links = self.links();
         let rows = Recurrences::new(self, entry, &outputs.bias).room();
-        let time = self.time_name();
         let argument = self.mechanics.drive.as_ref().map(|_| quote!(time,));
         let body = self.with_arrays(
             &[vec!["theta", "omega"]],
@@ -179,35 +177,24 @@ impl Emission<'_> {
             }),
             self.unknown(&["coefficients"]),
         );
+        let coefficients = self.on_any_scalar(
+            ["TaylorPendulum", "taylor_coefficients", "pendulum"],
+            &quote!(time, theta, omega, coefficients, work),
+            |time, t| {
+                quote! {
+                    #time: #t, theta: &[#t], omega: &[#t], coefficients: &mut [#t],
+                    work: &mut [#runtime::emitted::taylor::Quad<#t>]
+                }
+            },
+            &body,
+        );
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
-                #[inline(always)]
-                fn taylor_coefficients_of<#other: #runtime::Scalar>(
-                    pendulum: &#name<#other>,
-                    time: #other,
-                    theta: &[#other],
-                    omega: &[#other],
-                    coefficients: &mut [#other],
-                    work: &mut [#runtime::emitted::taylor::Quad<#other>],
-                ) {
-                    pendulum.taylor_coefficients_into(time, theta, omega, coefficients, work);
-                }
-
                 fn taylor_workspace(order: usize) -> usize {
                     #runtime::emitted::taylor::workspace(#links, order) #rows
                 }
 
-                #[inline(always)]
-                fn taylor_coefficients_into(
-                    &self,
-                    #time: T,
-                    theta: &[T],
-                    omega: &[T],
-                    coefficients: &mut [T],
-                    work: &mut [#runtime::emitted::taylor::Quad<T>],
-                ) {
-                    #body
-                }
+                #coefficients
             }
         }
     }

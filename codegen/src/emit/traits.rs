@@ -2,10 +2,11 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
+use super::tokens::ident;
 use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 impl Emission<'_> {
     pub(super) fn traits(&self) -> TokenStream {
@@ -129,36 +130,49 @@ impl Emission<'_> {
     }
 
     fn forced(&self) -> TokenStream {
-        let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
-        let other = super::other_scalar(name);
-        let body = self.fill("alpha", Purpose::AccelerationsUnder);
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let accelerations = self.on_any_scalar(
+            ["Forced", "accelerations_under", "pendulum"],
+            &quote!(time, theta, omega, torques, alpha),
+            |time, t| {
+                quote! {
+                    #time: #t, theta: &[#t], omega: &[#t], torques: &[#t], alpha: &mut [#t]
+                }
+            },
+            &self.fill("alpha", Purpose::AccelerationsUnder),
+        );
         quote! {
             impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
-                #[inline(always)]
-                fn accelerations_under_into(
-                    &self,
-                    #time: T,
-                    theta: &[T],
-                    omega: &[T],
-                    torques: &[T],
-                    alpha: &mut [T],
-                ) {
-                    #body
-                }
+                #accelerations
+            }
+        }
+    }
 
-                #[inline(always)]
-                fn accelerations_under_of<#other: #runtime::Scalar>(
-                    pendulum: &#name<#other>,
-                    time: #other,
-                    theta: &[#other],
-                    omega: &[#other],
-                    torques: &[#other],
-                    alpha: &mut [#other],
-                ) {
-                    #runtime::Forced::accelerations_under_into(
-                        pendulum, time, theta, omega, torques, alpha,
-                    );
-                }
+    /// A function of a trait on slices: `…_into` of the model, with `body`, and `…_of` a
+    /// model on any other scalar, which calls that one. `parameters` are the arguments with
+    /// their types, by the name of the time and the scalar.
+    pub(super) fn on_any_scalar(
+        &self,
+        [capability, function, model]: [&str; 3],
+        arguments: &TokenStream,
+        parameters: impl Fn(Ident, Ident) -> TokenStream,
+        body: &TokenStream,
+    ) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let other = super::other_scalar(name);
+        let [capability, model] = [capability, model].map(ident);
+        let [into, of] = ["into", "of"].map(|end| format_ident!("{function}_{end}"));
+        let own = parameters(self.time_name(), ident("T"));
+        let others = parameters(ident("time"), other.clone());
+        quote! {
+            #[inline(always)]
+            fn #into(&self, #own,) {
+                #body
+            }
+
+            #[inline(always)]
+            fn #of<#other: #runtime::Scalar>(#model: &#name<#other>, #others,) {
+                #runtime::#capability::#into(#model, #arguments,);
             }
         }
     }

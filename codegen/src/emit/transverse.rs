@@ -94,7 +94,7 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let sectors = transverse.sectors.iter();
         let sectors = sectors.map(|formulas| self.sector_constant(&formulas.sector));
-        let (other, time) = (super::other_scalar(name), self.time_name());
+        let time = self.time_name();
         let energy = self.match_sector(&nan(), |number, _| {
             self.value_at_slices(Purpose::TransverseEnergy(number))
         });
@@ -124,39 +124,30 @@ impl Emission<'_> {
         let motion = quote! {
             let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
+        let accelerations = self.on_any_scalar(
+            ["Transverse", "transverse_accelerations", "model"],
+            &quote!(
+                sector,
+                time,
+                motion,
+                difference,
+                difference_rate,
+                accelerations
+            ),
+            |time, t| {
+                quote! {
+                    sector: usize, #time: #t, motion: #runtime::system::InPhaseMotion<'_, #t>,
+                    difference: &[#t], difference_rate: &[#t], accelerations: &mut [#t]
+                }
+            },
+            &quote!(#motion #accelerations),
+        );
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
                 const TRANSVERSE: &'static [#runtime::system::TransverseSector] =
                     &[#(#sectors),*];
 
-                #[inline(always)]
-                fn transverse_accelerations_into(
-                    &self,
-                    sector: usize,
-                    #time: T,
-                    motion: #runtime::system::InPhaseMotion<'_, T>,
-                    difference: &[T],
-                    difference_rate: &[T],
-                    accelerations: &mut [T],
-                ) {
-                    #motion
-                    #accelerations
-                }
-
-                #[inline(always)]
-                fn transverse_accelerations_of<#other: #runtime::Scalar>(
-                    model: &#name<#other>,
-                    sector: usize,
-                    time: #other,
-                    motion: #runtime::system::InPhaseMotion<'_, #other>,
-                    difference: &[#other],
-                    difference_rate: &[#other],
-                    accelerations: &mut [#other],
-                ) {
-                    #runtime::Transverse::transverse_accelerations_into(
-                        model, sector, time, motion, difference, difference_rate, accelerations,
-                    );
-                }
+                #accelerations
 
                 #[inline]
                 fn transverse_energy_of(

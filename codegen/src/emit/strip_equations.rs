@@ -1,0 +1,140 @@
+//! Equations of one link of a tree in loops, as an implementation of the runtime's trait.
+
+use super::Emission;
+use super::doc_text::doc_lines;
+use super::tokens::ident;
+use crate::functions::{Argument, LinkFunction, Purpose};
+use crate::program::{Entry, LoopTree, Op};
+use crate::scene::Layout;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+impl Emission<'_> {
+    /// The equations of one link: a type without values, and its trait.
+    pub(super) fn link_equations(&self, strips: &LoopTree) -> TokenStream {
+        let (vis, name, runtime) = (&self.item.vis, self.equations_name(), self.runtime());
+        let docs = doc_lines(&self.equations_docs());
+        let length = |argument| Literal::usize_unsuffixed(strips.length(argument));
+        let [constants, response, sums, elimination, carried] = [
+            Argument::Constants,
+            Argument::Response,
+            Argument::Sums,
+            Argument::Elimination,
+            Argument::Carried,
+        ]
+        .map(length);
+        let (mut copies, mut names) = (Vec::new(), Vec::new());
+        if let Layout::Generations { branching, .. } = self.scene.layout {
+            for (generation, link) in self.scene.links.iter().enumerate() {
+                let number = if generation == 0 { 1 } else { branching };
+                copies.push(Literal::usize_unsuffixed(number));
+                names.push(&link.name);
+            }
+        }
+        let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
+        let forced = strips.has_outside_torques.then(|| {
+            quote!(
+                const FORCED: bool = true;
+            )
+        });
+        let held = strips.has_held_links.then(|| {
+            quote!(
+                const HELD: bool = true;
+            )
+        });
+        let functions = LinkFunction::ALL.into_iter();
+        let functions = functions.filter_map(|function| self.link_function(function));
+        quote! {
+            #docs
+            #[derive(
+                ::core::clone::Clone,
+                ::core::marker::Copy,
+                ::core::fmt::Debug,
+                ::core::cmp::PartialEq,
+            )]
+            #vis struct #name;
+
+            // Of commas: all tokens stand where the attribute does, see `emit`.
+            #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
+            impl #runtime::tree::LinkEquations for #name {
+                type Constants<T: #runtime::Scalar> = [T; #constants];
+                type Response<T: #runtime::Scalar> = [T; #response];
+                type Sums<T: #runtime::Scalar> = [T; #sums];
+                type Elimination<T: #runtime::Scalar> = [T; #elimination];
+                type Carried<T: #runtime::Scalar> = [T; #carried];
+
+                const COPIES: &'static [usize] = &[#(#copies),*];
+                const NAMES: &'static [&'static str] = &[#(#names),*];
+                const JOINTS: bool = #joints;
+                const TORQUE: bool = #torque;
+                #forced
+                #held
+
+                #(#functions)*
+            }
+        }
+    }
+
+    /// A function of the trait.
+    fn link_function(&self, function: LinkFunction) -> Option<TokenStream> {
+        let result = match function {
+            LinkFunction::Leaf => quote!(Self::Response<T>),
+            LinkFunction::Attach => quote!(Self::Sums<T>),
+            LinkFunction::Inner => quote!((Self::Response<T>, Self::Elimination<T>)),
+            LinkFunction::Pivot => quote!([T; 2]),
+            LinkFunction::Accelerate => quote!((T, Self::Carried<T>)),
+            LinkFunction::AccelerateLeaf => quote!(T),
+        };
+        self.equation_function(Purpose::Link(function), &result)
+    }
+
+    /// A function of a trait of equations, from its entry point.
+    pub(super) fn equation_function(
+        &self,
+        purpose: Purpose,
+        result: &TokenStream,
+    ) -> Option<TokenStream> {
+        let entry = self.entry(purpose)?;
+        let (runtime, docs, name) = (self.runtime(), self.entry_docs(entry), ident(&entry.name));
+        let body = match self.handed_on(entry) {
+            Some(body) => body,
+            None => self.plain_body(entry),
+        };
+        let arguments = entry.arguments.iter().map(|&argument| {
+            let name = ident(argument.name());
+            let kind = match argument {
+                Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
+                Argument::Response => quote!(Self::Response<T>),
+                Argument::Sums => quote!(Self::Sums<T>),
+                Argument::Elimination => quote!(Self::Elimination<T>),
+                Argument::Carried => quote!(Self::Carried<T>),
+                Argument::Given(function) => {
+                    let given = Literal::usize_unsuffixed(function.given().len());
+                    quote!([T; #given])
+                }
+                _ => quote!([T; 2]),
+            };
+            quote!(#name: #kind)
+        });
+        Some(quote! {
+            #docs
+            #[inline(always)]
+            fn #name<T: #runtime::Scalar>(#(#arguments),*) -> #result {
+                #body
+            }
+        })
+    }
+
+    /// The body of a function that returns its last argument as it is.
+    fn handed_on(&self, entry: &Entry) -> Option<TokenStream> {
+        let (&last, others) = entry.arguments.split_last()?;
+        let mut outputs = (0..).zip(&entry.outputs);
+        let same = outputs.all(|(index, &id)| *self.op(id) == Op::Input(last, index));
+        let names = others
+            .iter()
+            .map(|argument| format_ident!("{}", argument.name()));
+        let last = format_ident!("{}", last.name());
+        same.then(|| quote!(#(let _ = #names;)* #last))
+    }
+}
