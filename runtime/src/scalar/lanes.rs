@@ -6,24 +6,27 @@ use super::kind::{ByKind, Compiled};
 use super::{Real, Scalar};
 use crate::simd::Simd;
 
-/// A number that has lanes: `f64` or `f32`.
-pub trait Lane: Real + LaneRegisters {}
-
-/// Keeps other crates from implementing [`Lane`]; the registers of each
-/// instruction set.
-pub trait LaneRegisters: Scalar {
-    /// Those of the build.
+/// A number that has lanes: `f64` or `f32`. Other crates cannot implement it, since they
+/// cannot name the trait that its function asks for.
+pub trait Lane: Real {
+    /// Registers of the build.
+    #[doc(hidden)]
     type Build: Simd<Self>;
-    /// Those of AVX2.
+    /// Registers of AVX2.
+    #[doc(hidden)]
     type Avx2: Simd<Self>;
-    /// Those of AVX-512.
+    /// Registers of AVX-512.
+    #[doc(hidden)]
     type Avx512: Simd<Self>;
     /// One number that fuses.
+    #[doc(hidden)]
     type Fused: Simd<Self>;
     /// Four numbers with the instructions of AVX2.
+    #[doc(hidden)]
     type Four: Simd<Self>;
 
     /// Returns a function that is compiled with this crate.
+    #[doc(hidden)]
     fn compiled<C: Compiled>() -> C::Function<Self>;
 }
 
