@@ -5,7 +5,7 @@ mod forced;
 pub use forced::{ForcedDifferences, SmallUnderTorques};
 
 use super::by_reference::by_reference;
-use super::ode::halves;
+use super::transverse::fill;
 use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
@@ -188,24 +188,6 @@ impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
             },
         );
     }
-}
-
-/// Writes the rates of a state of so many links and so many differences.
-#[inline(always)]
-fn fill<T: Scalar>(
-    (links, differences): (usize, usize),
-    (state, rates): (&[T], &mut [T]),
-    accelerate: impl FnOnce([&[T]; 4], &mut [T]),
-) {
-    let half = links + differences;
-    let Some(([angles, velocities], [angle_rates, accelerations])) = halves(half, state, rates)
-    else {
-        return;
-    };
-    angle_rates.copy_from_slice(velocities);
-    let (theta, difference) = angles.split_at(links);
-    let (omega, difference_rate) = velocities.split_at(links);
-    accelerate([theta, omega, difference, difference_rate], accelerations);
 }
 
 by_reference! {

@@ -199,8 +199,14 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
         fill(
             (P::LINKS, sector.links),
             (state, rates),
-            |theta, omega, alpha| model.accelerations_with(workspace, time, theta, omega, alpha),
-            |motion, [difference, rate], second| {
+            |[theta, omega, difference, rate], accelerations| {
+                let (alpha, second) = accelerations.split_at_mut(P::LINKS);
+                model.accelerations_with(workspace, time, theta, omega, alpha);
+                let motion = InPhaseMotion {
+                    theta,
+                    omega,
+                    alpha,
+                };
                 model.transverse_accelerations_into(*index, time, motion, difference, rate, second);
             },
         );
@@ -233,15 +239,19 @@ impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
         fill(
             (P::LINKS, sector.links),
             (state, rates),
-            |theta, omega, alpha| {
+            |[theta, omega, difference, rate], accelerations| {
+                let (alpha, second) = accelerations.split_at_mut(P::LINKS);
                 model.evaluate(
                     time,
                     |link| at(theta, link),
                     |link| at(omega, link),
                     |link, value| put(alpha, link, value),
                 );
-            },
-            |motion, [difference, rate], second| {
+                let motion = InPhaseMotion {
+                    theta,
+                    omega,
+                    alpha,
+                };
                 P::transverse_accelerations_of(
                     model, *index, time, motion, difference, rate, second,
                 );
@@ -269,14 +279,12 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
     }
 }
 
-/// Writes the rates of an in-phase motion of so many links and so many differences: the
-/// accelerations of the one, from which those of the others follow.
+/// Writes the rates of a state of so many links and so many differences.
 #[inline(always)]
-fn fill<T: Scalar>(
+pub(super) fn fill<T: Scalar>(
     (links, differences): (usize, usize),
     (state, rates): (&[T], &mut [T]),
-    accelerate: impl FnOnce(&[T], &[T], &mut [T]),
-    differ: impl FnOnce(InPhaseMotion<'_, T>, [&[T]; 2], &mut [T]),
+    accelerate: impl FnOnce([&[T]; 4], &mut [T]),
 ) {
     let half = links + differences;
     let Some(([angles, velocities], [angle_rates, accelerations])) = halves(half, state, rates)
@@ -286,14 +294,7 @@ fn fill<T: Scalar>(
     angle_rates.copy_from_slice(velocities);
     let (theta, difference) = angles.split_at(links);
     let (omega, difference_rate) = velocities.split_at(links);
-    let (alpha, second) = accelerations.split_at_mut(links);
-    accelerate(theta, omega, alpha);
-    let motion = InPhaseMotion {
-        theta,
-        omega,
-        alpha,
-    };
-    differ(motion, [difference, difference_rate], second);
+    accelerate([theta, omega, difference, difference_rate], accelerations);
 }
 
 by_reference! {

@@ -59,7 +59,7 @@ pub struct ByTangents<O, D, Q = O> {
     memory: RefCell<TangentMemory<D>>,
 }
 
-/// TangentMemory for one evaluation.
+/// Memory for one evaluation.
 struct TangentMemory<D> {
     state: Vec<D>,
     rates: Vec<D>,
