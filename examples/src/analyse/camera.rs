@@ -107,11 +107,6 @@ impl Real {
 }
 
 impl Camera {
-    /// Standard deviation of a link's angle, rad: that of a dot across the link, twice.
-    pub fn angle_noise(&self) -> f64 {
-        self.noise * 2.0_f64.sqrt() / self.distance
-    }
-
     /// The links' angles (rad) as they follow from the dots.
     pub fn angles(&self, motion: &[Truth<3>]) -> Vec<[Option<f64>; 3]> {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.seed);
