@@ -106,7 +106,7 @@ pub trait Cast<T: Scalar>: Pendulum<T> {
         Self: Sized,
     {
         if fit::<T, Self>(theta, omega, alpha)
-            && !in_fused::<T, OneState<Self>>(self, time, theta, omega, alpha)
+            && !in_fused::<T, OneStateOf<Self>>(self, time, theta, omega, alpha)
         {
             unfused(self, time, theta, omega, alpha);
         }
@@ -277,9 +277,9 @@ pub(crate) fn unfused<T: Scalar, P: Cast<T>>(
 }
 
 /// The accelerations of one state, its slices as long as there are links.
-struct OneState<P>(PhantomData<P>);
+struct OneStateOf<P>(PhantomData<P>);
 
-impl<T: Scalar, P: Cast<T>> StateKernel<T> for OneState<P> {
+impl<T: Scalar, P: Cast<T>> StateKernel<T> for OneStateOf<P> {
     type Model = P;
 
     const LINKS: usize = P::LINKS;

@@ -92,7 +92,7 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
             return;
         }
         let room = workspace.numbers(links * Self::ROOM);
-        in_fused_numbers(SmallEvaluation {
+        in_fused_numbers(OneState {
             tree: self,
             drive,
             states,
@@ -117,7 +117,7 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
 }
 
 /// One evaluation.
-struct SmallEvaluation<'a, E, T> {
+struct OneState<'a, E, T> {
     tree: &'a SmallTree<E, T>,
     drive: Option<RootDrive<T>>,
     states: LinkStates<'a, T>,
@@ -125,7 +125,7 @@ struct SmallEvaluation<'a, E, T> {
     alpha: &'a mut [T],
 }
 
-impl<E: LinkEquations, T: Scalar> Kernel<T> for SmallEvaluation<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
     type Output = ();
 
     #[inline(always)]
@@ -150,7 +150,7 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for SmallEvaluation<'_, E, T> {
     }
 }
 
-impl<E: LinkEquations, T: Scalar> SmallEvaluation<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> OneState<'_, E, T> {
     /// Forms the sines and cosines.
     #[inline(always)]
     fn sines<V: Simd<T>>(&mut self) {
