@@ -3,8 +3,9 @@
 use std::cell::RefCell;
 
 use super::family::{AnyFamily, WIDTH, Wide};
+use crate::analysis::variational::TangentMemory;
 use crate::scalar::Dual;
-use crate::system::{Ode, Workspace};
+use crate::system::Ode;
 
 /// A motion y and its derivatives: the state is y, followed by a column ∂y/∂x for each
 /// component x of its start, then one for each free parameter, in units of its scale.
@@ -16,13 +17,7 @@ pub(super) struct Sensitivities<'a> {
     columns: usize,
     /// The equations, whose parameters carry the derivatives of their group of columns.
     groups: Vec<Box<dyn Ode<Wide> + 'a>>,
-    memory: RefCell<Memory>,
-}
-
-struct Memory {
-    state: Vec<Wide>,
-    rates: Vec<Wide>,
-    workspace: Workspace<Wide>,
+    memory: RefCell<TangentMemory<Wide>>,
 }
 
 impl<'a> Sensitivities<'a> {
@@ -52,11 +47,7 @@ impl<'a> Sensitivities<'a> {
             dimension,
             columns,
             groups: (0..columns.div_ceil(WIDTH)).map(group).collect(),
-            memory: RefCell::new(Memory {
-                state: vec![Dual::constant(0.0); dimension],
-                rates: vec![Dual::constant(0.0); dimension],
-                workspace: Workspace::new(),
-            }),
+            memory: RefCell::new(TangentMemory::new(dimension)),
         }
     }
 

@@ -51,6 +51,7 @@ use crate::scalar::Real;
 use crate::system::{Ode, State};
 
 pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
+pub(super) use self::system::TangentMemory;
 pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};
 
 /// The start with one deviation along each component, of size one.

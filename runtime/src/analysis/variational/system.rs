@@ -59,11 +59,23 @@ pub struct ByTangents<O, D, Q = O> {
     memory: RefCell<TangentMemory<D>>,
 }
 
-/// Memory for one evaluation.
-struct TangentMemory<D> {
-    state: Vec<D>,
-    rates: Vec<D>,
-    workspace: Workspace<D>,
+/// Memory for one evaluation in numbers that carry derivatives.
+pub(in crate::analysis) struct TangentMemory<D> {
+    pub(in crate::analysis) state: Vec<D>,
+    pub(in crate::analysis) rates: Vec<D>,
+    pub(in crate::analysis) workspace: Workspace<D>,
+}
+
+impl<D: Scalar> TangentMemory<D> {
+    /// Memory for states of `dimension` numbers.
+    pub(in crate::analysis) fn new(dimension: usize) -> Self {
+        let zeros = vec![D::from_f64(0.0); dimension];
+        Self {
+            state: zeros.clone(),
+            rates: zeros,
+            workspace: Workspace::new(),
+        }
+    }
 }
 
 /// Linearises a model in its coordinates, by its equations in dual numbers.
@@ -123,11 +135,7 @@ impl<O, D: Scalar, Q> ByTangents<O, D, Q> {
         Self {
             ode,
             tangents,
-            memory: RefCell::new(TangentMemory {
-                state: Vec::new(),
-                rates: Vec::new(),
-                workspace: Workspace::new(),
-            }),
+            memory: RefCell::new(TangentMemory::new(0)),
         }
     }
 }

@@ -52,7 +52,7 @@ impl Pieces {
 }
 
 /// Links of consecutive generations.
-pub(super) struct GenerationRange<'p> {
+pub(super) struct Layers<'p> {
     /// The generations as they stand in the piece's own columns.
     pub(super) own: &'p ScaleShape,
     /// Number of the first one in the tree, and how many are computed.
@@ -63,40 +63,29 @@ pub(super) struct GenerationRange<'p> {
     stride: usize,
 }
 
-impl GenerationRange<'_> {
+impl Layers<'_> {
     /// Places of the links of a generation on the way up: of all neighbours.
     #[inline(always)]
-    pub(super) fn upwards(
-        &self,
-        tree: &ScaleShape,
-        generation: usize,
-        period: usize,
-    ) -> ScalePlaces {
+    pub(super) fn upwards(&self, tree: &ScaleShape, generation: usize, period: usize) -> Places {
         self.places(tree, generation, period, self.own.at(generation).count)
     }
 
     /// Places on the way down: of neighbours whose parents are neighbours.
     #[inline(always)]
-    pub(super) fn downwards(&self, tree: &ScaleShape, generation: usize) -> ScalePlaces {
+    pub(super) fn downwards(&self, tree: &ScaleShape, generation: usize) -> Places {
         let above = self.own.at(generation.saturating_sub(1)).count;
         self.places(tree, generation, 1, above)
     }
 
     #[inline(always)]
-    fn places(
-        &self,
-        tree: &ScaleShape,
-        generation: usize,
-        period: usize,
-        all: usize,
-    ) -> ScalePlaces {
+    fn places(&self, tree: &ScaleShape, generation: usize, period: usize, all: usize) -> Places {
         let (width, count) = (self.own.at(0).count, self.own.at(generation).count);
         let first = tree.at(self.first + generation).slot;
         let (length, apart) = match width == self.stride {
             true => (all, all),
             false => (width, self.stride),
         };
-        ScalePlaces {
+        Places {
             next: Place {
                 slot: first + self.start,
                 number: 0,
@@ -130,7 +119,7 @@ pub(super) struct Place {
 }
 
 /// Places of registers of neighbours, strip by strip.
-pub(super) struct ScalePlaces {
+pub(super) struct Places {
     next: Place,
     /// Number of strips that are left, length of each, and from one to the next in columns
     /// of the tree.
@@ -144,7 +133,7 @@ pub(super) struct ScalePlaces {
     parents: usize,
 }
 
-impl ScalePlaces {
+impl Places {
     #[inline(always)]
     pub(super) fn next(&mut self, lanes: usize) -> Option<Place> {
         if self.strips == 0 {
@@ -238,7 +227,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         };
         let (piece, flows) = match turn.block {
             Some(start) => {
-                let piece = GenerationRange {
+                let piece = Layers {
                     own: below,
                     first: cut,
                     count: scales - cut,
@@ -248,7 +237,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                 (piece, block_flows)
             }
             None => {
-                let piece = GenerationRange {
+                let piece = Layers {
                     own: &pieces.above,
                     first: 0,
                     count: cut,

@@ -1,6 +1,6 @@
 //! The flow of one scale's energy, M u = ∂E/∂ω, and the slope z that it meets.
 
-use super::blocks::GenerationRange;
+use super::blocks::Layers;
 use super::columns::{BIAS, GAIN, OFFSET, PIVOT, SHIFT, ScaleColumns};
 use super::{ByScale, ScaleEquations, field};
 use crate::scalar::Scalar;
@@ -11,7 +11,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     pub(super) fn eliminate<V: Simd<T>>(
         &self,
-        piece: &GenerationRange<'_>,
+        piece: &Layers<'_>,
         columns: &mut ScaleColumns<'_, T>,
         scale: usize,
     ) {
@@ -40,7 +40,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     pub(super) fn flow<V: Simd<T>>(
         &self,
-        piece: &GenerationRange<'_>,
+        piece: &Layers<'_>,
         columns: &mut ScaleColumns<'_, T>,
         flows: &mut ScaleColumns<'_, T>,
         scale: usize,
@@ -74,7 +74,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     pub(super) fn slopes<V: Simd<T>>(
         &self,
-        piece: &GenerationRange<'_>,
+        piece: &Layers<'_>,
         columns: &mut ScaleColumns<'_, T>,
         flows: &mut ScaleColumns<'_, T>,
         scale: usize,

@@ -1,6 +1,6 @@
 //! Transfers between scales and powers on them: sums of products over all links.
 
-use super::blocks::GenerationRange;
+use super::blocks::Layers;
 use super::columns::{DRAG, DRIVE, FRICTION, OUTSIDE, ScaleColumns};
 use super::energies::in_all_lanes;
 use super::{ByScale, ScaleEquations, ScaleOutput};
@@ -15,11 +15,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     /// Adds what links of a piece have in {E_s, E_r} = Σ z_s u_r − u_s z_r of all pairs,
     /// and in the powers Σ u_s Q.
     #[inline(always)]
-    pub(super) fn products<V: Simd<T>>(
-        &mut self,
-        piece: &GenerationRange<'_>,
-        flows: &ScaleColumns<'_, T>,
-    ) {
+    pub(super) fn products<V: Simd<T>>(&mut self, piece: &Layers<'_>, flows: &ScaleColumns<'_, T>) {
         for to in 0..self.shape.count() {
             let mut from = 0;
             while from + TOGETHER <= to {
@@ -38,7 +34,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     fn transfers<V: Simd<T>, const N: usize>(
         &mut self,
-        piece: &GenerationRange<'_>,
+        piece: &Layers<'_>,
         flows: &ScaleColumns<'_, T>,
         from: usize,
         to: usize,
@@ -71,7 +67,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     #[inline(always)]
     fn powers<V: Simd<T>>(
         &mut self,
-        piece: &GenerationRange<'_>,
+        piece: &Layers<'_>,
         flows: &ScaleColumns<'_, T>,
         scale: usize,
     ) {

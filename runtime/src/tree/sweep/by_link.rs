@@ -4,7 +4,7 @@
 #![allow(unsafe_code)]
 
 use super::passes::{Passes, add};
-use super::strip::{Output, Places};
+use super::strip::{Output, VectorPlaces};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 use crate::tree::equations::{LinkEquations, Row};
@@ -140,7 +140,7 @@ where
     /// A strip of links with constants of their own, up.
     #[inline(always)]
     fn links_up(&self, strip: &Strip) {
-        let mut places = Places::of::<T, V>(strip.length);
+        let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: places of strips and attachments are there, as the view has seen.
@@ -153,7 +153,7 @@ where
     /// Goes back down as `links_up` went up; the accelerations of pivots are in memory.
     #[inline(always)]
     fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
-        let mut places = Places::of::<T, V>(strip.length);
+        let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: places of strips and attachments are there, as the view has seen.

@@ -76,8 +76,8 @@ impl<T: Scalar> StripView<T> {
     /// divide the neighbours; fewer than a vector holds are one step, whose other
     /// lanes mean nothing.
     #[inline(always)]
-    pub(super) fn places<V: Simd<T>>(&self) -> Places {
-        Places::of::<T, V>(self.length)
+    pub(super) fn places<V: Simd<T>>(&self) -> VectorPlaces {
+        VectorPlaces::of::<T, V>(self.length)
     }
 
     /// From one link to the next in the tree: neighbours in lanes stand side by side.
@@ -119,14 +119,14 @@ impl<T: Scalar> StripView<T> {
 }
 
 /// Places of vectors among neighbours.
-pub(super) struct Places {
+pub(super) struct VectorPlaces {
     next: usize,
     step: usize,
     last: usize,
     length: usize,
 }
 
-impl Places {
+impl VectorPlaces {
     /// Of so many neighbours.
     #[inline(always)]
     pub(super) fn of<T, V: Simd<T>>(length: usize) -> Self {
