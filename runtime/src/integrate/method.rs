@@ -62,53 +62,44 @@ pub enum Method {
     Animation,
 }
 
+/// Declares the list of all methods with their names, as they are parsed and for titles.
+macro_rules! methods {
+    ($($method:ident $(($order:ident))?: $word:literal, $title:literal;)+) => {
+        impl Method {
+            /// All methods.
+            pub const ALL: &[Self] = &[$(Self::$method $((GaussOrder::$order))?),+];
+
+            /// The name that is parsed.
+            fn word(self) -> &'static str {
+                match self {
+                    $(Self::$method $((GaussOrder::$order))? => $word,)+
+                }
+            }
+
+            /// The name for titles and legends: `Dormand–Prince 8(5,3)`.
+            pub fn title(self) -> &'static str {
+                match self {
+                    $(Self::$method $((GaussOrder::$order))? => $title,)+
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    Rk4: "rk4", "RK4";
+    Dopri5: "dopri5", "Dormand–Prince 5(4)";
+    Dop853: "dop853", "Dormand–Prince 8(5,3)";
+    Verner98: "verner98", "Verner 9(8)";
+    Taylor: "taylor", "Taylor";
+    Gauss(Two): "gauss2", "Gauss 2";
+    Gauss(Four): "gauss4", "Gauss 4";
+    Gauss(Six): "gauss6", "Gauss 6";
+    Gauss(Eight): "gauss8", "Gauss 8";
+    Animation: "animation", "midpoint";
+}
+
 impl Method {
-    /// All methods.
-    pub const ALL: &[Self] = &[
-        Self::Rk4,
-        Self::Dopri5,
-        Self::Dop853,
-        Self::Verner98,
-        Self::Taylor,
-        Self::Gauss(GaussOrder::Two),
-        Self::Gauss(GaussOrder::Four),
-        Self::Gauss(GaussOrder::Six),
-        Self::Gauss(GaussOrder::Eight),
-        Self::Animation,
-    ];
-
-    /// The name that is parsed.
-    fn word(self) -> &'static str {
-        match self {
-            Self::Rk4 => "rk4",
-            Self::Dopri5 => "dopri5",
-            Self::Dop853 => "dop853",
-            Self::Verner98 => "verner98",
-            Self::Taylor => "taylor",
-            Self::Gauss(GaussOrder::Two) => "gauss2",
-            Self::Gauss(GaussOrder::Four) => "gauss4",
-            Self::Gauss(GaussOrder::Six) => "gauss6",
-            Self::Gauss(GaussOrder::Eight) => "gauss8",
-            Self::Animation => "animation",
-        }
-    }
-
-    /// The name for titles and legends: `Dormand–Prince 8(5,3)`.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Rk4 => "RK4",
-            Self::Dopri5 => "Dormand–Prince 5(4)",
-            Self::Dop853 => "Dormand–Prince 8(5,3)",
-            Self::Verner98 => "Verner 9(8)",
-            Self::Taylor => "Taylor",
-            Self::Gauss(GaussOrder::Two) => "Gauss 2",
-            Self::Gauss(GaussOrder::Four) => "Gauss 4",
-            Self::Gauss(GaussOrder::Six) => "Gauss 6",
-            Self::Gauss(GaussOrder::Eight) => "Gauss 8",
-            Self::Animation => "midpoint",
-        }
-    }
-
     /// Returns true if the method takes a tolerance; the others take a step.
     pub fn is_adaptive(self) -> bool {
         matches!(
