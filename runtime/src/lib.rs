@@ -94,6 +94,7 @@ pub mod batch;
 pub mod emitted;
 #[cfg(feature = "std")]
 pub mod ensemble;
+mod errors;
 pub mod integrate;
 pub mod model;
 pub mod prelude;

@@ -1,11 +1,10 @@
 //! Equilibria of a tree, about which its linear modes are those of small motions.
 
-use core::fmt;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::modes::{ModesError, symmetric_matrix};
 use crate::approximate::rest::{MOST_STEPS, come_to_rest};
+use crate::errors::errors;
 
 /// Matrices of a tree at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,34 +82,21 @@ pub fn equilibrium<const N: usize>(
     }
 }
 
-/// Reason for which no equilibrium was found.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum EquilibriumError {
-    /// A matrix is not finite or not symmetric.
-    Matrix(ModesError),
-    /// The stiffness is singular, or torques are not finite.
-    Singular,
-    /// The steps did not become small.
-    NoConvergence {
-        /// Largest change of an angle in the last step, rad.
-        last_step: f64,
-    },
-}
-
-impl fmt::Display for EquilibriumError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Matrix(error) => error.fmt(f),
-            Self::Singular => f.write_str(
-                "the stiffness is singular on the way to an equilibrium: start elsewhere",
-            ),
-            Self::NoConvergence { last_step } => write!(
-                f,
-                "no equilibrium within {MOST_STEPS} steps, the last one of {last_step} rad: start \
-                 elsewhere"
-            ),
-        }
+errors! {
+    /// Reason for which no equilibrium was found.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum EquilibriumError {
+        /// A matrix is not finite or not symmetric.
+        Matrix(error: ModesError) => "{error}",
+        /// The stiffness is singular, or torques are not finite.
+        Singular => "the stiffness is singular on the way to an equilibrium: start elsewhere",
+        /// The steps did not become small.
+        NoConvergence {
+            /// Largest change of an angle in the last step, rad.
+            last_step: f64,
+        } => "no equilibrium within {MOST_STEPS} steps, the last one of {last_step} rad: start \
+            elsewhere",
     }
 }
 

@@ -7,9 +7,10 @@
 //! Computations*, 4th edition, Johns Hopkins 2013, section 8.7.
 
 use core::f64::consts::TAU;
-use core::fmt;
 
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
+
+use crate::errors::errors;
 
 /// The linear modes of a system, by ascending frequency.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,114 +163,64 @@ pub(super) fn symmetric_matrix<R: AsRef<[f64]>>(
     Ok(dense)
 }
 
-/// Why a system has no linear modes.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum ModesError {
-    /// A matrix has no rows.
-    Empty {
-        /// `"mass"` or `"stiffness"`.
-        matrix: &'static str,
-    },
-    /// A row has not as many entries as the matrix has rows.
-    NotSquare {
-        /// `"mass"` or `"stiffness"`.
-        matrix: &'static str,
-        /// Number of rows.
-        rows: usize,
-        /// Index of the row.
-        row: usize,
-        /// Number of entries in that row.
-        columns: usize,
-    },
-    /// An entry is infinite or NaN.
-    NotFinite {
-        /// `"mass"` or `"stiffness"`.
-        matrix: &'static str,
-        /// Index of the row.
-        row: usize,
-        /// Index of the column.
-        column: usize,
-        /// The entry.
-        value: f64,
-    },
-    /// An entry differs from its mirror image by more than rounding.
-    NotSymmetric {
-        /// `"mass"` or `"stiffness"`.
-        matrix: &'static str,
-        /// Index of the row.
-        row: usize,
-        /// Index of the column.
-        column: usize,
-    },
-    /// Mass and stiffness matrix differ in size.
-    SizeMismatch {
-        /// Rows of the mass matrix.
-        mass: usize,
-        /// Rows of the stiffness matrix.
-        stiffness: usize,
-    },
-    /// Some motion has no inertia.
-    MassNotPositiveDefinite,
-    /// The equilibrium is unstable.
-    NegativeStiffness {
-        /// The eigenvalue λ of K x = λ M x, in 1/s².
-        eigenvalue: f64,
-    },
-    /// The eigenvalue iteration did not converge.
-    NoConvergence,
-}
-
-impl fmt::Display for ModesError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty { matrix } => write!(f, "the {matrix} matrix has no rows"),
-            Self::NotSquare {
-                matrix,
-                rows,
-                row,
-                columns,
-            } => write!(
-                f,
-                "the {matrix} matrix is not square: {rows} rows, but {columns} entries in row {row}"
-            ),
-            Self::NotFinite {
-                matrix,
-                row,
-                column,
-                value,
-            } => {
-                write!(
-                    f,
-                    "entry ({row}, {column}) of the {matrix} matrix is {value}"
-                )
-            }
-            Self::NotSymmetric {
-                matrix,
-                row,
-                column,
-            } => {
-                write!(
-                    f,
-                    "the {matrix} matrix is not symmetric at ({row}, {column})"
-                )
-            }
-            Self::SizeMismatch { mass, stiffness } => write!(
-                f,
-                "the mass matrix has {mass} rows and the stiffness matrix {stiffness}"
-            ),
-            Self::MassNotPositiveDefinite => {
-                write!(
-                    f,
-                    "the mass matrix is not positive definite: some motion has no inertia"
-                )
-            }
-            Self::NegativeStiffness { eigenvalue } => write!(
-                f,
-                "the equilibrium is unstable: a squared angular frequency is {eigenvalue} 1/s^2"
-            ),
-            Self::NoConvergence => write!(f, "the eigenvalue iteration did not converge"),
-        }
+errors! {
+    /// Why a system has no linear modes.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum ModesError {
+        /// A matrix has no rows.
+        Empty {
+            /// `"mass"` or `"stiffness"`.
+            matrix: &'static str,
+        } => "the {matrix} matrix has no rows",
+        /// A row has not as many entries as the matrix has rows.
+        NotSquare {
+            /// `"mass"` or `"stiffness"`.
+            matrix: &'static str,
+            /// Number of rows.
+            rows: usize,
+            /// Index of the row.
+            row: usize,
+            /// Number of entries in that row.
+            columns: usize,
+        } => "the {matrix} matrix is not square: {rows} rows, but {columns} entries in row {row}",
+        /// An entry is infinite or NaN.
+        NotFinite {
+            /// `"mass"` or `"stiffness"`.
+            matrix: &'static str,
+            /// Index of the row.
+            row: usize,
+            /// Index of the column.
+            column: usize,
+            /// The entry.
+            value: f64,
+        } => "entry ({row}, {column}) of the {matrix} matrix is {value}",
+        /// An entry differs from its mirror image by more than rounding.
+        NotSymmetric {
+            /// `"mass"` or `"stiffness"`.
+            matrix: &'static str,
+            /// Index of the row.
+            row: usize,
+            /// Index of the column.
+            column: usize,
+        } => "the {matrix} matrix is not symmetric at ({row}, {column})",
+        /// Mass and stiffness matrix differ in size.
+        SizeMismatch {
+            /// Rows of the mass matrix.
+            mass: usize,
+            /// Rows of the stiffness matrix.
+            stiffness: usize,
+        } => "the mass matrix has {mass} rows and the stiffness matrix {stiffness}",
+        /// Some motion has no inertia.
+        MassNotPositiveDefinite => "the mass matrix is not positive definite: some motion has no \
+            inertia",
+        /// The equilibrium is unstable.
+        NegativeStiffness {
+            /// The eigenvalue λ of K x = λ M x, in 1/s².
+            eigenvalue: f64,
+        } => "the equilibrium is unstable: a squared angular frequency is {eigenvalue} 1/s^2",
+        /// The eigenvalue iteration did not converge.
+        NoConvergence => "the eigenvalue iteration did not converge",
     }
 }
 

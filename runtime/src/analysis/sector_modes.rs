@@ -21,11 +21,10 @@
 //!
 //! [`Sectors::SECTORS`]: crate::Sectors::SECTORS
 
-use core::fmt;
-
 use nalgebra::DMatrix;
 
 use super::modes::{Modes, ModesError, symmetric_matrix};
+use crate::errors::errors;
 use crate::sectors::{Sector, SectorCoordinate};
 
 /// Mass, stiffness and linear modes of one sector, in orthonormal coordinates.
@@ -234,81 +233,54 @@ fn off_block(matrix: &DMatrix<f64>, sectors: &[Sector]) -> f64 {
     largest / scale
 }
 
-/// Why a tree has no modes sector by sector.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SectorModesError {
-    /// Mass or stiffness matrix is not what it must be.
-    Matrices(ModesError),
-    /// The sectors have not as many coordinates as the matrices have rows.
-    Count {
-        /// Coordinates of all sectors.
-        coordinates: usize,
-        /// Rows of the matrices, one for each link.
-        links: usize,
-    },
-    /// The weights of a coordinate are all zero, or not finite.
-    Weights {
-        /// The coordinate.
-        coordinate: &'static str,
-    },
-    /// A coordinate weighs a link that the matrices lack.
-    Link {
-        /// The coordinate.
-        coordinate: &'static str,
-        /// Index of the link.
-        link: usize,
-        /// Rows of the matrices.
-        links: usize,
-    },
-    /// Two coordinates are not orthogonal.
-    NotOrthogonal {
-        /// The one.
-        first: &'static str,
-        /// The other.
-        second: &'static str,
-    },
-    /// A block has no modes.
-    Sector {
-        /// Name of the sector.
-        sector: &'static str,
-        /// Why.
-        source: ModesError,
-    },
+errors! {
+    /// Why a tree has no modes sector by sector.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum SectorModesError {
+        /// Mass or stiffness matrix is not what it must be.
+        Matrices(error: ModesError) => "the matrices cannot be split into sectors",
+        /// The sectors have not as many coordinates as the matrices have rows.
+        Count {
+            /// Coordinates of all sectors.
+            coordinates: usize,
+            /// Rows of the matrices, one for each link.
+            links: usize,
+        } => "the sectors have {coordinates} coordinates and the matrices {links} rows",
+        /// The weights of a coordinate are all zero, or not finite.
+        Weights {
+            /// The coordinate.
+            coordinate: &'static str,
+        } => "the weights of `{coordinate}` are zero or not finite",
+        /// A coordinate weighs a link that the matrices lack.
+        Link {
+            /// The coordinate.
+            coordinate: &'static str,
+            /// Index of the link.
+            link: usize,
+            /// Rows of the matrices.
+            links: usize,
+        } => "`{coordinate}` weighs link {link}, but the matrices have {links} rows",
+        /// Two coordinates are not orthogonal.
+        NotOrthogonal {
+            /// The one.
+            first: &'static str,
+            /// The other.
+            second: &'static str,
+        } => "`{first}` and `{second}` are not orthogonal",
+        /// A block has no modes.
+        Sector {
+            /// Name of the sector.
+            sector: &'static str,
+            /// Why.
+            source: ModesError,
+        } => "the sector `{sector}` has no linear modes",
+    }
 }
 
 impl From<ModesError> for SectorModesError {
     fn from(source: ModesError) -> Self {
         Self::Matrices(source)
-    }
-}
-
-impl fmt::Display for SectorModesError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Matrices(_) => write!(f, "the matrices cannot be split into sectors"),
-            Self::Count { coordinates, links } => write!(
-                f,
-                "the sectors have {coordinates} coordinates and the matrices {links} rows"
-            ),
-            Self::Weights { coordinate } => {
-                write!(f, "the weights of `{coordinate}` are zero or not finite")
-            }
-            Self::Link {
-                coordinate,
-                link,
-                links,
-            } => write!(
-                f,
-                "`{coordinate}` weighs link {link}, but the matrices have {links} rows"
-            ),
-            Self::NotOrthogonal { first, second } => {
-                write!(f, "`{first}` and `{second}` are not orthogonal")
-            }
-            Self::Sector { sector, source: _ } => {
-                write!(f, "the sector `{sector}` has no linear modes")
-            }
-        }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::{SmallDifferences, TransverseSector, WholeTree};
+use crate::errors::errors;
 use crate::scalar::Scalar;
 
 /// The differences of a [`SmallDifferences`] model in the whole tree: which copy has which
@@ -52,43 +52,28 @@ struct Pattern {
     weights: Vec<f64>,
 }
 
-/// Reason for which weights are no pattern of differences.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum PatternError {
-    /// A sector that does not act back.
-    Sector,
-    /// Another number of weights than the whole tree has such copies.
-    Length {
-        /// Number of copies under all holders.
-        expected: usize,
-        /// Number of weights.
-        found: usize,
-    },
-    /// Weights that are all zero, not finite, or do not add up to zero under a holder.
-    Weights,
-    /// Copies of which there are more than two, so that weights have to be chosen.
-    Choice {
-        /// Name of the sector.
-        sector: &'static str,
-    },
-}
-
-impl fmt::Display for PatternError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sector => f.write_str("no sector of that name acts back"),
-            Self::Length { expected, found } => {
-                write!(f, "{found} weights for {expected} copies")
-            }
-            Self::Weights => f.write_str(
-                "weights have to be finite, not all zero, and to add up to zero under each holder",
-            ),
-            Self::Choice { sector } => write!(
-                f,
-                "`{sector}` has more than two copies: choose their weights by `chosen`"
-            ),
-        }
+errors! {
+    /// Reason for which weights are no pattern of differences.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum PatternError {
+        /// A sector that does not act back.
+        Sector => "no sector of that name acts back",
+        /// Another number of weights than the whole tree has such copies.
+        Length {
+            /// Number of copies under all holders.
+            expected: usize,
+            /// Number of weights.
+            found: usize,
+        } => "{found} weights for {expected} copies",
+        /// Weights that are all zero, not finite, or do not add up to zero under a holder.
+        Weights => "weights have to be finite, not all zero, and to add up to zero under each \
+            holder",
+        /// Copies of which there are more than two, so that weights have to be chosen.
+        Choice {
+            /// Name of the sector.
+            sector: &'static str,
+        } => "`{sector}` has more than two copies: choose their weights by `chosen`",
     }
 }
 

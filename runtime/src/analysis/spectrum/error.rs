@@ -1,87 +1,55 @@
 //! Why a series has no spectrum.
 
-use core::fmt;
+use crate::errors::errors;
 
-/// Why a series has no spectrum.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SpectrumError {
-    /// Fewer than two samples.
-    TooFewSamples {
-        /// Number of samples given.
-        found: usize,
-    },
-    /// A sample is infinite or NaN.
-    Sample {
-        /// Index of the sample.
-        index: usize,
-        /// The sample.
-        value: f64,
-    },
-    /// The sample rate is not finite and positive.
-    SampleRate {
-        /// The rate given, in hertz.
-        value: f64,
-    },
-    /// A frequency is NaN or outside 0 to half the sample rate.
-    Frequency {
-        /// Index of the frequency.
-        index: usize,
-        /// The frequency, in hertz.
-        value: f64,
-        /// Half the sample rate, in hertz.
-        nyquist: f64,
-    },
-    /// An option of a search for lines that is not possible.
-    Option {
-        /// Its name.
-        name: &'static str,
-        /// The value given.
-        value: f64,
-    },
-    /// The frequencies do not ascend.
-    FrequencyOrder {
-        /// Index of the offending frequency.
-        index: usize,
-        /// The frequency before it, in hertz.
-        previous: f64,
-        /// The offending frequency, in hertz.
-        value: f64,
-    },
-}
-
-impl fmt::Display for SpectrumError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooFewSamples { found } => {
-                write!(f, "a spectrum needs at least two samples, but got {found}")
-            }
-            Self::Sample { index, value } => write!(f, "sample {index} is {value}"),
-            Self::SampleRate { value } => {
-                write!(
-                    f,
-                    "the sample rate is {value} Hz: it must be finite and positive"
-                )
-            }
-            Self::Frequency {
-                index,
-                value,
-                nyquist,
-            } => write!(
-                f,
-                "frequency {index} is {value} Hz: it must be between 0 and {nyquist} Hz, \
-                 half the sample rate"
-            ),
-            Self::Option { name, value } => write!(f, "the {name} of {value} is not possible"),
-            Self::FrequencyOrder {
-                index,
-                previous,
-                value,
-            } => write!(
-                f,
-                "frequency {index} is {value} Hz, after {previous} Hz: frequencies must ascend"
-            ),
-        }
+errors! {
+    /// Why a series has no spectrum.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum SpectrumError {
+        /// Fewer than two samples.
+        TooFewSamples {
+            /// Number of samples given.
+            found: usize,
+        } => "a spectrum needs at least two samples, but got {found}",
+        /// A sample is infinite or NaN.
+        Sample {
+            /// Index of the sample.
+            index: usize,
+            /// The sample.
+            value: f64,
+        } => "sample {index} is {value}",
+        /// The sample rate is not finite and positive.
+        SampleRate {
+            /// The rate given, in hertz.
+            value: f64,
+        } => "the sample rate is {value} Hz: it must be finite and positive",
+        /// A frequency is NaN or outside 0 to half the sample rate.
+        Frequency {
+            /// Index of the frequency.
+            index: usize,
+            /// The frequency, in hertz.
+            value: f64,
+            /// Half the sample rate, in hertz.
+            nyquist: f64,
+        } => "frequency {index} is {value} Hz: it must be between 0 and {nyquist} Hz, half the \
+            sample rate",
+        /// An option of a search for lines that is not possible.
+        Option {
+            /// Its name.
+            name: &'static str,
+            /// The value given.
+            value: f64,
+        } => "the {name} of {value} is not possible",
+        /// The frequencies do not ascend.
+        FrequencyOrder {
+            /// Index of the offending frequency.
+            index: usize,
+            /// The frequency before it, in hertz.
+            previous: f64,
+            /// The offending frequency, in hertz.
+            value: f64,
+        } => "frequency {index} is {value} Hz, after {previous} Hz: frequencies must ascend",
     }
 }
 

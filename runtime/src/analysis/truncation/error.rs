@@ -1,75 +1,50 @@
 //! Why there is no curve.
 
-use core::fmt;
-
+use crate::errors::errors;
 use crate::integrate::IntegrationError;
 
-/// Why the error of truncated forms could not be found.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum TruncationError {
-    /// The model has no exact form of W to compare with.
-    NoExactForm,
-    /// As many numbers as the model has coordinates are needed.
-    Length {
-        /// The quantity that the numbers are.
-        what: &'static str,
-        /// Number of coordinates.
-        expected: usize,
-        /// Number given.
-        found: usize,
-    },
-    /// A number that is not usable: amplitudes and rates of sampling must be
-    /// positive, bounds not negative, all of them finite.
-    Value {
-        /// The quantity.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// Amplitudes do not grow.
-    Order {
-        /// An amplitude, rad.
-        before: f64,
-        /// The one after it, rad.
-        after: f64,
-    },
-    /// The differences of a sector do not oscillate about the hanging tree, so
-    /// that they have no amplitude.
-    NoFrequency {
-        /// Name of the sector.
-        sector: &'static str,
-        /// Mean square of its angular frequencies, 1/s².
-        square: f64,
-    },
-    /// A motion could not be followed to its end.
-    Integration(IntegrationError<f64>),
-}
-
-impl fmt::Display for TruncationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoExactForm => f.write_str("the model has no exact form of W to compare with"),
-            Self::Length {
-                what,
-                expected,
-                found,
-            } => write!(
-                f,
-                "{what}: the model has {expected} coordinates, but got {found} numbers"
-            ),
-            Self::Value { what, value } => write!(f, "{what} cannot be {value}"),
-            Self::Order { before, after } => write!(
-                f,
-                "amplitudes must grow, but {after} rad stands behind {before} rad"
-            ),
-            Self::NoFrequency { sector, square } => write!(
-                f,
-                "the differences of sector `{sector}` do not oscillate: the mean square of \
-                 their angular frequencies is {square} 1/s²"
-            ),
-            Self::Integration(_) => f.write_str("a motion was not followed to its end"),
-        }
+errors! {
+    /// Why the error of truncated forms could not be found.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum TruncationError {
+        /// The model has no exact form of W to compare with.
+        NoExactForm => "the model has no exact form of W to compare with",
+        /// As many numbers as the model has coordinates are needed.
+        Length {
+            /// The quantity that the numbers are.
+            what: &'static str,
+            /// Number of coordinates.
+            expected: usize,
+            /// Number given.
+            found: usize,
+        } => "{what}: the model has {expected} coordinates, but got {found} numbers",
+        /// A number that is not usable: amplitudes and rates of sampling must be
+        /// positive, bounds not negative, all of them finite.
+        Value {
+            /// The quantity.
+            what: &'static str,
+            /// Its value.
+            value: f64,
+        } => "{what} cannot be {value}",
+        /// Amplitudes do not grow.
+        Order {
+            /// An amplitude, rad.
+            before: f64,
+            /// The one after it, rad.
+            after: f64,
+        } => "amplitudes must grow, but {after} rad stands behind {before} rad",
+        /// The differences of a sector do not oscillate about the hanging tree, so
+        /// that they have no amplitude.
+        NoFrequency {
+            /// Name of the sector.
+            sector: &'static str,
+            /// Mean square of its angular frequencies, 1/s².
+            square: f64,
+        } => "the differences of sector `{sector}` do not oscillate: the mean square of their \
+            angular frequencies is {square} 1/s²",
+        /// A motion could not be followed to its end.
+        Integration(error: IntegrationError<f64>) => "a motion was not followed to its end",
     }
 }
 

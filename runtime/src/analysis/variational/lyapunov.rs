@@ -1,12 +1,12 @@
 //! Lyapunov exponents.
 
 use core::ops::ControlFlow;
-use std::fmt;
 
 use nalgebra::DMatrix;
 
 use super::{Linearised, Variational};
 use crate::analysis::statistics::Estimate;
+use crate::errors::errors;
 use crate::integrate::{IntegrationError, Integrator};
 use crate::system::State;
 
@@ -53,51 +53,33 @@ impl LyapunovSpectrum {
     }
 }
 
-/// Why there are no exponents.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum LyapunovError {
-    /// None, or more than the system has directions.
-    Count {
-        /// Exponents asked for.
-        count: usize,
-        /// Dimension of the system.
-        dimension: usize,
-    },
-    /// The interval is zero or not finite, or no interval counts.
-    Interval {
-        /// The interval given.
-        interval: f64,
-        /// The number of intervals given.
-        intervals: u32,
-    },
-    /// A deviation vanished, or left the range of numbers, between two
-    /// orthonormalisations: the interval is too long.
-    Degenerate {
-        /// End of the interval.
-        time: f64,
-    },
-    /// The integration failed.
-    Integration(IntegrationError<f64>),
-}
-
-impl fmt::Display for LyapunovError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Count { count, dimension } => write!(
-                f,
-                "{count} exponents asked for of a system of dimension {dimension}"
-            ),
-            Self::Interval {
-                interval,
-                intervals,
-            } => write!(f, "{intervals} intervals of {interval} s make no mean"),
-            Self::Degenerate { time } => write!(
-                f,
-                "a deviation has no direction any more at t = {time}: the interval is too long"
-            ),
-            Self::Integration(error) => error.fmt(f),
-        }
+errors! {
+    /// Why there are no exponents.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    pub enum LyapunovError {
+        /// None, or more than the system has directions.
+        Count {
+            /// Exponents asked for.
+            count: usize,
+            /// Dimension of the system.
+            dimension: usize,
+        } => "{count} exponents asked for of a system of dimension {dimension}",
+        /// The interval is zero or not finite, or no interval counts.
+        Interval {
+            /// The interval given.
+            interval: f64,
+            /// The number of intervals given.
+            intervals: u32,
+        } => "{intervals} intervals of {interval} s make no mean",
+        /// A deviation vanished, or left the range of numbers, between two
+        /// orthonormalisations: the interval is too long.
+        Degenerate {
+            /// End of the interval.
+            time: f64,
+        } => "a deviation has no direction any more at t = {time}: the interval is too long",
+        /// The integration failed.
+        Integration(error: IntegrationError<f64>) => "{error}",
     }
 }
 
