@@ -6,7 +6,7 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::approximate::{Approximation, Linear};
+use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear};
 use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
 use branched_pendulum::prelude::*;

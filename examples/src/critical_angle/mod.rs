@@ -26,7 +26,6 @@ use crate::program::Job;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    job.take_interruption();
     if arguments.trees {
         return trees::run(arguments, job);
     }
@@ -41,6 +40,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         let done = scans.len();
         let share = |share| progress.within(done, share);
         scans.push(Scan::new(arguments, friction, share)?);
+        job.take_interruption();
     }
     if scans.is_empty() {
         return Ok(());

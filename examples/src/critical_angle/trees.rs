@@ -185,6 +185,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             break;
         }
         thresholds.push(threshold(rule, arguments)?);
+        job.take_interruption();
         progress.next();
     }
     if thresholds.is_empty() {

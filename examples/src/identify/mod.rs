@@ -42,7 +42,6 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
     let measurement = Measurement::new::<M>(arguments)?;
     let study = Study::<M>::new(arguments, &measurement)?;
     let progress = job.progress(arguments.laws.len());
-    job.take_interruption();
     let mut outcomes = Vec::new();
     for &law in &arguments.laws {
         if job.is_interrupted() {
@@ -50,6 +49,7 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
         }
         progress.begin(law.name());
         outcomes.push(progress.ticking(|| study.outcome(law))?);
+        job.take_interruption();
         progress.next();
     }
     let Some(last) = outcomes.last() else {

@@ -13,9 +13,11 @@ pub(super) struct Interruption {
 
 // Nothing else is told between threads by these: relaxed order suffices.
 impl Interruption {
-    /// From now on the program takes the first request itself.
+    /// From now on the program takes the first request itself, unless it has come.
     pub(super) fn take(&self) {
-        self.taken.store(true, Ordering::Relaxed);
+        if self.signal().is_none() {
+            self.taken.store(true, Ordering::Relaxed);
+        }
     }
 
     /// Number of the signal that came, if one did and the program takes it.

@@ -212,9 +212,9 @@ impl Job {
         progress
     }
 
-    /// Takes Ctrl-C from now on: it ends the run no more, but
-    /// [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
-    /// then stops its work and writes what there is. A second one ends the run.
+    /// Takes Ctrl-C from now on, when there are results to write: it ends the run no more,
+    /// but [`is_interrupted`](Self::is_interrupted) says that it came, for a program that
+    /// then stops its work and writes them. A second one ends the run.
     pub fn take_interruption(&self) {
         self.interruption.take();
     }

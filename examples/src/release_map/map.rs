@@ -80,6 +80,7 @@ impl Map {
             };
             let grown = growth.in_lanes(&Ensemble::new(), &releases);
             map.grown.extend(grown.into_iter().map(Result::ok));
+            job.take_interruption();
             progress.advance(rows.len() as f64);
         }
         Ok(map)

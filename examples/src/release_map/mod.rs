@@ -27,7 +27,6 @@ use crate::program::Job;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    job.take_interruption();
     match (arguments.plane, arguments.scene) {
         (Plane::RatioEnergy, _) => {
             let map = map::over_ratios(arguments, job, |ratio| {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use branched_pendulum::approximate::{Approximation, Linear, LinearFrames, Switched};
+use branched_pendulum::approximate::{ForcedApproximation, Linear, LinearFrames, Switched};
 use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::UnderTorques;
@@ -122,7 +122,7 @@ impl<T: Real> Mover<T> for LinearFrames<T> {
     }
 }
 
-impl<T: Real, P: Forced<T>, A: Approximation<T>> Mover<T>
+impl<T: Real, P: Forced<T>, A: ForcedApproximation<T>> Mover<T>
     for Switched<UnderTorques<P, Vec<T>>, A, T>
 {
     fn advance(&mut self, torques: &[T]) {

@@ -78,7 +78,7 @@ const PROGRAMS: [Program; 13] = [
     },
     Program {
         path: env!("CARGO_BIN_EXE_release-map"),
-        arguments: &["--step", "30", "--span", "4"],
+        arguments: &["--step", "45", "--span", "1"],
     },
 ];
 

@@ -3,10 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::Approximation;
 use super::error::LinearError;
 use super::linear::Linear;
 use super::matrix::PreciseMatrix;
+use super::{Approximation, ForcedApproximation};
 use crate::scalar::{Double, Real, Scalar};
 
 /// A [`Linear`] model with its exact propagation by frames of one length.
@@ -256,12 +256,6 @@ impl<T: Real> Approximation<T> for LinearFrames<T> {
         self.state_into(state);
     }
 
-    fn step_under(&mut self, state: &mut [T], torques: &[T]) {
-        self.set_state(state);
-        self.advance_under(torques);
-        self.state_into(state);
-    }
-
     fn validity(&self, state: &[T]) -> T {
         let (error, amplitude) = self.estimate(state);
         if amplitude == T::ZERO {
@@ -273,6 +267,14 @@ impl<T: Real> Approximation<T> for LinearFrames<T> {
 
     fn error(&self, state: &[T]) -> T {
         self.estimate(state).0
+    }
+}
+
+impl<T: Real> ForcedApproximation<T> for LinearFrames<T> {
+    fn step_under(&mut self, state: &mut [T], torques: &[T]) {
+        self.set_state(state);
+        self.advance_under(torques);
+        self.state_into(state);
     }
 }
 

@@ -38,20 +38,23 @@ pub trait Approximation<T: Real> {
     /// Moves a state by one frame.
     fn step(&mut self, state: &mut [T]);
 
-    /// Moves a state by one frame under torques (N m) on each link that stay the same
-    /// during it.
-    fn step_under(&mut self, state: &mut [T], torques: &[T]);
-
     /// Returns an estimate of the error against the full model over the second that
     /// follows a state: the largest error of an angle, relative to the amplitude of all.
     /// Cheap: no evaluation of the full model.
     ///
-    /// [`NearlyInPhase`] says how its own compares with errors. For [`LinearFrames`] it is between 0.8 and 12 times the error, for amplitudes up to
-    /// 0.6 rad of the four trees of a test; too large where light links swing much more
-    /// than heavy ones do.
+    /// [`NearlyInPhase`] says how its own compares with errors. For [`LinearFrames`] it is
+    /// between 0.8 and 12 times the error, for amplitudes up to 0.6 rad of the four trees of
+    /// a test; too large where light links swing much more than heavy ones do.
     fn validity(&self, state: &[T]) -> T;
 
     /// Returns the same estimate as an angle, rad. Over other times than a second
     /// errors are as many times as large, as long as the amplitude is.
     fn error(&self, state: &[T]) -> T;
+}
+
+/// An [`Approximation`] that takes torques from outside.
+pub trait ForcedApproximation<T: Real>: Approximation<T> {
+    /// Moves a state by one frame under torques (N m) on each link that stay the same
+    /// during it. NaN where it cannot take them.
+    fn step_under(&mut self, state: &mut [T], torques: &[T]);
 }

@@ -3,18 +3,22 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::Approximation;
 use super::small_error::SmallError;
+use super::{Approximation, ForcedApproximation};
 use crate::integrate::{Frames, InputError};
 use crate::scalar::Real;
-use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
+use crate::system::{
+    DifferencePatterns, ForcedDifferences, Ode, SmallDifferences, SmallOde, SmallUnderTorques,
+    State,
+};
 
 /// A tree whose copies are nearly in phase, by the model of small differences that act
 /// back ([`SmallDifferences`]), in frames.
 ///
 /// Steps are those of [`Frames`] on angles and differences. What a state has of other
 /// differences than the [`DifferencePatterns`] is dropped by a step, and counts as an
-/// error. For models without a drive, whose time is not told.
+/// error. For models without a drive, whose time is not told. Models that take torques from
+/// outside move under them where [`under_torques`](NearlyInPhase::under_torques) made this.
 ///
 /// # Estimate of the error
 ///
@@ -76,8 +80,10 @@ use crate::system::{DifferencePatterns, SmallDifferences, SmallOde, State};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct NearlyInPhase<P, T> {
-    frames: Frames<SmallOde<P>, T>,
+pub struct NearlyInPhase<P, T, O = SmallOde<P>> {
+    /// That of `frames`, for the estimate.
+    model: P,
+    frames: Frames<O, T>,
     patterns: DifferencePatterns,
     frame: T,
     error: SmallError<T>,
@@ -85,9 +91,10 @@ pub struct NearlyInPhase<P, T> {
     small: Vec<T>,
 }
 
-impl<P: SmallDifferences<T>, T: Real> NearlyInPhase<P, T> {
-    /// A model in frames of `frame` (s), cut into sub-steps no longer than `sub_step` (s);
-    /// [`longest_sub_step`](crate::integrate::longest_sub_step) of the whole tree is one.
+impl<P: SmallDifferences<T> + Clone, T: Real> NearlyInPhase<P, T> {
+    /// A model, or a reference to one, in frames of `frame` (s), cut into sub-steps no
+    /// longer than `sub_step` (s); [`longest_sub_step`](crate::integrate::longest_sub_step)
+    /// of the whole tree is one.
     ///
     /// # Errors
     ///
@@ -97,6 +104,40 @@ impl<P: SmallDifferences<T>, T: Real> NearlyInPhase<P, T> {
         patterns: DifferencePatterns,
         sub_step: T,
         frame: T,
+    ) -> Result<Self, InputError<T>> {
+        let equations = SmallOde(model.clone());
+        Self::of(equations, model, patterns, [sub_step, frame])
+    }
+}
+
+impl<P: ForcedDifferences<T> + Clone, T: Real> NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>> {
+    /// A model that takes torques from outside: [`new`](NearlyInPhase::new) with
+    /// [`ForcedApproximation`].
+    ///
+    /// Torques that differ between copies in other ways than the patterns do, it cannot
+    /// take.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError`] if a length of time is not positive and finite.
+    pub fn under_torques(
+        model: P,
+        patterns: DifferencePatterns,
+        sub_step: T,
+        frame: T,
+    ) -> Result<Self, InputError<T>> {
+        let none = vec![T::ZERO; patterns.half()];
+        let equations = SmallUnderTorques::of(model.clone(), none);
+        Self::of(equations, model, patterns, [sub_step, frame])
+    }
+}
+
+impl<P: SmallDifferences<T>, T: Real, O: Ode<T>> NearlyInPhase<P, T, O> {
+    fn of(
+        equations: O,
+        model: P,
+        patterns: DifferencePatterns,
+        [sub_step, frame]: [T; 2],
     ) -> Result<Self, InputError<T>> {
         if !(frame.is_finite() && frame > T::ZERO) {
             return Err(InputError::Step {
@@ -108,7 +149,8 @@ impl<P: SmallDifferences<T>, T: Real> NearlyInPhase<P, T> {
         let rest = State::new(T::ZERO, small.clone());
         Ok(Self {
             error: SmallError::new(&model, &patterns),
-            frames: Frames::new(SmallOde(model), &rest, sub_step)?,
+            frames: Frames::new(equations, &rest, sub_step)?,
+            model,
             patterns,
             frame,
             small,
@@ -116,7 +158,7 @@ impl<P: SmallDifferences<T>, T: Real> NearlyInPhase<P, T> {
     }
 }
 
-impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
+impl<P: SmallDifferences<T>, T: Real, O: Ode<T>> Approximation<T> for NearlyInPhase<P, T, O> {
     fn frame(&self) -> T {
         self.frame
     }
@@ -132,21 +174,8 @@ impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
         self.patterns.whole_into(self.frames.state(), state);
     }
 
-    /// Torques from outside, which differ between copies in general, are not known to the
-    /// model: where one is not zero, the state is NaN.
-    fn step_under(&mut self, state: &mut [T], torques: &[T]) {
-        let none = torques.iter().all(|&torque| torque == T::ZERO);
-        if torques.len() == self.patterns.whole_links() && none {
-            self.step(state);
-        } else {
-            state.fill(T::NAN);
-        }
-    }
-
     fn validity(&self, state: &[T]) -> T {
-        let [error, amplitude] = self
-            .error
-            .estimate(self.frames.ode(), &self.patterns, state);
+        let [error, amplitude] = self.error.estimate(&self.model, &self.patterns, state);
         if error == T::ZERO {
             error
         } else {
@@ -155,9 +184,24 @@ impl<P: SmallDifferences<T>, T: Real> Approximation<T> for NearlyInPhase<P, T> {
     }
 
     fn error(&self, state: &[T]) -> T {
-        let [error, _] = self
-            .error
-            .estimate(self.frames.ode(), &self.patterns, state);
+        let [error, _] = self.error.estimate(&self.model, &self.patterns, state);
         error
+    }
+}
+
+impl<P: ForcedDifferences<T>, T: Real> ForcedApproximation<T>
+    for NearlyInPhase<P, T, SmallUnderTorques<P, Vec<T>>>
+{
+    fn step_under(&mut self, state: &mut [T], torques: &[T]) {
+        let parts = &mut self.small[..self.patterns.half()];
+        if !self.patterns.take_torques(torques, parts) {
+            state.fill(T::NAN);
+            return;
+        }
+        let held = self.frames.ode_mut().torques_mut();
+        self.patterns.torques_into(torques, held);
+        self.step(state);
+        // They act during this frame alone.
+        self.frames.ode_mut().torques_mut().fill(T::ZERO);
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use crate::scalar::{Real, Scalar};
-use crate::system::{DifferencePatterns, SmallDifferences, SmallOde};
+use crate::system::{DifferencePatterns, SmallDifferences};
 
 /// Growth of the error with the energy in phase beyond what lifts copies to the horizontal,
 /// and how far beyond it is known.
@@ -67,7 +67,7 @@ impl<T: Real> SmallError<T> {
     /// state of the whole tree.
     pub(super) fn estimate<P: SmallDifferences<T>>(
         &self,
-        SmallOde(model): &SmallOde<P>,
+        model: &P,
         patterns: &DifferencePatterns,
         state: &[T],
     ) -> [T; 2] {

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::Approximation;
+use super::{Approximation, ForcedApproximation};
 use crate::integrate::Frames;
 use crate::scalar::Real;
 use crate::system::{Forced, Ode, UnderTorques};
@@ -151,7 +151,7 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
                 self.log.approximate_frames += 1;
                 return;
             }
-            // Torques that are no numbers: the full model knows what to do.
+            // Torques that the approximation cannot take: the full model knows what to do.
             self.switch(false);
         }
         self.full.advance(frame);
@@ -180,7 +180,7 @@ impl<O: Ode<T>, A: Approximation<T>, T: Real> Switched<O, A, T> {
     }
 }
 
-impl<P: Forced<T>, A: Approximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
+impl<P: Forced<T>, A: ForcedApproximation<T>, T: Real> Switched<UnderTorques<P, Vec<T>>, A, T> {
     /// Moves on by a frame under torques (N m) that stay the same during it; torques of
     /// another number than links are none.
     pub fn advance_under(&mut self, torques: &[T]) {

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::{SmallDifferences, TransverseSector, WholeTree};
 use crate::errors::errors;
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// The differences of a [`SmallDifferences`] model in the whole tree: which copy has which
 /// weight e in θ + e δ.
@@ -184,10 +184,19 @@ impl DifferencePatterns {
     /// sums with the weights of the copies for the differences. Empty for another number.
     #[must_use]
     pub fn torques<T: Scalar>(&self, whole: &[T]) -> Vec<T> {
-        if whole.len() != self.places.len() {
-            return Vec::new();
-        }
         let mut torques = vec![T::from_f64(0.0); self.half()];
+        match self.torques_into(whole, &mut torques) {
+            true => torques,
+            false => Vec::new(),
+        }
+    }
+
+    /// Writes generalized torques on the model; nothing for another length, which is told.
+    pub(crate) fn torques_into<T: Scalar>(&self, whole: &[T], torques: &mut [T]) -> bool {
+        if whole.len() != self.places.len() || torques.len() != self.half() {
+            return false;
+        }
+        torques.fill(T::from_f64(0.0));
         for (index, (&(link, _), &torque)) in self.places.iter().zip(whole).enumerate() {
             torques[link] = torques[link] + torque;
             let mut offset = self.links;
@@ -199,18 +208,28 @@ impl DifferencePatterns {
                 offset += sector.links;
             }
         }
-        torques
+        true
+    }
+
+    /// Returns true if the model takes all of the torques on the whole tree's links: they
+    /// differ between copies as the patterns do, but for rounding. `parts` is memory for
+    /// [`half`](Self::half) numbers.
+    pub(crate) fn take_torques<T: Real>(&self, whole: &[T], parts: &mut [T]) -> bool {
+        if whole.len() != self.places.len() || parts.len() != self.half() {
+            return false;
+        }
+        parts.fill(T::ZERO);
+        self.project(|link, _| whole[link], parts);
+        let links = || whole.iter().enumerate();
+        let size = links().fold(T::ZERO, |size, (_, torque)| Real::max(size, torque.abs()));
+        let rounding = T::from_f64(8.0) * T::EPSILON * size;
+        links().all(|(link, &torque)| (torque - self.of_link(link, parts)).abs() <= rounding)
     }
 
     /// Number of angles and differences.
     pub(crate) fn half(&self) -> usize {
         let differences = self.patterns.iter().map(|pattern| pattern.sector.links);
         self.links + differences.sum::<usize>()
-    }
-
-    /// Number of links of the whole tree.
-    pub(crate) fn whole_links(&self) -> usize {
-        self.places.len()
     }
 
     /// Writes a state of the model; nothing for another length, which is told.

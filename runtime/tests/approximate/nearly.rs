@@ -1,10 +1,12 @@
 //! Copies nearly in phase, by frames, against the full model.
 
 use branched_pendulum::analysis::advice::{Advisor, Candidates, ModelForm, Wanted};
-use branched_pendulum::approximate::{Approximation, Linear, NearlyInPhase, Switched};
+use branched_pendulum::approximate::{
+    Approximation, ForcedApproximation, Linear, NearlyInPhase, Switched,
+};
 use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{DifferencePatterns, SmallOde};
+use branched_pendulum::system::{DifferencePatterns, SmallOde, UnderTorques};
 use branched_pendulum::{Cast, SmallDifferences};
 
 use crate::scenes::{BranchedSmall, BranchedSmallParameters, Tree, TreeSmall, branched};
@@ -179,13 +181,68 @@ fn what_the_model_does_not_know() {
         refused,
         Err(InputError::Step { name: "frame", .. })
     ));
-    let mut nearly = NearlyInPhase::new(&model, patterns, 0.01, FRAME).unwrap();
-    let mut state = [0.1, 0.2, 0.1, 0.0, 0.0, 0.0];
-    nearly.step_under(&mut state, &[0.0; 3]);
-    assert!(state.iter().all(|value| value.is_finite()));
-    nearly.step_under(&mut state, &[0.0, 0.1, 0.0]);
-    assert!(state.iter().all(|value| value.is_nan()));
+    let mut nearly = NearlyInPhase::under_torques(&model, patterns, 0.01, FRAME).unwrap();
     assert!(nearly.error(&[0.1; 5]).is_nan());
+    let mut state = [0.1, 0.2, 0.1, 0.0, 0.0, 0.0];
+    nearly.step_under(&mut state, &[0.0; 2]);
+    assert!(state.iter().all(|value| value.is_nan()));
+}
+
+/// Gusts that push one child more than the other: the error is what the estimate says, and
+/// it is gone with the gust.
+#[test]
+fn torques_act_during_their_frame() {
+    let (whole, model) = (branched(2e-3), branched_small(2e-3));
+    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
+    let mut nearly = NearlyInPhase::under_torques(&model, patterns, 1e-3, FRAME).unwrap();
+    let start = State::at_rest(0.0, &[0.1, 0.2, 0.2]);
+    let full = UnderTorques::of(&whole, vec![0.0; 3]);
+    let mut full = Frames::new(full, &start, 1e-3).unwrap();
+    let mut state = start.values.clone();
+    let (mut worst, mut estimate, mut apart) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for frame in 0..60 {
+        let gust = 4e-3 * (0.3 * f64::from(frame)).sin();
+        let torques = [0.02, gust, 0.4 * gust];
+        full.ode_mut().torques_mut().copy_from_slice(&torques);
+        full.advance(FRAME);
+        nearly.step_under(&mut state, &torques);
+        for (a, b) in full.state().iter().zip(&state).take(3) {
+            worst = worst.max((a - b).abs());
+        }
+        estimate = estimate.max(nearly.error(&state));
+        apart = apart.max((state[1] - state[2]).abs());
+    }
+    assert!(apart > 0.02, "{apart}");
+    assert!(
+        1e-9 < worst && worst < estimate && estimate < 1e-2,
+        "{worst} {estimate}"
+    );
+    // None is left over for the frames after.
+    let [mut one, mut other] = [state.clone(), state];
+    nearly.step(&mut one);
+    nearly.step_under(&mut other, &[0.0; 3]);
+    assert_eq!(one, other);
+}
+
+/// A push on one leaf of four is none that the pairs of all holders take alike: the full
+/// model takes it.
+#[test]
+fn torques_beyond_the_patterns_are_for_the_full_model() {
+    let (whole, model) = (Tree::<f64>::new(), TreeSmall::new());
+    let patterns = DifferencePatterns::of(&model, TreeSmall::WHOLE).unwrap();
+    let sub_step = longest_sub_step(&whole);
+    let nearly = NearlyInPhase::under_torques(&model, patterns, sub_step, FRAME).unwrap();
+    let full = UnderTorques::of(&whole, vec![0.0; 7]);
+    let full = Frames::new(full, &State::at_rest(0.0, &[0.0; 7]), sub_step).unwrap();
+    let mut switched = Switched::new(full, nearly, 1e-2, 1.0);
+    let alike = [1e-3, 2e-4, 2e-5, 1e-5, 1e-4, 2e-5, 1e-5];
+    let mut alone = alike;
+    alone[6] += 1e-5;
+    switched.advance_under(&alike);
+    assert_eq!(switched.log().approximate_frames, 1);
+    switched.advance_under(&alone);
+    assert_eq!(switched.log().full_frames, 1);
+    assert!(switched.state().iter().all(|value| value.is_finite()));
 }
 
 /// As a candidate it is right where differences are small, and wrong where they are not.

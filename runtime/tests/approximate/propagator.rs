@@ -1,6 +1,6 @@
 //! The propagation of a frame is the matrix exponential.
 
-use branched_pendulum::approximate::{Approximation, Linear, LinearError};
+use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear, LinearError};
 use branched_pendulum::prelude::*;
 
 use crate::scenes::{Free, Loops, Reed, Tree, branched};

@@ -19,7 +19,7 @@ pub struct Branched;
         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = friction) * 2
     ],
     in_phase(child),
-    emit(small),
+    emit(small, forces),
 )]
 pub struct BranchedSmall;
 
@@ -28,7 +28,7 @@ pub struct BranchedSmall;
     gravity = 9.80665,
     tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
         mass_ratio = 0.5, length_ratio = 0.7, friction = 2e-3, friction_ratio = 0.3),
-    emit(energies),
+    emit(energies, forces),
 )]
 pub struct Tree;
 
@@ -38,7 +38,7 @@ pub struct Tree;
     tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
         mass_ratio = 0.5, length_ratio = 0.7, friction = 2e-3, friction_ratio = 0.3),
     in_phase(tree),
-    emit(small),
+    emit(small, forces),
 )]
 pub struct TreeSmall;
 

@@ -111,6 +111,11 @@ impl<P, F> SmallUnderTorques<P, F> {
     pub fn of(model: P, torques: F) -> Self {
         Self { model, torques }
     }
+
+    /// Returns the torques, to change them.
+    pub fn torques_mut(&mut self) -> &mut F {
+        &mut self.torques
+    }
 }
 
 impl<P: fmt::Debug, F> fmt::Debug for SmallUnderTorques<P, F> {
