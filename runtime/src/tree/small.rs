@@ -221,13 +221,13 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
             let mut angles = [V::from_f64(0.0); STEP];
             match theta.get(first..first + STEP) {
                 Some(theta) => {
-                    for i in 0..STEP {
-                        angles[i] = V::splat(theta[i]);
+                    for (angle, &theta) in angles.iter_mut().zip(theta) {
+                        *angle = V::splat(theta);
                     }
                 }
                 None => {
-                    for i in 0..STEP {
-                        angles[i] = V::splat(at(theta, i.min(last)));
+                    for (i, angle) in angles.iter_mut().enumerate() {
+                        *angle = V::splat(at(theta, i.min(last)));
                     }
                 }
             }
