@@ -1,5 +1,6 @@
 //! Energies by scale: the class `ScaleBudget`.
 
+use branched_pendulum::tree::MOST_GENERATIONS;
 use branched_pendulum_trees::PendulumTree;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -52,6 +53,12 @@ impl ScaleBudget {
             return Err(PyValueError::new_err(text));
         };
         let scales = copies.len();
+        if scales > MOST_GENERATIONS {
+            let text = format!(
+                "the tree has {scales} generations, scales are known of at most {MOST_GENERATIONS}"
+            );
+            return Err(PyValueError::new_err(text));
+        }
         let mut shape = states.shape().to_vec();
         if shape.pop() != Some(2 * links) {
             let text = format!("the last axis of y must have {} numbers", 2 * links);

@@ -165,7 +165,7 @@ impl Tree {
     /// Returns energies (J) by scale, transfers between scales and powers on them (W), of each
     /// state of an array whose last axis is that of the components; `t` are the times (s) of
     /// the drive, one for all states or one for each. Trees whose links of one generation
-    /// differ have no scales.
+    /// differ have no scales, and those of trees of more than 34 generations are not known.
     #[pyo3(signature = (y, t = None))]
     fn budget(
         &self,

@@ -63,7 +63,7 @@ pub use bodies::{Bodies, Shape};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
-pub use scales::{ScaleEquations, ScaleTree};
+pub use scales::{MOST_GENERATIONS, ScaleEquations, ScaleTree};
 pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};

@@ -1,11 +1,15 @@
 //! Trees of some links, link by link: strips as short as theirs cost more to take through
 //! registers than they save.
 
+#![allow(unsafe_code)]
+
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
+use super::columns::Cells;
 use super::equations::{LinkEquations, LinkMotion, Row};
 use super::root::RootDrive;
+use super::sweep::add;
 use crate::scalar::{Scalar, at};
 use crate::simd::dispatch::in_fused_numbers;
 use crate::simd::{Kernel, Simd};
@@ -19,14 +23,24 @@ use crate::system::cast::put;
 /// [`Tree`](super::Tree) do; they add up in another order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmallTree<E, T> {
-    parents: Vec<u32>,
-    /// By link.
-    carries: Vec<bool>,
+    /// Each stands behind its parent.
+    links: Vec<SmallLink>,
     /// Rows of all links, one after the other.
     rows: Vec<T>,
     /// Acceleration of the root's pivot against gravity.
     root: [T; 2],
     equations: PhantomData<E>,
+}
+
+/// A link's place in a small tree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SmallLink {
+    /// Number of the parent; of the root 0.
+    parent: usize,
+    /// Others hang from it.
+    carries: bool,
+    /// No sibling stands behind it.
+    is_last: bool,
 }
 
 /// State of an evaluation: angles, angular velocities, and torques from outside where
@@ -49,14 +63,24 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
     /// a row of constants for each, and the acceleration of the root's pivot against
     /// gravity, in the unit of the equations.
     #[must_use]
-    pub fn new(parents: &[u32], rows: Vec<T>, root: [T; 2]) -> Self {
+    pub fn new(parents: &[u32], mut rows: Vec<T>, root: [T; 2]) -> Self {
         let mut carries = alloc::vec![false; parents.len()];
-        for &parent in parents.iter().skip(1) {
-            put(&mut carries, parent as usize, true);
+        let mut links = Vec::with_capacity(parents.len());
+        for (link, &parent) in parents.iter().enumerate().rev() {
+            // One that stands elsewhere would be no parent.
+            let parent = (parent as usize).min(link.saturating_sub(1));
+            let has = |link: usize| carries.get(link).copied().unwrap_or_default();
+            links.push(SmallLink {
+                parent,
+                carries: has(link),
+                is_last: !has(parent),
+            });
+            put(&mut carries, parent, true);
         }
+        links.reverse();
+        rows.resize(links.len() * Self::CONSTANTS, T::from_f64(0.0));
         Self {
-            parents: parents.to_vec(),
-            carries,
+            links,
             rows,
             root,
             equations: PhantomData,
@@ -67,8 +91,7 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SmallTree<E, S> {
         SmallTree {
-            parents: self.parents.clone(),
-            carries: self.carries.clone(),
+            links: self.links.clone(),
             rows: self.rows.iter().map(|&x| convert(x)).collect(),
             root: self.root.map(&convert),
             equations: PhantomData,
@@ -77,6 +100,8 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
 
     /// Writes the angular accelerations at one time of a drive: NaN for slices of another
     /// length than there are links, and under torques where the equations read none.
+    // With its caller, so that what is given goes through memory once.
+    #[inline(always)]
     pub fn accelerations_with(
         &self,
         workspace: &mut Workspace<T>,
@@ -84,42 +109,47 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
         states: LinkStates<'_, T>,
         alpha: &mut [T],
     ) {
-        let links = self.parents.len();
-        let torques = states.torques.map_or(links, <[T]>::len);
-        let lengths = [states.theta.len(), states.omega.len(), torques, alpha.len()];
-        if lengths != [links; 4] || (states.torques.is_some() && !E::FORCED) {
+        let links = self.links.len();
+        let LinkStates {
+            theta,
+            omega,
+            torques,
+        } = states;
+        let fits = |numbers: &[T]| numbers.len() == links;
+        let torques_fit = torques.is_none_or(|torques| E::FORCED && fits(torques));
+        if !(fits(theta) && fits(omega) && fits(alpha) && torques_fit) {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
-        let room = workspace.numbers(links * Self::ROOM);
         in_fused_numbers(OneState {
             tree: self,
-            drive,
+            drive: &drive,
             states,
-            room,
+            room: workspace.numbers(links * Self::ROOM),
             alpha,
         });
     }
 
-    const SUMS: usize = <E::Sums<T> as Row<T>>::LENGTH;
-    const CARRIED: usize = <E::Carried<T> as Row<T>>::LENGTH;
-    const ELIMINATION: usize = <E::Elimination<T> as Row<T>>::LENGTH;
+    const CONSTANTS: usize = <E::Constants<T> as Row<T>>::LENGTH;
 
     /// Sums of responses, in whose place a link's numbers for its children stand later.
-    const SHARED: usize = if Self::SUMS > Self::CARRIED {
-        Self::SUMS
-    } else {
-        Self::CARRIED
+    const SHARED: usize = {
+        let sums = <E::Sums<T> as Row<T>>::LENGTH;
+        let carried = <E::Carried<T> as Row<T>>::LENGTH;
+        if sums > carried { sums } else { carried }
     };
 
-    /// Numbers of a link: these, the elimination, sine and cosine.
-    const ROOM: usize = Self::SHARED + Self::ELIMINATION + 2;
+    /// Place of the sine and the cosine: behind these and the elimination.
+    const SINE: usize = Self::SHARED + <E::Elimination<T> as Row<T>>::LENGTH;
+
+    /// Numbers of a link.
+    const ROOM: usize = Self::SINE + 2;
 }
 
-/// One evaluation.
+/// One evaluation, whose slices fit the tree.
 struct OneState<'a, E, T> {
     tree: &'a SmallTree<E, T>,
-    drive: Option<RootDrive<T>>,
+    drive: &'a Option<RootDrive<T>>,
     states: LinkStates<'a, T>,
     room: &'a mut [T],
     alpha: &'a mut [T],
@@ -129,70 +159,157 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Simd<T>>(mut self) {
-        self.sines::<V>();
-        let links = self.tree.parents.len();
-        // Sums of responses start at zero.
-        for (link, carries) in self.tree.carries.iter().enumerate() {
-            if *carries {
-                let place = link * SmallTree::<E, T>::ROOM;
-                let sums = self.room.get_mut(place..place + SmallTree::<E, T>::SUMS);
-                sums.unwrap_or_default().fill(T::from_f64(0.0));
-            }
-        }
-        for link in (0..links).rev() {
-            self.up::<V>(link);
-        }
-        let above = RootDrive::above(self.tree.root, self.drive).map(V::splat);
-        for link in 0..links {
-            self.down::<V>(link, above);
+    fn run<V: Simd<T>>(self) {
+        const { assert!(V::LANES == 1) };
+        let (tree, states) = (self.tree, self.states);
+        let none = [T::from_f64(0.0)];
+        // Nobody writes to what is given.
+        let column = |numbers: &[T]| Cells::rows(numbers.as_ptr().cast_mut(), 1);
+        let width = SmallTree::<E, T>::ROOM;
+        let room = self.room.as_mut_ptr();
+        let links = LinkByLink::<E, T> {
+            links: &tree.links,
+            drive: self.drive,
+            constants: Cells::rows(tree.rows.as_ptr().cast_mut(), SmallTree::<E, T>::CONSTANTS),
+            theta: column(states.theta),
+            omega: column(states.omega),
+            torque: match states.torques {
+                Some(torques) => column(torques),
+                None => Cells::rows(none.as_ptr().cast_mut(), 0),
+            },
+            shared: Cells::rows(room, width),
+            elimination: Cells::rows(room.wrapping_add(SmallTree::<E, T>::SHARED), width),
+            sincos: Cells::rows(room.wrapping_add(SmallTree::<E, T>::SINE), width),
+            alpha: Cells::rows(self.alpha.as_mut_ptr(), 1),
+            equations: PhantomData,
+        };
+        let above = RootDrive::above(tree.root, *self.drive).map(V::splat);
+        // SAFETY: the tree has a row for each link, and slices and room are as long.
+        unsafe {
+            links.sines::<V>(states.theta);
+            links.up::<V>();
+            links.down::<V>(above);
         }
     }
 }
 
-impl<E: LinkEquations, T: Scalar> OneState<'_, E, T> {
-    /// Forms the sines and cosines.
+/// The ways through a tree, with places that were checked: asking for each would be as much
+/// as the mechanics.
+struct LinkByLink<'a, E, T> {
+    links: &'a [SmallLink],
+    drive: &'a Option<RootDrive<T>>,
+    constants: Cells<T>,
+    theta: Cells<T>,
+    omega: Cells<T>,
+    torque: Cells<T>,
+    shared: Cells<T>,
+    elimination: Cells<T>,
+    sincos: Cells<T>,
+    alpha: Cells<T>,
+    equations: PhantomData<E>,
+}
+
+// Of all functions: every cell has the numbers of all links, and a parent is one of them.
+impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
+    /// Forms the sines and cosines. The last angles may be those before once more.
     #[inline(always)]
-    fn sines<V: Simd<T>>(&mut self) {
-        let place = SmallTree::<E, T>::SHARED + SmallTree::<E, T>::ELIMINATION;
-        let rooms = self.room.chunks_mut(STEP * SmallTree::<E, T>::ROOM);
-        for (theta, room) in self.states.theta.chunks(STEP).zip(rooms) {
+    unsafe fn sines<V: Simd<T>>(&self, theta: &[T]) {
+        let last = theta.len().saturating_sub(1);
+        let mut start = 0;
+        while start < theta.len() {
+            let first = start.min(theta.len().saturating_sub(STEP));
             let mut angles = [V::from_f64(0.0); STEP];
-            for (angle, &theta) in angles.iter_mut().zip(theta) {
-                *angle = V::splat(theta);
+            match theta.get(first..first + STEP) {
+                Some(theta) => {
+                    for (angle, &theta) in angles.iter_mut().zip(theta) {
+                        *angle = V::splat(theta);
+                    }
+                }
+                None => {
+                    for (i, angle) in angles.iter_mut().enumerate() {
+                        *angle = V::splat(at(theta, i.min(last)));
+                    }
+                }
             }
             let (sines, cosines) = V::sin_cos_each(&angles);
-            let room = room.chunks_mut(SmallTree::<E, T>::ROOM);
-            for ((room, sine), cosine) in room.zip(sines).zip(cosines) {
-                put(room, place, sine.first());
-                put(room, place + 1, cosine.first());
+            for i in 0..STEP {
+                let link = (first + i).min(last);
+                // SAFETY: the caller's.
+                unsafe { self.sincos.write(link, &[sines[i], cosines[i]]) };
             }
+            start += STEP;
         }
     }
 
-    /// A row of numbers of a link from a place in its room on.
+    /// From the last link to the root: responses, added to the sums of the parents.
     #[inline(always)]
-    fn read<V: Simd<T>, R: Row<V>>(&self, link: usize, place: usize) -> R {
-        row::<T, V, R>(self.room, link * SmallTree::<E, T>::ROOM + place)
+    unsafe fn up<V: Simd<T>>(&self) {
+        for (link, &place) in self.links.iter().enumerate().rev() {
+            // SAFETY: the caller's.
+            let (constants, motion) =
+                unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
+            let response = if place.carries {
+                // SAFETY: the caller's.
+                let sums: E::Sums<V> = unsafe { self.shared.read(link) };
+                let (response, elimination) = E::inner(&constants, motion, sums);
+                // SAFETY: the caller's.
+                unsafe { self.elimination.write(link, &elimination) };
+                response
+            } else {
+                E::leaf(&constants, motion)
+            };
+            if link == 0 {
+                continue;
+            }
+            let parent = place.parent;
+            // SAFETY: the caller's.
+            let of_parent = unsafe { self.direction(parent) };
+            let mut sums = E::attach(&constants, of_parent, response);
+            if !place.is_last {
+                // SAFETY: the caller's.
+                add(&mut sums, &unsafe { self.shared.read(parent) });
+            }
+            // SAFETY: the caller's.
+            unsafe { self.shared.write(parent, &sums) };
+        }
     }
 
+    /// From the root to the last link: accelerations, and what parents hand to children.
     #[inline(always)]
-    fn write<V: Simd<T>, R: Row<V>>(&mut self, link: usize, place: usize, row: &R) {
-        let start = link * SmallTree::<E, T>::ROOM + place;
-        let Some(room) = self.room.get_mut(start..start + R::LENGTH) else {
-            return;
-        };
-        let mut i = 0;
-        while i < R::LENGTH {
-            room[i] = row.as_ref()[i].first();
-            i += 1;
+    unsafe fn down<V: Simd<T>>(&self, above: [V; 2]) {
+        for (link, &place) in self.links.iter().enumerate() {
+            // SAFETY: the caller's.
+            let (constants, motion) =
+                unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
+            let pivot = match link {
+                0 => above,
+                _ => {
+                    let parent = place.parent;
+                    // SAFETY: the caller's.
+                    let (of_parent, carried) =
+                        unsafe { (self.direction(parent), self.shared.read(parent)) };
+                    E::pivot(&constants, of_parent, carried)
+                }
+            };
+            let acceleration = if place.carries {
+                // SAFETY: the caller's.
+                let elimination = unsafe { self.elimination.read(link) };
+                let (acceleration, carried) = E::accelerate(&constants, motion, elimination, pivot);
+                // SAFETY: the caller's.
+                unsafe { self.shared.write(link, &carried) };
+                acceleration
+            } else {
+                E::accelerate_leaf(&constants, motion, pivot)
+            };
+            // SAFETY: the caller's.
+            unsafe { self.alpha.write(link, &[acceleration]) };
         }
     }
 
     #[inline(always)]
-    fn constants<V: Simd<T>>(&self, link: usize) -> E::Constants<V> {
-        let length = <E::Constants<V> as Row<V>>::LENGTH;
-        let mut row = row::<T, V, E::Constants<V>>(&self.tree.rows, link * length);
+    unsafe fn constants<V: Simd<T>>(&self, link: usize) -> E::Constants<V> {
+        // SAFETY: the caller's.
+        let mut row: E::Constants<V> = unsafe { self.constants.read(link) };
         if E::TORQUE
             && link == 0
             && let (Some(drive), Some(last)) = (self.drive, row.as_mut().last_mut())
@@ -202,109 +319,41 @@ impl<E: LinkEquations, T: Scalar> OneState<'_, E, T> {
         row
     }
 
+    /// The motion of a link, where what acts in its joint and from outside is left open.
     #[inline(always)]
-    fn parent(&self, link: usize) -> usize {
-        match self.tree.parents.get(link) {
-            Some(&parent) => parent as usize,
-            None => 0,
-        }
-    }
-
-    #[inline(always)]
-    fn motion<V: Simd<T>>(&self, link: usize) -> LinkMotion<V> {
-        let place = SmallTree::<E, T>::SHARED + SmallTree::<E, T>::ELIMINATION;
-        let [sine, cosine] = self.read::<V, [V; 2]>(link, place);
-        let LinkStates {
-            theta,
-            omega,
-            torques,
-        } = self.states;
-        let (mut joint_angle, mut joint_rate) = (at(theta, link), at(omega, link));
-        if E::JOINTS && link > 0 {
-            let parent = self.parent(link);
-            joint_angle = joint_angle - at(theta, parent);
-            joint_rate = joint_rate - at(omega, parent);
-        }
-        let outside_torque = match torques {
-            Some(torques) => at(torques, link),
-            None => T::from_f64(0.0),
-        };
+    unsafe fn direction<V: Simd<T>>(&self, link: usize) -> LinkMotion<V> {
+        // SAFETY: the caller's.
+        let [sine, cosine]: [V; 2] = unsafe { self.sincos.read(link) };
+        // SAFETY: the caller's.
+        let [omega]: [V; 1] = unsafe { self.omega.read(link) };
         LinkMotion {
             sine,
             cosine,
-            omega: V::splat(at(omega, link)),
-            joint_angle: V::splat(joint_angle),
-            joint_rate: V::splat(joint_rate),
-            outside_torque: V::splat(outside_torque),
+            omega,
+            joint_angle: omega,
+            joint_rate: omega,
+            outside_torque: omega,
             held: V::from_f64(0.0),
         }
     }
 
     #[inline(always)]
-    fn carries(&self, link: usize) -> bool {
-        self.tree.carries.get(link).copied().unwrap_or_default()
-    }
-
-    /// The response of a link, added to the sums of its parent.
-    #[inline(always)]
-    fn up<V: Simd<T>>(&mut self, link: usize) {
-        let (constants, motion) = (self.constants::<V>(link), self.motion::<V>(link));
-        let response = if self.carries(link) {
-            let sums = self.read::<V, E::Sums<V>>(link, 0);
-            let (response, elimination) = E::inner(&constants, motion, sums);
-            self.write(link, SmallTree::<E, T>::SHARED, &elimination);
-            response
-        } else {
-            E::leaf(&constants, motion)
-        };
-        if link == 0 {
-            return;
-        }
-        let parent = self.parent(link);
-        let attached = E::attach(&constants, self.motion::<V>(parent), response);
-        let mut sums = self.read::<V, E::Sums<V>>(parent, 0);
-        let mut i = 0;
-        while i < <E::Sums<V> as Row<V>>::LENGTH {
-            sums.as_mut()[i] = sums.as_ref()[i] + attached.as_ref()[i];
-            i += 1;
-        }
-        self.write(parent, 0, &sums);
-    }
-
-    /// The acceleration of a link, and what it hands to its children.
-    #[inline(always)]
-    fn down<V: Simd<T>>(&mut self, link: usize, above: [V; 2]) {
-        let (constants, motion) = (self.constants::<V>(link), self.motion::<V>(link));
-        let pivot = match link {
-            0 => above,
-            _ => {
-                let parent = self.parent(link);
-                let carried = self.read::<V, E::Carried<V>>(parent, 0);
-                E::pivot(&constants, self.motion::<V>(parent), carried)
+    unsafe fn motion<V: Simd<T>>(&self, link: usize, parent: usize) -> LinkMotion<V> {
+        // SAFETY: the caller's.
+        let mut motion: LinkMotion<V> = unsafe { self.direction(link) };
+        // SAFETY: the caller's.
+        [motion.outside_torque] = unsafe { self.torque.read(link) };
+        if E::JOINTS {
+            // SAFETY: the caller's.
+            [motion.joint_angle] = unsafe { self.theta.read(link) };
+            if link > 0 {
+                // SAFETY: the caller's.
+                let ([angle], [rate]): ([V; 1], [V; 1]) =
+                    unsafe { (self.theta.read(parent), self.omega.read(parent)) };
+                motion.joint_angle = motion.joint_angle - angle;
+                motion.joint_rate = motion.joint_rate - rate;
             }
-        };
-        let acceleration = if self.carries(link) {
-            let elimination = self.read::<V, E::Elimination<V>>(link, SmallTree::<E, T>::SHARED);
-            let (acceleration, carried) = E::accelerate(&constants, motion, elimination, pivot);
-            self.write(link, 0, &carried);
-            acceleration
-        } else {
-            E::accelerate_leaf(&constants, motion, pivot)
-        };
-        put(self.alpha, link, acceleration.first());
-    }
-}
-
-/// A row from a place in a list of numbers on; zeros where it is not there.
-#[inline(always)]
-fn row<T: Scalar, V: Simd<T>, R: Row<V>>(numbers: &[T], start: usize) -> R {
-    let mut row = R::filled(V::from_f64(0.0));
-    if let Some(numbers) = numbers.get(start..start + R::LENGTH) {
-        let mut i = 0;
-        while i < R::LENGTH {
-            row.as_mut()[i] = V::splat(numbers[i]);
-            i += 1;
         }
+        motion
     }
-    row
 }

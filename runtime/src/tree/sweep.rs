@@ -9,7 +9,7 @@ use super::block::SubtreeBlock;
 use super::memory::Storage;
 #[cfg(test)]
 pub(super) use passes::SweepKernel;
-pub(super) use passes::{Passes, Way, sweep};
+pub(super) use passes::{Passes, Way, add, sweep};
 pub(super) use strip::Output;
 pub(super) use view::View;
 

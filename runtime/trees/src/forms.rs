@@ -26,7 +26,7 @@ pub(crate) struct Ways<E, T> {
 /// Most links that are computed one by one, by form: from there on strips are faster
 /// (`costs_of_one_state` in the tests).
 const SMALL_STRAIGHT: usize = 40;
-const SMALL_GENERAL: usize = 100;
+const SMALL_GENERAL: usize = 20;
 
 impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     fn new(parents: &[u32], rows: Vec<T>, gravity: T, most: usize) -> Self {
@@ -70,6 +70,7 @@ impl<T: Scalar> Equations<T> {
     }
 
     /// Writes the accelerations at angles and angular velocities.
+    #[inline(always)]
     pub(crate) fn accelerate(
         &self,
         workspace: &mut Workspace<T>,
@@ -96,6 +97,7 @@ impl<T: Scalar> Equations<T> {
     }
 }
 
+#[inline(always)]
 fn accelerate<E: LinkEquations, T: Scalar>(
     ways: &Ways<E, T>,
     workspace: &mut Workspace<T>,

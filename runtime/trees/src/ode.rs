@@ -158,7 +158,7 @@ impl<'g, 'o, T: Scalar> Halves<'g, 'o, T> {
     /// None for slices of another length than two numbers a link: the rates are NaN then.
     #[inline(always)]
     fn of(links: usize, state: &'g [T], rates: &'o mut [T]) -> Option<Self> {
-        if [state.len(), rates.len()] != [2 * links; 2] {
+        if state.len() != 2 * links || rates.len() != 2 * links {
             rates.fill(T::from_f64(f64::NAN));
             return None;
         }

@@ -122,7 +122,8 @@ impl<T: Scalar> PendulumTree<T> {
     /// where the tree has no scales.
     ///
     /// Scale 0 is what all copies do together, scale s what those of generation s do against
-    /// each other. NaN for slices of another length than there are links.
+    /// each other. NaN for slices of another length than there are links, and of trees of more
+    /// than [`MOST_GENERATIONS`](branched_pendulum::tree::MOST_GENERATIONS).
     ///
     /// # Examples
     ///

@@ -105,6 +105,31 @@ macro_rules! make_stages {
     };
 }
 
+/// `write_sums!(out, row, terms; i, sum => value)` writes a value with the sum of a row to each
+/// component of `out`, two by two where numbers are single: states of pendulums are even, and
+/// the two share a register without asking first whether `out` is among the terms.
+macro_rules! write_sums {
+    ($out:ident, $row:expr, $terms:expr; $i:ident, $sum:ident => $value:expr) => {
+        let mut place = 0;
+        while place < $out.len() {
+            let $i = place;
+            let $sum = sum($row, $terms, $i);
+            let value = $value;
+            if const { size_of::<W>() <= size_of::<u64>() } && place + 1 < $out.len() {
+                let $i = place + 1;
+                let $sum = sum($row, $terms, $i);
+                let next = $value;
+                ($out[place], $out[place + 1]) = (value, next);
+                place += 2;
+            } else {
+                $out[place] = value;
+                place += 1;
+            }
+        }
+    };
+}
+pub(super) use write_sums;
+
 /// Row and node of a stage. The compiler asks for those of stages that the pair has
 /// not got, too, before it leaves out their code.
 const fn table_entry<M: EmbeddedPair>(stage: usize) -> (&'static [(usize, f64)], f64) {
@@ -179,9 +204,7 @@ impl<W: Scalar> StepStages<W> {
         let (before, rates) = self.rates.split_at_mut((STAGE - 1) * n);
         let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
         let terms = terms(row, before, n);
-        for i in 0..n {
-            stage[i] = span.step.mul_add(sum(row, &terms, i), start[i]);
-        }
+        write_sums!(stage, row, &terms; i, sum => span.step.mul_add(sum, start[i]));
         system.evaluate(STAGE, span.node(node), stage, &mut rates[..n])
     }
 
@@ -199,9 +222,7 @@ impl<W: Scalar> StepStages<W> {
                 (end[i], rest[i]) = two_sum(start[i], change);
             }
         } else {
-            for i in 0..n {
-                end[i] = step.mul_add(sum(row, &terms, i), start[i]);
-            }
+            write_sums!(end, row, &terms; i, sum => step.mul_add(sum, start[i]));
         }
     }
 

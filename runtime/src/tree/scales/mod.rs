@@ -30,6 +30,7 @@ use crate::simd::{Kernel, Simd};
 use crate::system::Workspace;
 use blocks::Pieces;
 use columns::{ALL, ScaleColumns};
+pub use shape::MOST_GENERATIONS;
 use shape::ScaleShape;
 
 /// Quantities whose parts are formed.
@@ -148,7 +149,7 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
     /// Computes all of the budget: of angles and angular velocities and, unless the third
     /// slice is empty, torques from outside, link by link as those of
     /// [`Scales`](crate::Scales); with the acceleration of the root's pivot and the torque on
-    /// the root.
+    /// the root. NaN of more than [`MOST_GENERATIONS`].
     pub fn budget_by_scale(
         &self,
         workspace: &mut Workspace<T>,

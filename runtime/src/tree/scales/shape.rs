@@ -5,8 +5,9 @@
 
 use crate::simd::WIDEST;
 
-/// Most generations: branches of two are then more links than an index counts.
-const MOST: usize = 34;
+/// Most generations of a tree whose energies are known by scale: budgets of deeper ones
+/// are NaN. Branches of two are then more links than an index counts.
+pub const MOST_GENERATIONS: usize = 34;
 
 /// A generation.
 #[derive(Clone, Copy, Default)]
@@ -25,7 +26,7 @@ pub(super) struct ScaleGeneration {
 /// The generations of a tree.
 #[derive(Clone, Copy)]
 pub(super) struct ScaleShape {
-    generations: [ScaleGeneration; MOST],
+    generations: [ScaleGeneration; MOST_GENERATIONS],
     count: usize,
     /// Number of links.
     pub(super) links: usize,
@@ -43,7 +44,7 @@ impl ScaleShape {
     /// copies, 1 for a whole tree. None where there are too many generations.
     pub(super) fn new(copies: impl ExactSizeIterator<Item = usize>) -> Option<Self> {
         let mut shape = Self {
-            generations: [ScaleGeneration::default(); MOST],
+            generations: [ScaleGeneration::default(); MOST_GENERATIONS],
             count: copies.len(),
             links: 0,
             column: 0,
@@ -51,7 +52,7 @@ impl ScaleShape {
             narrow: 0,
             filling: usize::MAX,
         };
-        if copies.len() == 0 || copies.len() > MOST {
+        if copies.len() == 0 || copies.len() > MOST_GENERATIONS {
             return None;
         }
         let mut count = 1;

@@ -356,7 +356,7 @@ const fn branching(copies: &[usize]) -> usize {
 // `map`, `from_fn` and iterators are not always inlined, must be, and are many lines
 // to compile.
 #[inline(always)]
-pub(super) fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
+pub(in crate::tree) fn add<V: Scalar, A: Row<V>>(sums: &mut A, terms: &A) {
     let mut i = 0;
     while i < A::LENGTH {
         sums.as_mut()[i] = sums.as_ref()[i] + terms.as_ref()[i];
