@@ -106,8 +106,7 @@ macro_rules! make_stages {
 }
 
 /// `write_sums!(out, row, terms; i, sum => value)` writes a value with the sum of a row to each
-/// component of `out`, two by two where numbers are single: states of pendulums are even, and
-/// the two share a register without asking first whether `out` is among the terms.
+/// component of `out`, two by two where numbers are single: they share a register.
 macro_rules! write_sums {
     ($out:ident, $row:expr, $terms:expr; $i:ident, $sum:ident => $value:expr) => {
         let mut place = 0;
@@ -118,8 +117,7 @@ macro_rules! write_sums {
             if const { size_of::<W>() <= size_of::<u64>() } && place + 1 < $out.len() {
                 let $i = place + 1;
                 let $sum = sum($row, $terms, $i);
-                let next = $value;
-                ($out[place], $out[place + 1]) = (value, next);
+                ($out[place], $out[place + 1]) = (value, $value);
                 place += 2;
             } else {
                 $out[place] = value;
@@ -390,7 +388,6 @@ pub(super) fn terms<'a, W>(
 }
 
 /// Component i of the sum of a row over the stages.
-///
 /// No closure takes part: those are functions of their own, which the compiler
 /// may leave without the instructions of the registers.
 #[inline(always)]
