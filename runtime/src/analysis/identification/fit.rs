@@ -14,6 +14,8 @@ pub struct Fit {
     pub identifiability: Identifiability,
     /// The states at the starts of the last stage's segments.
     pub starts: Vec<State<f64>>,
+    /// The last time of the record that was fitted, s.
+    pub(super) until: Option<f64>,
     /// The stages, from short segments to long ones.
     pub stages: Vec<StageReport>,
     /// Number of blocks of time from which the second kind of deviations is.
