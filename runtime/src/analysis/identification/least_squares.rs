@@ -13,6 +13,10 @@ const STEPS: usize = 100;
 /// only lead to the next one, and of the last.
 pub(super) const ROUGH: f64 = 1e-4;
 pub(super) const FULL: f64 = 2e-6;
+/// Steps that together gain a share of no more than this are a walk along a valley without end:
+/// a model that does not hold has such.
+const WALK: usize = 10;
+const WALKED: f64 = 1e-3;
 /// Share of the sum of squares that integration makes uncertain where a motion is long: a
 /// smaller loss after a step is none, and ends the iteration too.
 const UNCERTAIN: f64 = 1e-4;
@@ -177,9 +181,16 @@ impl FitStage {
         let count: usize = best.angles.iter().map(Vec::len).sum();
         let nothing = (count + task.frequencies.len()) as f64 * NOTHING * NOTHING;
         let mut lambda = DAMPING;
+        let mut before = f64::INFINITY;
         for step in 0..STEPS {
             if best.squares <= nothing || lambda > DAMPING_RANGE[1] {
                 return Some((best, step));
+            }
+            if step % WALK == 0 {
+                if before - best.squares <= WALKED * best.squares {
+                    return Some((best, step));
+                }
+                before = best.squares;
             }
             let Some((trial, residuals)) = self.step(task, &linear, lambda) else {
                 lambda *= MORE;
