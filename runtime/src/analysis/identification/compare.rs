@@ -92,7 +92,7 @@ impl<F: Family> Identification<F> {
         }
         let segments = split(record.times(), length);
         let starts = match task.segments_of(fit) {
-            Some((own, starts)) if own == segments => starts,
+            Some(own) if own == segments => fit.start_states(),
             _ => task.first_states(record, &globals, &segments)?,
         };
         let mut all = AngleErrors {

@@ -112,6 +112,12 @@ impl Fit {
         offset.map_or(0.0, |(_, offset)| *offset)
     }
 
+    /// The states at the starts of the segments.
+    pub(super) fn start_states(&self) -> Vec<Vec<f64>> {
+        let states = self.starts.iter().map(|start| start.values.clone());
+        states.collect()
+    }
+
     fn estimate(&self, name: &str) -> Option<&ParameterEstimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }

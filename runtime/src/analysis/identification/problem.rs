@@ -163,9 +163,9 @@ impl<F: Family> Identification<F> {
             *global = fit.value(name).unwrap_or(*global);
         }
         match (task.segments_of(fit), fit.stages.last()) {
-            (Some((segments, starts)), Some(last)) => {
+            (Some(segments), Some(last)) => {
                 self.check_unknowns(&task, &globals, &segments)?;
-                let stage = self.stage(&task, segments, starts, globals);
+                let stage = self.stage(&task, segments, fit.start_states(), globals);
                 self.lengthen(task, stage, last.length, record)
             }
             _ => {
