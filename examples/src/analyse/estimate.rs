@@ -38,6 +38,9 @@ pub struct Estimate<const N: usize> {
     /// Correlation of successive innovations in standard deviations, the largest; NaN where
     /// nothing is foretold.
     pub whiteness: f64,
+    /// Dampings that the equations of motion lack, 1/s, in the order of the coordinates; none
+    /// where none are sought.
+    pub dampings: Vec<f64>,
     /// The likeliest motion.
     pub motion: Vec<Motion<N>>,
 }
@@ -149,6 +152,7 @@ impl<const N: usize> Measured<'_, N> {
             energies,
             noise: found.noise,
             whiteness: found.whiteness,
+            dampings: found.dampings.clone(),
             motion: told(found.mean.clone()),
         }
     }

@@ -32,6 +32,8 @@ pub struct Smoothed<const N: usize> {
     /// Correlation of successive innovations, in standard deviations, the largest; NaN where
     /// nothing is foretold.
     pub whiteness: f64,
+    /// Dampings that the equations lack, 1/s, pattern by pattern; none where none are sought.
+    pub dampings: Vec<f64>,
 }
 
 /// Smooths each coordinate by itself.
@@ -53,20 +55,20 @@ pub fn one_by_one<const N: usize>(
         mean: times.map(|time| parted(series.mean(time))).collect(),
         noise: noise.unwrap_or(f64::NAN),
         whiteness: series.whiteness(),
+        dampings: Vec::new(),
         draw: Box::new(move |normal| series.draw(normal).into_iter().map(parted).collect()),
     })
 }
 
-/// Smooths by equations of motion, beginning from a motion near the true one. What they lack
-/// acts in the patterns `disturbances`.
+/// Smooths by equations of motion, beginning from a motion near the true one.
 ///
 /// # Errors
 /// [`SmoothingError`].
 pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
+    smoother: &ModelSmoother<N>,
     system: &L,
     record: Record<'_, N>,
     guess: &[Motion<N>],
-    disturbances: Vec<[f64; N]>,
 ) -> Result<Smoothed<N>, SmoothingError> {
     let flat = |[angles, rates]: &Motion<N>| -> [f64; D] {
         std::array::from_fn(|i| if i < N { angles[i] } else { rates[i - N] })
@@ -75,10 +77,6 @@ pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
         [0, N].map(|first| std::array::from_fn(|i| state[first + i]))
     };
     let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
-    let smoother = ModelSmoother {
-        disturbances,
-        ..ModelSmoother::default()
-    };
     let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
     let motion: SmoothedMotion<D> =
         smoother.smooth(&method, system, record.times, record.angles, &guess)?;
@@ -88,6 +86,7 @@ pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
             .collect(),
         noise: motion.noise(),
         whiteness: motion.whiteness(),
+        dampings: motion.dampings().to_vec(),
         draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
     })
 }

@@ -159,6 +159,17 @@ pub fn report<const N: usize>(
         _ => "  errors are those of the noise: what polynomials do not follow is not in them"
             .to_owned(),
     });
+    let dampings = names.coordinates.iter().zip(&estimate.dampings);
+    let dampings = dampings.filter(|(_, damping)| **damping != 0.0);
+    let dampings: Vec<String> = dampings
+        .map(|(name, damping)| format!("{damping:.3} /s of {name}"))
+        .collect();
+    if !dampings.is_empty() {
+        line(format!(
+            "  the equations lack a damping of {}",
+            dampings.join(", ")
+        ));
+    }
     if let Some(error) = power_error(source, estimate) {
         line(format!(
             "  true error of {power} {} (rms, of that of {power})",

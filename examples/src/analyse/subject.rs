@@ -1,7 +1,7 @@
 //! The pendulums that can be analysed.
 
-use branched_pendulum::analysis::SmoothingError;
 use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::{Cast, Parametric};
@@ -101,21 +101,25 @@ impl Subject<3> for Apparatus {
     }
 
     /// Forces that the model lacks act on the parent, on the children together and against each
-    /// other: friction on the last is far smaller.
+    /// other: friction on the last is far smaller. A damping may be among them, in each.
     fn by_model(
         &self,
         record: Record<'_, 3>,
         guess: &[Motion<3>],
     ) -> Result<Smoothed<3>, SmoothingError> {
-        let patterns = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]];
+        let smoother = ModelSmoother {
+            disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
+            damping: true,
+            ..ModelSmoother::default()
+        };
         match self.damped() {
             Some(model) => {
                 let system = linearised(AbsoluteAngles(model));
-                by_equations::<3, 6, _>(&system, record, guess, patterns)
+                by_equations::<3, 6, _>(&smoother, &system, record, guess)
             }
             None => {
                 let system = linearised(AbsoluteAngles(self.ideal()));
-                by_equations::<3, 6, _>(&system, record, guess, patterns)
+                by_equations::<3, 6, _>(&smoother, &system, record, guess)
             }
         }
     }
@@ -186,7 +190,11 @@ impl Subject<2> for TwoLinks {
         guess: &[Motion<2>],
     ) -> Result<Smoothed<2>, SmoothingError> {
         let system = linearised(AbsoluteAngles(&self.model));
-        let patterns = vec![[1.0, 0.0], [0.0, 1.0]];
-        by_equations::<2, 4, _>(&system, record, guess, patterns)
+        let smoother = ModelSmoother {
+            disturbances: vec![[1.0, 0.0], [0.0, 1.0]],
+            damping: true,
+            ..ModelSmoother::default()
+        };
+        by_equations::<2, 4, _>(&smoother, &system, record, guess)
     }
 }

@@ -105,13 +105,20 @@ fn the_right_model_is_worth_a_factor_ten_and_a_wrong_one_is_no_loss() {
     };
     let all = errors(&arguments, &[Way::Smoothness, Way::Model]);
     assert!(all[1] < 1e-3 && all[1] < 0.1 * all[0], "{all:?}");
-    for unmodelled in [1e-5, 3.5e-5] {
-        let arguments = Arguments {
-            unmodelled,
-            ..arguments.clone()
-        };
-        let all = errors(&arguments, &[Way::Smoothness, Way::Model]);
-        assert!(all[1] < all[0] && all[1] < 0.025, "{unmodelled} {all:?}");
+    for unmodelled in [1e-5, 3.5e-5, 1e-4] {
+        let [smoothness, model] = median(|seed| {
+            let arguments = Arguments {
+                unmodelled,
+                seed,
+                ..arguments.clone()
+            };
+            let all = errors(&arguments, &[Way::Smoothness, Way::Model]);
+            [all[0], all[1]]
+        });
+        assert!(
+            model < smoothness && model < 0.025,
+            "{unmodelled} {smoothness} {model}"
+        );
     }
 }
 
@@ -157,12 +164,19 @@ fn coverage(arguments: &Arguments, way: Way, cameras: u64, draws: usize) -> [f64
 
 fn assert_coverage(way: Way, cameras: u64, draws: usize) {
     for children in [0.0, 3.5e-5] {
-        let arguments = Arguments {
-            friction: Friction {
-                root: 0.0,
-                children,
+        // The equations of motion lack the friction.
+        let arguments = match way {
+            Way::Model => Arguments {
+                unmodelled: children,
+                ..Arguments::default()
             },
-            ..Arguments::default()
+            _ => Arguments {
+                friction: Friction {
+                    root: 0.0,
+                    children,
+                },
+                ..Arguments::default()
+            },
         };
         let all = coverage(&arguments, way, cameras, draws);
         let [parts @ .., closure] = all;
@@ -185,6 +199,13 @@ fn bars_of_energy_and_transfer_hold_what_they_say() {
 #[ignore = "some minutes"]
 fn bars_of_energy_and_transfer_hold_what_they_say_200_cameras() {
     assert_coverage(Way::Smoothness, 200, 100);
+}
+
+/// `cargo test -p branched-pendulum-examples --lib friction_that_equations_lack -- --ignored --nocapture`
+#[test]
+#[ignore = "some minutes"]
+fn bars_with_friction_that_equations_lack_200_cameras() {
+    assert_coverage(Way::Model, 200, 100);
 }
 
 /// The measured double pendulum, 16 s of it, every 10 ms: encoders of some 0.1 mrad, and an
@@ -293,7 +314,7 @@ fn median_errors(arguments: &Arguments, ways: &[Way]) -> Vec<f64> {
 /// `cargo test -p branched-pendulum-examples --lib tables_of --config 'profile.dev.package.branched-pendulum-examples.opt-level=2' -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
-fn tables_of_noise_geometry_and_friction() {
+fn tables_of_noise_and_geometry() {
     let ways = &[Way::Smoothness, Way::Polynomials, Way::Model];
     for rate in [60.0, 240.0, 1000.0] {
         for noise in [2e-4, 5e-4, 1e-3] {
@@ -324,6 +345,13 @@ fn tables_of_noise_geometry_and_friction() {
             );
         }
     }
+}
+
+/// The table of docs/measured.md for friction that the equations lack; see
+/// [`tables_of_noise_and_geometry`].
+#[test]
+#[ignore = "half a minute"]
+fn tables_of_friction() {
     for unmodelled in [1e-5, 3.5e-5, 1e-4] {
         for rate in [60.0, 240.0] {
             let arguments = Arguments {

@@ -42,13 +42,15 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
     let measurement = Measurement::new::<M>(arguments)?;
     let study = Study::<M>::new(arguments, &measurement)?;
     let progress = job.progress(arguments.laws.len());
-    let mut outcomes = Vec::new();
+    let mut outcomes: Vec<Outcome> = Vec::new();
     for &law in &arguments.laws {
         if job.is_interrupted() {
             break;
         }
         progress.begin(law.name());
-        outcomes.push(progress.ticking(|| study.outcome(law))?);
+        let poorer = outcomes.iter().rfind(|other| (other.law as u8) < law as u8);
+        let outcome = progress.ticking(|| study.outcome(law, poorer))?;
+        outcomes.push(outcome);
         job.take_interruption();
         progress.next();
     }

@@ -6,7 +6,7 @@ use branched_pendulum::analysis::identification::{
     AngleErrors, FamilyOf, Fit, Identification, IdentificationError, Shooting,
 };
 use branched_pendulum::analysis::variational::linearised;
-use branched_pendulum::analysis::{KinematicSmoother, bands};
+use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, bands};
 use branched_pendulum::prelude::AbsoluteAngles;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -34,6 +34,8 @@ pub struct Study<'a, M> {
 pub struct Outcome {
     /// The law.
     pub law: Law,
+    /// The fit of windows.
+    pub in_windows: Fit,
     /// The fit of one motion over the whole part that is fitted.
     pub fit: Fit,
     /// Errors of that motion, followed to the end of the record.
@@ -161,11 +163,11 @@ impl<'a, M: Described> Study<'a, M> {
         })
     }
 
-    /// Fits with one law.
+    /// Fits with one law, beginning where the fit with a poorer one has ended.
     ///
     /// # Errors
     /// [`Failure::Identification`].
-    pub fn outcome(&self, law: Law) -> Result<Outcome, Failure> {
+    pub fn outcome(&self, law: Law, poorer: Option<&Outcome>) -> Result<Outcome, Failure> {
         let (fitted, later) = (self.measurement.fitted(), self.measurement.later());
         let task = self.identification(law);
         let short = task.clone().with_shooting(Shooting {
@@ -173,8 +175,12 @@ impl<'a, M: Described> Study<'a, M> {
             longest: WINDOW,
             ..Shooting::default()
         });
-        let in_windows = short.fit(&fitted)?;
-        let fit = task.fit(&fitted)?;
+        let in_windows = match poorer {
+            Some(poorer) => short.fit_from(&poorer.in_windows, &fitted)?,
+            None => short.fit(&fitted)?,
+        };
+        // One motion goes on from windows.
+        let fit = task.fit_from(&in_windows, &fitted)?;
         Ok(Outcome {
             law,
             windows: [
@@ -182,6 +188,7 @@ impl<'a, M: Described> Study<'a, M> {
                 short.window_errors(&in_windows, &later, WINDOW)?,
             ],
             one_motion: task.errors(&fit, &self.measurement.record)?,
+            in_windows,
             fit,
         })
     }
@@ -230,7 +237,11 @@ impl<'a, M: Described> Study<'a, M> {
         let mut links = [[0.0; N]; N];
         (0..N).for_each(|link| links[link][link] = 1.0);
         let system = linearised(AbsoluteAngles(&tree));
-        let exact = by_equations::<N, D, _>(&system, record, &smooth.mean, links.to_vec())?;
+        let smoother = ModelSmoother {
+            disturbances: links.to_vec(),
+            ..ModelSmoother::default()
+        };
+        let exact = by_equations::<N, D, _>(&smoother, &system, record, &smooth.mean)?;
         let fitted = self
             .identification(outcome.law)
             .predict(&outcome.fit, times)?;
@@ -248,10 +259,14 @@ impl<'a, M: Described> Study<'a, M> {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
+    use clap::Parser;
+
     use super::super::arguments::{Arguments, Law};
     use super::super::scene::Chain;
     use super::super::source::Measurement;
-    use super::Study;
+    use super::{Outcome, Study};
     use crate::failure::Failure;
 
     #[test]
@@ -266,7 +281,7 @@ mod tests {
         };
         let measurement = Measurement::new::<Chain>(&arguments).unwrap();
         let study = Study::<Chain>::new(&arguments, &measurement).unwrap();
-        let outcome = study.outcome(Law::All).unwrap();
+        let outcome = study.outcome(Law::All, None).unwrap();
         for (name, truth) in measurement.truth.iter().flatten() {
             let Ok(estimate) = outcome.fit.determined(name) else {
                 continue;
@@ -284,6 +299,57 @@ mod tests {
         assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");
         let mismatch = energies.mismatch(&energies.by_equations);
         assert!(mismatch.largest[0] < 0.002, "{mismatch:?}");
+    }
+
+    /// All that `identify` computes of the measured chain, with the time of each part:
+    /// `cargo test --release -p branched-pendulum-examples --lib three_laws -- --ignored --nocapture`
+    #[test]
+    #[ignore = "half a minute"]
+    fn three_laws_of_friction_follow_one_another() {
+        let file = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../runtime/tests/identification/double-pendulum.csv"
+        );
+        let line = [
+            "identify",
+            file,
+            "--fit",
+            "60",
+            "--known",
+            "gravity=9.80858",
+        ];
+        let arguments = Arguments::parse_from(line);
+        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
+        let study = Study::<Chain>::new(&arguments, &measurement).unwrap();
+        let mut outcomes: Vec<Outcome> = Vec::new();
+        for &law in &arguments.laws {
+            let start = Instant::now();
+            let outcome = study.outcome(law, outcomes.last()).unwrap();
+            let [first, then] = outcome.windows.each_ref().map(|errors| errors.rms());
+            let one = &outcome.one_motion;
+            let [fitted, later] =
+                [(0.0, 60.0), (60.0, 81.0)].map(|(from, until)| one.rms_between(from, until));
+            let bounds = match law {
+                Law::Viscous => [1.35e-3, 1.05e-3, 0.1, 0.1],
+                Law::Coulomb => [1.2e-3, 0.7e-3, 0.03, 0.02],
+                Law::All => [0.45e-3, 0.32e-3, 3.5e-3, 6e-3],
+            };
+            let found = [first, then, fitted, later];
+            println!("{law:?} {found:.6?} in {:.1?}", start.elapsed());
+            for fit in [&outcome.in_windows, &outcome.fit] {
+                let stages = fit.stages.iter();
+                let steps: Vec<_> = stages.map(|stage| (stage.length, stage.steps)).collect();
+                println!("  {steps:?}");
+            }
+            let is_near = |(found, bound): (&f64, f64)| *found < bound;
+            assert!(found.iter().zip(bounds).all(is_near), "{law:?} {found:?}");
+            outcomes.push(outcome);
+        }
+        let start = Instant::now();
+        let energies = study.energies::<2, 4>(&outcomes[2]).unwrap();
+        let mismatch = energies.mismatch(&energies.by_equations);
+        println!("{mismatch:?} in {:.1?}", start.elapsed());
+        assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");
     }
 
     #[test]

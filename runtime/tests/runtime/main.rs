@@ -6,6 +6,7 @@
 mod accuracy;
 mod animation;
 mod continuation;
+mod damping;
 mod ensemble;
 mod events;
 mod failures;

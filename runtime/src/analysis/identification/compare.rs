@@ -91,7 +91,10 @@ impl<F: Family> Identification<F> {
             globals.extend(record.links.iter().map(of_link));
         }
         let segments = split(record.times(), length);
-        let starts = task.first_states(record, &globals, &segments)?;
+        let starts = match task.segments_of(fit) {
+            Some(own) if own == segments => fit.start_states(),
+            _ => task.first_states(record, &globals, &segments)?,
+        };
         let mut all = AngleErrors {
             times: record.times().to_vec(),
             links: record.links.iter().map(|link| link.name.clone()).collect(),

@@ -14,6 +14,8 @@ pub struct Fit {
     pub identifiability: Identifiability,
     /// The states at the starts of the last stage's segments.
     pub starts: Vec<State<f64>>,
+    /// The last time of the record that was fitted, s.
+    pub(super) until: Option<f64>,
     /// The stages, from short segments to long ones.
     pub stages: Vec<StageReport>,
     /// Number of blocks of time from which the second kind of deviations is.
@@ -108,6 +110,12 @@ impl Fit {
     pub fn offset(&self, link: &str) -> f64 {
         let offset = self.offsets.iter().find(|(name, _)| name == link);
         offset.map_or(0.0, |(_, offset)| *offset)
+    }
+
+    /// The states at the starts of the segments.
+    pub(super) fn start_states(&self) -> Vec<Vec<f64>> {
+        let states = self.starts.iter().map(|start| start.values.clone());
+        states.collect()
     }
 
     fn estimate(&self, name: &str) -> Option<&ParameterEstimate> {

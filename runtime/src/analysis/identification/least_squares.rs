@@ -13,6 +13,10 @@ const STEPS: usize = 100;
 /// only lead to the next one, and of the last.
 pub(super) const ROUGH: f64 = 1e-4;
 pub(super) const FULL: f64 = 2e-6;
+/// Steps that together gain a share of no more than this are a walk along a valley without end:
+/// a model that does not hold has such.
+const WALK: usize = 10;
+const WALKED: f64 = 1e-3;
 /// Share of the sum of squares that integration makes uncertain where a motion is long: a
 /// smaller loss after a step is none, and ends the iteration too.
 const UNCERTAIN: f64 = 1e-4;
@@ -43,9 +47,13 @@ pub(super) struct FitStage {
     pub(super) junction: Vec<f64>,
 }
 
-/// Residuals of a stage, in deviations: of angles, and the sum of squares of all.
+/// Residuals of a stage, in deviations.
 pub(super) struct Residuals {
+    /// Those of angles, segment by segment.
     pub(super) angles: Vec<Vec<f64>>,
+    /// States at the ends of segments.
+    ends: Vec<Vec<f64>>,
+    /// Sum of squares of all.
     pub(super) squares: f64,
 }
 
@@ -81,6 +89,7 @@ impl FitStage {
     pub(super) fn residuals(&self, task: &FitTask<'_>) -> Option<Residuals> {
         let mut squares = sum_of_squares(&task.frequency_residuals(&self.globals)?);
         let mut angles = Vec::with_capacity(self.segments.len());
+        let mut ends = Vec::with_capacity(self.segments.len());
         for (index, samples) in self.segments.iter().enumerate() {
             let (residuals, end) = task.shoot(&self.globals, &self.starts[index], samples)?;
             squares += sum_of_squares(&residuals);
@@ -90,15 +99,28 @@ impl FitStage {
                 let jumps = jumps.map(|((end, next), weight)| weight * (end - next));
                 squares += jumps.map(|jump| jump * jump).sum::<f64>();
             }
+            ends.push(end);
         }
         let is_finite = squares.is_finite();
-        is_finite.then_some(Residuals { angles, squares })
+        is_finite.then_some(Residuals {
+            angles,
+            ends,
+            squares,
+        })
     }
 
-    pub(super) fn linearise(&self, task: &FitTask<'_>) -> Option<LinearStage> {
+    pub(super) fn linearise(
+        &self,
+        task: &FitTask<'_>,
+        residuals: &Residuals,
+    ) -> Option<LinearStage> {
         let segments = self.segments.iter().zip(&self.starts);
+        let known = residuals.angles.iter().zip(&residuals.ends);
         let segments = segments
-            .map(|(samples, start)| task.linearise(&self.globals, &self.free, start, samples));
+            .zip(known)
+            .map(|((samples, start), (angles, end))| {
+                task.linearise(&self.globals, &self.free, start, samples, (angles, end))
+            });
         Some(LinearStage {
             segments: segments.collect::<Option<_>>()?,
             prior: task.frequency_rows(&self.globals, &self.free)?,
@@ -117,12 +139,15 @@ impl FitStage {
         choices: usize,
     ) -> Option<Solved> {
         let (mut before, mut steps) = (f64::INFINITY, 0);
+        let mut known = self.residuals(task)?;
         for choice in 1.. {
             self.free = (0..task.names.len()).collect();
-            let globals = self.eliminate(&self.linearise(task)?, None).globals;
+            let linear = self.linearise(task, &known)?;
+            let globals = self.eliminate(&linear, None).globals;
             let (_, held) = task.identifiability(&self.globals, &globals, 0.0, &[]);
             self.free.retain(|global| !held.contains(global));
-            let (residuals, more) = self.solve(task, settled)?;
+            let linear = linear.only(&self.free);
+            let (residuals, more) = self.solve_from(task, settled, known, linear)?;
             steps += more;
             if choice >= choices || residuals.squares > WORTH * before {
                 return Some(Solved {
@@ -132,6 +157,7 @@ impl FitStage {
                 });
             }
             before = residuals.squares;
+            known = residuals;
         }
         None
     }
@@ -140,14 +166,31 @@ impl FitStage {
     /// share `settled` of it. Returns the residuals there and the number of steps; none where
     /// there is no motion to begin with.
     pub(super) fn solve(&mut self, task: &FitTask<'_>, settled: f64) -> Option<(Residuals, usize)> {
-        let mut best = self.residuals(task)?;
+        let residuals = self.residuals(task)?;
+        let linear = self.linearise(task, &residuals)?;
+        self.solve_from(task, settled, residuals, linear)
+    }
+
+    fn solve_from(
+        &mut self,
+        task: &FitTask<'_>,
+        settled: f64,
+        mut best: Residuals,
+        mut linear: LinearStage,
+    ) -> Option<(Residuals, usize)> {
         let count: usize = best.angles.iter().map(Vec::len).sum();
         let nothing = (count + task.frequencies.len()) as f64 * NOTHING * NOTHING;
         let mut lambda = DAMPING;
-        let mut linear = self.linearise(task)?;
+        let mut before = f64::INFINITY;
         for step in 0..STEPS {
             if best.squares <= nothing || lambda > DAMPING_RANGE[1] {
                 return Some((best, step));
+            }
+            if step % WALK == 0 {
+                if before - best.squares <= WALKED * best.squares {
+                    return Some((best, step));
+                }
+                before = best.squares;
             }
             let Some((trial, residuals)) = self.step(task, &linear, lambda) else {
                 lambda *= MORE;
@@ -170,7 +213,7 @@ impl FitStage {
                 return Some((best, step + 1));
             }
             if gain > 0.0 {
-                linear = self.linearise(task)?;
+                linear = self.linearise(task, &best)?;
             }
         }
         Some((best, STEPS))
@@ -200,6 +243,17 @@ impl FitStage {
 }
 
 impl LinearStage {
+    /// The stage with some of the globals, all of which it has.
+    fn only(&self, globals: &[usize]) -> Self {
+        let last = self.prior.ncols() - 1;
+        let columns: Vec<usize> = globals.iter().copied().chain([last]).collect();
+        let segments = self.segments.iter();
+        Self {
+            segments: segments.map(|segment| segment.only(globals)).collect(),
+            prior: self.prior.select_columns(&columns),
+        }
+    }
+
     /// Damping in units of the columns' own lengths, which makes it independent of units.
     fn damping(&self, root: f64) -> Damping {
         let columns = self.prior.ncols() - 1;

@@ -1,5 +1,7 @@
 //! Known and unknown parameters, and how the unknown ones are looked for.
 
+use std::ops::Range;
+
 use super::error::IdentificationError;
 use super::family::Family;
 use super::fit::{Fit, StageReport};
@@ -142,20 +144,75 @@ impl<F: Family> Identification<F> {
     /// [`IdentificationError`]. What the data do not determine is no error: the fit tells it
     /// ([`Fit::identifiability`]).
     pub fn fit(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (mut task, globals) = self.task(record)?;
-        task.check_modes(&globals)?;
+        let (task, globals) = self.task(record)?;
+        let stage = self.first_stage(&task, record, globals)?;
+        self.lengthen(task, stage, self.shooting.first, record)
+    }
+
+    /// Finds the unknowns from a record, beginning where another fit has ended: with its values
+    /// of the unknowns that both have and, if it is one to the same times, with its segments
+    /// and their motions. Short segments lead on to one motion so, a law of friction to one
+    /// with more terms.
+    ///
+    /// # Errors
+    ///
+    /// As [`fit`](Self::fit).
+    pub fn fit_from(&self, fit: &Fit, record: &AngleRecord) -> Result<Fit, IdentificationError> {
+        let (task, mut globals) = self.task(record)?;
+        for (global, name) in globals.iter_mut().zip(&task.names) {
+            *global = fit.value(name).unwrap_or(*global);
+        }
+        match (task.segments_of(fit), fit.stages.last()) {
+            (Some(segments), Some(last)) => {
+                self.check_unknowns(&task, &globals, &segments)?;
+                let stage = self.stage(&task, segments, fit.start_states(), globals);
+                self.lengthen(task, stage, last.length, record)
+            }
+            _ => {
+                let stage = self.first_stage(&task, record, globals)?;
+                self.lengthen(task, stage, self.shooting.first, record)
+            }
+        }
+    }
+
+    /// The stage of first segments, whose motions begin as the data show them.
+    fn first_stage(
+        &self,
+        task: &FitTask<'_>,
+        record: &AngleRecord,
+        globals: Vec<f64>,
+    ) -> Result<FitStage, IdentificationError> {
         let segments = split(record.times(), self.shooting.first);
-        self.check_count(&task, &segments)?;
+        self.check_unknowns(task, &globals, &segments)?;
         let starts = task.first_states(record, &globals, &segments)?;
-        let mut stage = FitStage {
-            junction: self.junction(&task, &starts),
+        Ok(self.stage(task, segments, starts, globals))
+    }
+
+    fn stage(
+        &self,
+        task: &FitTask<'_>,
+        segments: Vec<Range<usize>>,
+        starts: Vec<Vec<f64>>,
+        globals: Vec<f64>,
+    ) -> FitStage {
+        FitStage {
+            junction: self.junction(task, &starts),
             segments,
             starts,
             globals,
             free: (0..task.names.len()).collect(),
-        };
+        }
+    }
+
+    /// Solves stage after stage, from one whose segments have this length (s) to the longest.
+    fn lengthen(
+        &self,
+        mut task: FitTask<'_>,
+        mut stage: FitStage,
+        mut length: f64,
+        record: &AngleRecord,
+    ) -> Result<Fit, IdentificationError> {
         let mut reports = Vec::new();
-        let mut length = self.shooting.first;
         loop {
             let is_last = stage.segments.len() <= 1 || 2.0 * length > self.shooting.longest;
             let (settled, loosened) = match is_last {

@@ -25,7 +25,8 @@ impl<F: Family> Identification<F> {
     ) -> Result<Fit, IdentificationError> {
         let times = record.times();
         stage.free = (0..task.names.len()).collect();
-        let linear = stage.linearise(task).ok_or_else(|| no_motion(record))?;
+        let linear = stage.linearise(task, residuals);
+        let linear = linear.ok_or_else(|| no_motion(record))?;
         let elimination = stage.eliminate(&linear, None);
         let triangle = elimination
             .globals
@@ -79,6 +80,7 @@ impl<F: Family> Identification<F> {
             starts: starts
                 .map(|(samples, start)| State::new(times[samples.start], start.clone()))
                 .collect(),
+            until: times.last().copied(),
             stages,
             blocks: blocks.map_or(0, |blocks| blocks.count()),
             impossible: self.family.check(&task.parameters(&stage.globals)).err(),

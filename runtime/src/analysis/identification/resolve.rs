@@ -118,11 +118,14 @@ impl<F: Family> Identification<F> {
         Ok((task, globals))
     }
 
-    pub(super) fn check_count(
+    /// Refuses more unknowns than there are data.
+    pub(super) fn check_unknowns(
         &self,
         task: &FitTask<'_>,
+        globals: &[f64],
         segments: &[Range<usize>],
     ) -> Result<(), IdentificationError> {
+        task.check_modes(globals)?;
         let angles: usize = segments.iter().map(|samples| task.count(samples)).sum();
         let found = angles + self.frequencies.len();
         let states = if segments.is_empty() {

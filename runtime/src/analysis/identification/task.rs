@@ -10,8 +10,9 @@ use super::sensitivity::Sensitivities;
 use crate::integrate::{Dop853, Options, Tolerance};
 use crate::system::{Ode, State};
 
-/// Relative tolerance of the derivatives: they give directions and bars, not the fit.
-const TOLERANCE_OF_COLUMNS: f64 = 1e-8;
+/// Relative tolerance of the derivatives and of the motion that they are derivatives of: they
+/// give directions and bars. How good a motion is, is told by one without derivatives.
+const TOLERANCE_OF_COLUMNS: f64 = 1e-7;
 
 /// Models, data and what is unknown. Unknown are *globals*, parameters and then offsets of
 /// angles, and the states at the starts of segments.
@@ -52,6 +53,20 @@ pub(super) struct LinearSegment {
     pub(super) data: DMatrix<f64>,
     /// One row a component of the state at the end; the last column is that component.
     pub(super) end: DMatrix<f64>,
+}
+
+impl LinearSegment {
+    /// The rows on columns of the start and of some of the globals.
+    pub(super) fn only(&self, globals: &[usize]) -> Self {
+        let n = self.end.nrows();
+        let last = self.end.ncols() - 1;
+        let globals = globals.iter().map(|global| n + global);
+        let columns: Vec<usize> = (0..n).chain(globals).chain([last]).collect();
+        Self {
+            data: self.data.select_columns(&columns),
+            end: self.end.select_columns(&columns),
+        }
+    }
 }
 
 impl FitTask<'_> {
@@ -101,12 +116,14 @@ impl FitTask<'_> {
     }
 
     /// Linearises a segment with respect to the state at its start and to these globals.
+    /// `residuals` and `reached` are what [`shoot`](Self::shoot) tells of it.
     pub(super) fn linearise(
         &self,
         globals: &[f64],
         free: &[usize],
         state: &[f64],
         samples: &Range<usize>,
+        (residuals, reached): (&[f64], &[f64]),
     ) -> Option<LinearSegment> {
         let n = self.dimension;
         let parameter = |&global: &usize| Some((*self.unknown.get(global)?, self.scales[global]));
@@ -114,24 +131,20 @@ impl FitTask<'_> {
         let width = n + unknown.len();
         let values = self.parameters(globals);
         let system = Sensitivities::new(self.family, n, &values, &unknown);
-        let tolerances = |size: usize| {
-            let mut all = vec![TOLERANCE_OF_COLUMNS; size];
-            all[..n].fill(self.tolerance);
-            Tolerance::PerComponent(all)
-        };
-        let size = n * (1 + width);
         let options = Options {
-            relative: tolerances(size),
-            absolute: tolerances(size),
-            ..Options::with_tolerance(self.tolerance)
+            absolute: Tolerance::Uniform(TOLERANCE_OF_COLUMNS),
+            ..Options::with_tolerance(TOLERANCE_OF_COLUMNS)
         };
         let last = n + free.len();
-        let mut data = DMatrix::zeros(self.count(samples), last + 1);
-        let mut row = 0;
+        let mut data = DMatrix::zeros(residuals.len(), last + 1);
+        let mut rows = residuals.iter().enumerate();
         let start = system.start(state);
         let end = self.follow(&system, options, start, samples, |sample, state| {
             for link in &self.links {
-                let Some(residual) = link.residual(sample, state, globals) else {
+                if link.angles[sample].is_none() {
+                    continue;
+                }
+                let Some((row, residual)) = rows.next() else {
                     continue;
                 };
                 for column in 0..width {
@@ -143,13 +156,12 @@ impl FitTask<'_> {
                     data[(row, n + column)] = link.weight * self.scales[offset];
                 }
                 data[(row, last)] = -residual;
-                row += 1;
             }
         })?;
         let end = DMatrix::from_fn(n, last + 1, |component, column| match column {
             column if column < width => end[n * (1 + column) + component],
             column if column < last => 0.0,
-            _ => end[component],
+            _ => reached[component],
         });
         let is_finite = data.iter().chain(end.iter()).all(|value| value.is_finite());
         is_finite.then_some(LinearSegment { data, end })

@@ -9,11 +9,13 @@ pub(super) struct Gaussian<const D: usize> {
     pub(super) variance: SMatrix<f64, D, D>,
 }
 
-/// Difference of a datum from the expected one, and its variance.
+/// Difference of a datum from the expected one, its variance, and what it moves the state by.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Innovation {
+pub(super) struct Innovation<const D: usize> {
     pub(super) value: f64,
     pub(super) variance: f64,
+    /// Change of the state for an innovation of one.
+    pub(super) gain: SVector<f64, D>,
 }
 
 impl<const D: usize> Gaussian<D> {
@@ -32,12 +34,14 @@ impl<const D: usize> Gaussian<D> {
     }
 
     /// Takes a datum of one component into account.
-    pub(super) fn update(&mut self, component: usize, datum: f64) -> Innovation {
+    pub(super) fn update(&mut self, component: usize, datum: f64) -> Innovation<D> {
+        let variance = self.variance[(component, component)] + 1.0;
+        let gain = self.variance.column(component) / variance;
         let innovation = Innovation {
             value: datum - self.mean[component],
-            variance: self.variance[(component, component)] + 1.0,
+            variance,
+            gain,
         };
-        let gain = self.variance.column(component) / innovation.variance;
         self.mean += gain * innovation.value;
         // Joseph's form, which stays positive.
         let mut kept = SMatrix::<f64, D, D>::identity();
@@ -151,6 +155,8 @@ pub(super) struct Innovations {
     pub(super) free: usize,
     /// Σ ln of the variances of the others.
     pub(super) logs: f64,
+    /// Number of constants that were fitted to them.
+    pub(super) constants: usize,
 }
 
 impl Innovations {
@@ -162,7 +168,7 @@ impl Innovations {
         }
     }
 
-    pub(super) fn push(&mut self, innovation: Innovation) {
+    pub(super) fn push<const D: usize>(&mut self, innovation: Innovation<D>) {
         if self.standard.len() >= self.free {
             self.logs += innovation.variance.ln();
         }
@@ -181,7 +187,8 @@ impl Innovations {
     }
 
     /// The logarithm of the likelihood but for a constant, for a given standard deviation of
-    /// the data or for the likeliest.
+    /// the data or for the likeliest, less what fitted constants have to gain (G. Schwarz,
+    /// *Estimating the dimension of a model*, Annals of Statistics 6 (1978)).
     pub(super) fn log_likelihood(&self, noise: Option<f64>) -> f64 {
         let count = self.used().len() as f64;
         let own = self.noise();
@@ -189,6 +196,6 @@ impl Innovations {
             None => count * own.ln(),
             Some(noise) => count * (noise.ln() + 0.5 * (own / noise).powi(2)),
         };
-        -0.5 * self.logs - fit
+        -0.5 * self.logs - fit - 0.5 * self.constants as f64 * count.ln()
     }
 }

@@ -13,6 +13,7 @@
 //! are smaller and slower than the angles, and what belongs to both is not noise of either.
 
 mod bands;
+mod constants;
 mod coordinates;
 mod error;
 mod gaussian;
@@ -20,6 +21,7 @@ mod integral;
 mod kinematic;
 mod likelihood;
 mod model;
+mod model_filter;
 mod polynomials;
 mod series;
 

@@ -3,13 +3,11 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::error::{SmoothingError, check_option, check_times, usual_interval};
-use super::gaussian::{Gaussian, Innovations, Step, smooth};
-use super::kinematic::DIFFUSE;
 use super::likelihood::climb;
+use super::model_filter::{ModelFilter, Solution};
 use super::series::{Scale, SmoothedMotion};
-use crate::analysis::variational::{Linearised, Variational, flow_jacobian};
+use crate::analysis::variational::{Linearised, Variational};
 use crate::integrate::Integrator;
-use crate::system::State;
 
 /// A smoother that knows the equations of motion: between times the state follows them but
 /// for white angular accelerations of a spectral density q, which stand for all that the
@@ -22,6 +20,10 @@ use crate::system::State;
 /// model lacks seldom acts on all angles alike: friction on the motion in phase is far larger
 /// than on a small difference of identical branches. [`disturbances`](Self::disturbances)
 /// tell such patterns apart, and each has a density of its own.
+///
+/// White accelerations stand for anything, and know nothing of friction: that its force is
+/// opposite to the velocity all the time. Where equations lack friction, or have too much,
+/// [`damping`](Self::damping) finds what is missing in a number for each pattern.
 ///
 /// # Examples
 ///
@@ -47,10 +49,12 @@ pub struct ModelSmoother<const N: usize> {
     /// Patterns of the angular accelerations, each with the likeliest density of its own;
     /// without any all angles are disturbed independently with one density.
     pub disturbances: Vec<[f64; N]>,
+    /// True finds for each of the first `N` patterns a damping γ that the equations lack, an
+    /// acceleration −γ times the part of the angular velocities in the pattern, where the
+    /// likelihood gains more by it than one more number does by itself (Schwarz's criterion).
+    pub damping: bool,
 }
 
-/// Steps of Gauss and Newton for one q at most.
-const ITERATIONS: usize = 12;
 /// Change of the angles, in deviations of the data, below which they end.
 const CONVERGED: f64 = 1e-3;
 /// That change where the likelihood alone is asked for.
@@ -103,24 +107,30 @@ impl<const N: usize> ModelSmoother<N> {
             times,
             data,
             unit: usual_interval(times),
+            noise: self.noise,
+            acceleration: self.acceleration,
             kinds: self.kinds(),
+            dampings: self.dampings(),
         };
         let cube = problem.unit.powi(3);
         let ratio = match (self.noise, self.acceleration) {
             (Some(noise), Some(q)) => Some(q * cube / (noise * noise)),
             _ => None,
         };
+        let start = Solution::start(guess);
         let solution = match ratio {
-            Some(ratio) => problem.solve(&[ratio.ln()], guess.to_vec(), CONVERGED)?,
-            None => self.likeliest(&problem, guess)?,
+            Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
+            None => self.likeliest(&problem, start)?,
         };
         let Solution {
             logs,
             steps,
             innovations,
+            constants,
+            effects,
             ..
         } = solution;
-        let noise = self.noise_of(&logs, cube, &innovations);
+        let noise = problem.noise_of(&logs, &innovations);
         let scale = Scale {
             noise,
             densities: logs
@@ -129,7 +139,11 @@ impl<const N: usize> ModelSmoother<N> {
                 .collect(),
             factors: SVector::repeat(1.0),
         };
-        Ok(SmoothedMotion::new(times, &steps, innovations, scale))
+        let dampings = constants.values.iter().take(problem.dampings.len());
+        let motion = SmoothedMotion::new(times, &steps, innovations, scale);
+        Ok(motion.with_dampings(dampings.copied().collect(), |back| {
+            constants.errors(back, &effects)
+        }))
     }
 
     fn check<const D: usize>(
@@ -177,40 +191,45 @@ impl<const N: usize> ModelSmoother<N> {
             .collect()
     }
 
-    /// The deviation of the data that goes with logarithms of ratios.
-    fn noise_of(&self, logs: &[f64], cube: f64, innovations: &Innovations) -> f64 {
-        match (self.noise, self.acceleration) {
-            (Some(noise), _) => noise,
-            (None, Some(q)) => (q * cube / logs.first().map_or(1.0, |log| log.exp())).sqrt(),
-            (None, None) => innovations.noise(),
+    /// Projections of the angular velocities on the patterns that may have a damping.
+    fn dampings(&self) -> Vec<SMatrix<f64, N, N>> {
+        if !self.damping {
+            return Vec::new();
         }
+        let angle = |of: usize| SVector::from_fn(|row, _| f64::from(u8::from(row == of)));
+        let patterns: Vec<SVector<f64, N>> = match self.disturbances.is_empty() {
+            true => (0..N).map(angle).collect(),
+            false => self.disturbances.iter().map(|p| (*p).into()).collect(),
+        };
+        let projection = |pattern: &SVector<f64, N>| {
+            let square = pattern.norm_squared().max(f64::MIN_POSITIVE);
+            pattern * pattern.transpose() / square
+        };
+        patterns.iter().take(N).map(projection).collect()
     }
 
     fn likeliest<const D: usize, L, M>(
         &self,
         problem: &ModelFilter<'_, N, L, M>,
-        guess: &[[f64; D]],
-    ) -> Result<Solution<D>, SmoothingError>
+        start: Solution<D, N>,
+    ) -> Result<Solution<D, N>, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
-        let cube = problem.unit.powi(3);
-        let likelihood = |logs: &[f64], innovations: &Innovations| {
-            innovations.log_likelihood(Some(self.noise_of(logs, cube, innovations)))
-        };
-        let of = |solution: &Solution<D>| likelihood(&solution.logs, &solution.innovations);
+        let of =
+            |solution: &Solution<D, N>| problem.likelihood(&solution.logs, &solution.innovations);
         let [low, high] = LOG_RATIOS;
         let mut log = high;
-        let mut best = problem.solve(&[log], guess.to_vec(), NEAR)?;
-        let mut motion = best.motion.clone();
+        let mut best = problem.solve(&[log], start, NEAR)?;
+        let mut last = best.clone();
         while log > low {
             log -= LOG_STEP;
             // A model that cannot follow the data any more has been trusted too far.
-            let Ok(next) = problem.solve(&[log], motion, NEAR) else {
+            let Ok(next) = problem.solve(&[log], last, NEAR) else {
                 break;
             };
-            motion = next.motion.clone();
+            last = next.clone();
             if of(&next) < of(&best) - HOPELESS {
                 break;
             }
@@ -224,164 +243,15 @@ impl<const N: usize> ModelSmoother<N> {
         }
         for search in 1..=SEARCHES {
             // The linearisation about the best motion serves its neighbours.
-            let linear = problem.linearise(&best.motion)?;
-            let near =
-                |logs: &[f64]| likelihood(logs, &problem.filter(logs, &best.motion, &linear).0);
+            let linear = problem.linearise(&best)?;
+            let near = |logs: &[f64]| {
+                let filtered = problem.filter(logs, &best.motion, &linear);
+                problem.likelihood(logs, &filtered.innovations)
+            };
             let logs = climb(near, best.logs.clone(), low, STEPS);
             let enough = if search < SEARCHES { NEAR } else { CONVERGED };
-            best = problem.solve(&logs, best.motion, enough)?;
+            best = problem.solve(&logs, best, enough)?;
         }
         Ok(best)
-    }
-}
-
-/// Data and the equations of what they were measured on.
-struct ModelFilter<'a, const N: usize, L, M> {
-    method: &'a M,
-    system: &'a L,
-    times: &'a [f64],
-    data: &'a [[Option<f64>; N]],
-    /// The usual interval, s.
-    unit: f64,
-    /// Covariances of the accelerations, of a density of 1 each.
-    kinds: Vec<SMatrix<f64, N, N>>,
-}
-
-/// The flow from each time to the next about a motion: where it leads, and its derivative.
-type Flow<const D: usize> = Vec<(SVector<f64, D>, SMatrix<f64, D, D>)>;
-
-/// The motion for given ratios q τ³/σ².
-struct Solution<const D: usize> {
-    /// Their logarithms: one for each kind of disturbance, or one for all.
-    logs: Vec<f64>,
-    motion: Vec<[f64; D]>,
-    steps: Vec<Step<D>>,
-    innovations: Innovations,
-}
-
-impl<const N: usize, L, M> ModelFilter<'_, N, L, M>
-where
-    L: Linearised<f64>,
-    M: for<'a> Integrator<f64, Variational<'a, L>>,
-{
-    /// Iterates from a motion to the likeliest one, until it changes by `converged`
-    /// deviations of the data.
-    fn solve<const D: usize>(
-        &self,
-        logs: &[f64],
-        mut motion: Vec<[f64; D]>,
-        converged: f64,
-    ) -> Result<Solution<D>, SmoothingError> {
-        for iteration in 1.. {
-            let flow = self.linearise(&motion)?;
-            let (innovations, steps) = self.filter(logs, &motion, &flow);
-            let (smoothed, _) = smooth(&steps);
-            let noise = innovations.noise();
-            let mut change = 0.0_f64;
-            for (old, new) in motion.iter_mut().zip(&smoothed) {
-                let new: [f64; D] = new.mean.into();
-                for (old, new) in old.iter().zip(&new).take(N) {
-                    // NaN does not pass as small.
-                    change = if (new - old).abs() <= change {
-                        change
-                    } else {
-                        (new - old).abs()
-                    };
-                }
-                *old = new;
-            }
-            if !change.is_finite() {
-                return Err(SmoothingError::Diverged);
-            }
-            if change <= converged * noise || iteration == ITERATIONS {
-                return Ok(Solution {
-                    logs: logs.to_vec(),
-                    motion,
-                    steps,
-                    innovations,
-                });
-            }
-        }
-        Err(SmoothingError::Diverged)
-    }
-
-    fn linearise<const D: usize>(&self, motion: &[[f64; D]]) -> Result<Flow<D>, SmoothingError> {
-        let ends = self.times.iter().skip(1);
-        let pairs = self.times.iter().zip(motion).zip(ends);
-        pairs
-            .map(|((&time, state), &end)| {
-                let start = State::new(time, state.to_vec());
-                let flow = flow_jacobian(self.method, self.system, &start, end);
-                let (end, columns) = flow.map_err(|_| SmoothingError::Diverged)?;
-                let derivative = SMatrix::from_column_slice(&columns);
-                Ok((SVector::from_column_slice(&end.values), derivative))
-            })
-            .collect()
-    }
-
-    fn filter<const D: usize>(
-        &self,
-        logs: &[f64],
-        motion: &[[f64; D]],
-        flow: &Flow<D>,
-    ) -> (Innovations, Vec<Step<D>>) {
-        let ratios = logs.iter().cycle().map(|log| log.exp());
-        let kinds = self.kinds.iter().zip(ratios);
-        let accelerations: SMatrix<f64, N, N> = kinds.map(|(kind, ratio)| kind * ratio).sum();
-        let mut innovations = Innovations::new(D);
-        let mut steps: Vec<Step<D>> = Vec::with_capacity(self.times.len());
-        for (index, row) in self.data.iter().enumerate() {
-            let (transition, predicted) = match (steps.last(), index.checked_sub(1)) {
-                (Some(last), Some(before)) => {
-                    let (end, transition) = &flow[before];
-                    let h = (self.times[index] - self.times[before]) / self.unit;
-                    let about = SVector::from(motion[before]);
-                    let mean = end + transition * (last.updated.mean - about);
-                    let noise = self.noise(&accelerations, h);
-                    (*transition, last.updated.step(mean, transition, &noise))
-                }
-                _ => (SMatrix::identity(), self.start(motion)),
-            };
-            let mut updated = predicted;
-            for (component, datum) in row.iter().enumerate() {
-                if let Some(datum) = *datum {
-                    innovations.push(updated.update(component, datum));
-                }
-            }
-            steps.push(Step {
-                transition,
-                predicted,
-                updated,
-            });
-        }
-        (innovations, steps)
-    }
-
-    /// The state before the first data: not known.
-    fn start<const D: usize>(&self, motion: &[[f64; D]]) -> Gaussian<D> {
-        let rates = DIFFUSE / (self.unit * self.unit);
-        Gaussian {
-            mean: motion.first().copied().unwrap_or([0.0; D]).into(),
-            variance: SMatrix::from_diagonal(&SVector::from_fn(|row, _| {
-                if row < N { DIFFUSE } else { rates }
-            })),
-        }
-    }
-
-    /// Variance that white accelerations add over h usual intervals.
-    fn noise<const D: usize>(
-        &self,
-        accelerations: &SMatrix<f64, N, N>,
-        h: f64,
-    ) -> SMatrix<f64, D, D> {
-        let unit = self.unit;
-        SMatrix::from_fn(|row, column| {
-            let part = match (row < N, column < N) {
-                (true, true) => h.powi(3) / 3.0,
-                (false, false) => h / (unit * unit),
-                _ => 0.5 * h * h / unit,
-            };
-            part * accelerations[(row % N, column % N)]
-        })
     }
 }

@@ -13,6 +13,7 @@ pub struct SmoothedMotion<const D: usize> {
     times: Vec<f64>,
     noise: f64,
     densities: Vec<f64>,
+    dampings: Vec<f64>,
     means: Vec<[f64; D]>,
     deviations: Vec<[f64; D]>,
     spread: Spread<D>,
@@ -28,6 +29,8 @@ enum Spread<const D: usize> {
         back: Vec<Back<D>>,
         /// Factors that take the smoother's state to the user's units.
         factors: SVector<f64, D>,
+        /// What independent errors of one deviation, which all states share, do at each time.
+        shared: Vec<Vec<SVector<f64, D>>>,
     },
     /// Each state a sum over data of independent errors.
     Sums {
@@ -86,9 +89,14 @@ impl<const D: usize> SmoothedMotion<D> {
             times: times.to_vec(),
             noise,
             densities,
+            dampings: Vec::new(),
             means: means.collect(),
             deviations: deviations.collect(),
-            spread: Spread::Steps { back, factors },
+            spread: Spread::Steps {
+                back,
+                factors,
+                shared: Vec::new(),
+            },
             innovations: innovations
                 .standard
                 .iter()
@@ -96,6 +104,35 @@ impl<const D: usize> SmoothedMotion<D> {
                 .collect(),
             free: innovations.free,
         }
+    }
+
+    /// The motion with dampings that were found with it. Their errors come to those of the
+    /// states: each is independent, and a series tells what one deviation of it does at each
+    /// time, for data of a standard deviation of 1.
+    pub(super) fn with_dampings(
+        mut self,
+        dampings: Vec<f64>,
+        errors: impl FnOnce(&[Back<D>]) -> Vec<Vec<SVector<f64, D>>>,
+    ) -> Self {
+        self.dampings = dampings;
+        let Spread::Steps {
+            back,
+            factors,
+            shared,
+        } = &mut self.spread
+        else {
+            return self;
+        };
+        *shared = errors(back);
+        for error in shared.iter() {
+            for (deviations, error) in self.deviations.iter_mut().zip(error) {
+                let error = self.noise * error.component_mul(factors);
+                for (deviation, error) in deviations.iter_mut().zip(&error) {
+                    *deviation = deviation.hypot(*error);
+                }
+            }
+        }
+        self
     }
 
     /// A motion whose states are sums of data with independent errors.
@@ -116,6 +153,7 @@ impl<const D: usize> SmoothedMotion<D> {
             times: times.to_vec(),
             noise,
             densities: Vec::new(),
+            dampings: Vec::new(),
             means: rows.iter().map(|row| row.sum(data).into()).collect(),
             deviations: rows.iter().map(|row| deviation(row).into()).collect(),
             spread: Spread::Sums {
@@ -143,6 +181,13 @@ impl<const D: usize> SmoothedMotion<D> {
     /// for each of its patterns; none for [`LocalPolynomials`](super::LocalPolynomials).
     pub fn densities(&self) -> &[f64] {
         &self.densities
+    }
+
+    /// Dampings (1/s) that the equations of motion lack, one for each pattern of a
+    /// [`ModelSmoother`](super::ModelSmoother) that looks for them: zero where the data do not
+    /// ask for one.
+    pub fn dampings(&self) -> &[f64] {
+        &self.dampings
     }
 
     /// Returns the components at a time, NaN beyond the last.
@@ -176,15 +221,26 @@ impl<const D: usize> SmoothedMotion<D> {
     /// `normal` gives independent numbers of a standard normal distribution.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<[f64; D]> {
         match &self.spread {
-            Spread::Steps { back, factors } => {
-                let mut motion = vec![[0.0; D]; back.len()];
+            Spread::Steps {
+                back,
+                factors,
+                shared,
+            } => {
+                let mut motion = vec![SVector::zeros(); back.len()];
+                for error in shared {
+                    let size = self.noise * normal();
+                    for (slot, error) in motion.iter_mut().zip(error) {
+                        *slot += size * error;
+                    }
+                }
                 let mut next = SVector::zeros();
                 for (slot, back) in motion.iter_mut().zip(back).rev() {
                     let kick = SVector::from_fn(|_, _| self.noise * normal());
                     next = back.offset + back.gain * next + back.root * kick;
-                    *slot = next.component_mul(factors).into();
+                    *slot += next;
                 }
-                motion
+                let told = motion.iter().map(|state| state.component_mul(factors));
+                told.map(Into::into).collect()
             }
             Spread::Sums { rows, data } => {
                 let errors: Vec<f64> = (0..*data).map(|_| self.noise * normal()).collect();

@@ -1,0 +1,127 @@
+//! Dampings that equations of motion lack, found by a smoother.
+
+use branched_pendulum::analysis::variational::WithDerivative;
+use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothedMotion};
+use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
+use branched_pendulum::system::{OdeFn, State};
+
+use super::normal::Normal;
+
+/// 10 s of a pendulum with this friction (1/s), 30 times a second, seen with 2 mrad of noise.
+struct Swing {
+    times: Vec<f64>,
+    truth: Vec<State<f64>>,
+}
+
+impl Swing {
+    fn new(friction: f64) -> Self {
+        let ode = OdeFn::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
+            rates[0] = y[1];
+            rates[1] = -14.7 * y[0].sin() - friction * y[1];
+        });
+        let times: Vec<f64> = (0..300).map(|i| f64::from(i) / 30.0).collect();
+        let method = Dop853::new(Options::with_tolerance(1e-13));
+        let truth = method.sample_to_vec(&ode, &State::at_rest(0.0, &[2.0]), &times);
+        Self {
+            truth: truth.unwrap(),
+            times,
+        }
+    }
+
+    /// Smooths by equations without friction.
+    fn smoothed(&self, seed: u64, damping: bool) -> SmoothedMotion<2> {
+        let ideal = WithDerivative::new(
+            OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+                rates[0] = y[1];
+                rates[1] = -14.7 * y[0].sin();
+            }),
+            |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
+                out[0] = v[1];
+                out[1] = -14.7 * y[0].cos() * v[0];
+            },
+        );
+        let mut normal = Normal(seed * 0x9e37_79b9);
+        let angles = self.truth.iter();
+        let angles: Vec<Option<f64>> = angles
+            .map(|state| Some(state.values[0] + 2e-3 * normal.next()))
+            .collect();
+        let rough = KinematicSmoother::default();
+        let rough = rough.smooth(&self.times, &angles).unwrap();
+        let guess = (0..self.times.len()).map(|i| [rough.mean(i)[0], rough.mean(i)[1]]);
+        let guess: Vec<[f64; 2]> = guess.collect();
+        let data: Vec<[Option<f64>; 1]> = angles.iter().map(|angle| [*angle]).collect();
+        let smoother = ModelSmoother {
+            damping,
+            ..ModelSmoother::default()
+        };
+        let method = Rk4::new(0.005);
+        smoother
+            .smooth(&method, &ideal, &self.times, &data, &guess)
+            .unwrap()
+    }
+
+    /// Errors of the velocity in its deviations, and as they are (rms).
+    fn errors(&self, motion: &SmoothedMotion<2>) -> (Vec<f64>, f64) {
+        let errors = self.truth.iter().enumerate();
+        let errors: Vec<[f64; 2]> = errors
+            .map(|(i, truth)| {
+                let error = motion.mean(i)[1] - truth.values[1];
+                [error / motion.deviation(i)[1], error]
+            })
+            .collect();
+        let squares: f64 = errors.iter().map(|[_, error]| error * error).sum();
+        let scaled = errors.iter().map(|[scaled, _]| *scaled).collect();
+        (scaled, (squares / self.times.len() as f64).sqrt())
+    }
+}
+
+#[test]
+fn a_damping_that_equations_lack_is_found_with_its_bars() {
+    let swing = Swing::new(0.05);
+    let (mut inside, mut gain) = (0, 0.0);
+    for seed in 1..=24 {
+        let motion = swing.smoothed(seed, true);
+        let [damping] = motion.dampings() else {
+            panic!("one pattern, one damping");
+        };
+        assert!((damping / 0.05 - 1.0).abs() < 0.05, "{damping}");
+        let (scaled, error) = swing.errors(&motion);
+        inside += scaled.iter().filter(|error| error.abs() < 1.96).count();
+        if seed <= 3 {
+            let white = swing.smoothed(seed, false);
+            assert!(white.dampings().is_empty());
+            gain += swing.errors(&white).1 / error / 3.0;
+        }
+    }
+    assert!(gain > 3.0, "{gain}");
+    // The errors of one record are those of three numbers.
+    let part = inside as f64 / (24 * swing.times.len()) as f64;
+    assert!((0.85..=0.995).contains(&part), "{part}");
+}
+
+#[test]
+fn right_equations_are_left_as_they_are() {
+    let swing = Swing::new(0.0);
+    let [plain, damped] = [false, true].map(|damping| swing.smoothed(5, damping));
+    assert_eq!(damped.dampings(), [0.0]);
+    for index in 0..swing.times.len() {
+        assert_eq!(plain.mean(index), damped.mean(index));
+        assert_eq!(plain.deviation(index), damped.deviation(index));
+    }
+}
+
+#[test]
+fn draws_have_the_errors_of_the_damping() {
+    let motion = Swing::new(0.05).smoothed(3, true);
+    let mut normal = Normal(17);
+    let draws: Vec<_> = (0..2000).map(|_| motion.draw(|| normal.next())).collect();
+    for index in [0, 150, 299] {
+        let (mean, deviation) = (motion.mean(index), motion.deviation(index));
+        for part in 0..2 {
+            let off = draws.iter().map(|draw| draw[index][part] - mean[part]);
+            let spread = (off.map(|off| off * off).sum::<f64>() / 2000.0).sqrt();
+            let ratio = spread / deviation[part];
+            assert!((ratio - 1.0).abs() < 0.08, "{index} {part} {ratio}");
+        }
+    }
+}
