@@ -54,7 +54,7 @@ pub enum Tree {
 }
 
 /// Laws of friction, each with those before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Law {
     /// Proportional to the rate, in every pivot.
     Viscous,

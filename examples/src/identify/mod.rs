@@ -48,7 +48,7 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
             break;
         }
         progress.begin(law.name());
-        let poorer = outcomes.iter().rfind(|other| (other.law as u8) < law as u8);
+        let poorer = outcomes.iter().rfind(|other| other.law < law);
         let outcome = progress.ticking(|| study.outcome(law, poorer))?;
         outcomes.push(outcome);
         job.take_interruption();
