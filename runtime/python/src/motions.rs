@@ -104,11 +104,12 @@ pub(crate) trait Motions: Send + Sync {
 
     fn smoothed_coordinates(&self) -> Coordinates;
 
-    /// Smooths measured angles by the equations of motion, beginning from states near the
-    /// true ones.
+    /// Smooths measured angles by the equations of motion, and by dampings that they lack
+    /// where these are looked for, beginning from states near the true ones.
     fn smooth(
         &self,
         noise: Option<f64>,
+        damping: bool,
         times: &[f64],
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
@@ -118,6 +119,7 @@ pub(crate) trait Motions: Send + Sync {
 /// A smoothing by equations of motion that is asked for.
 struct ModelSmoothing<'a> {
     noise: Option<f64>,
+    damping: bool,
     /// Patterns of the accelerations that the equations lack: those of single coordinates.
     patterns: &'a Coordinates,
     times: &'a [f64],
@@ -140,6 +142,7 @@ impl ModelSmoothing<'_> {
         let pattern = |coordinate: usize| std::array::from_fn(|link| links[link][coordinate]);
         let smoother = ModelSmoother {
             noise: self.noise,
+            damping: self.damping,
             disturbances: (0..N).map(pattern).collect(),
             ..ModelSmoother::<N>::default()
         };
@@ -154,6 +157,7 @@ impl ModelSmoothing<'_> {
             accelerations: None,
             noise: vec![motion.noise(); N],
             whiteness: motion.whiteness(),
+            dampings: motion.dampings().to_vec(),
             draw: Box::new(move |normal| motion.draw(normal).into_flattened()),
         })
     }
@@ -288,6 +292,7 @@ impl<M: Model> Motions for M {
     fn smooth(
         &self,
         noise: Option<f64>,
+        damping: bool,
         times: &[f64],
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
@@ -295,6 +300,7 @@ impl<M: Model> Motions for M {
         let system = &linearised(self.clone());
         let task = ModelSmoothing {
             noise,
+            damping,
             patterns: &Model::smoothed_coordinates(self),
             times,
             angles,

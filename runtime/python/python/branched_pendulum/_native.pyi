@@ -117,6 +117,7 @@ class Pendulum:
         theta: ArrayLike,
         method: Literal["kinematic", "polynomials", "equations"] = "kinematic",
         noise: float | None = None,
+        damping: bool = False,
     ) -> SmoothedMotion: ...
 
 @final
@@ -237,6 +238,8 @@ class SmoothedMotion:
     def noise(self) -> _Array: ...
     @property
     def whiteness(self) -> float: ...
+    @property
+    def dampings(self) -> _Array: ...
     def draws(self, count: int = 200, seed: int = 0) -> _Array: ...
     def estimate(
         self, function: Callable[[_Array], ArrayLike], count: int = 200, seed: int = 0
