@@ -34,11 +34,11 @@ cascade! {
     Cascade: emit(energies, positions),
 }
 cascade! {
-    /// The same, written out link by link.
+    /// That cascade, written out link by link.
     CascadeWrittenOut: code = unrolled,
 }
 cascade! {
-    /// The same with all copies in phase: six links.
+    /// That cascade with all copies in phase: six links.
     CascadeInPhase: in_phase(all), emit(taylor),
 }
 
@@ -62,10 +62,10 @@ branch! {
     Branch: emit(energies, positions, taylor),
 }
 branch! {
-    /// The same, in loops.
+    /// That branch, in loops.
     BranchLoops: code = loops,
 }
 branch! {
-    /// The same with all copies in phase: five links.
+    /// That branch with all copies in phase: five links.
     BranchInPhase: in_phase(all), emit(taylor),
 }

@@ -57,7 +57,7 @@ impl<T: Scalar> State<T> {
     /// fewer links after others have fallen off, which takes no velocity from those that
     /// stay. None where a link is not there.
     ///
-    /// What falls off takes its energy and momentum with it, and what stays keeps its
+    /// A part that falls off takes its energy and momentum with it, and what stays keeps its
     /// velocities. What lands at rest and sticks leaves the momenta as they are instead:
     /// `new.velocities(theta, &old.momenta(theta, omega))` with `emit(momenta)`.
     ///

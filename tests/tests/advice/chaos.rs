@@ -110,7 +110,7 @@ impl Candidate for Still {
     }
 }
 
-/// What hangs at rest needs no model; what moves does.
+/// A tree that hangs at rest needs no model; one that moves does.
 #[test]
 fn anything_may_be_a_candidate() {
     let paper = Paper::new();

@@ -53,7 +53,7 @@ fn a_fruit_falls() {
     assert!((whole - rest - of_fruit).abs() < 1e-14);
 }
 
-/// What lands at rest and sticks leaves all momenta as they are, and takes energy.
+/// A part that lands at rest and sticks leaves all momenta as they are, and takes energy.
 #[test]
 fn snow_lands() {
     let (before, after) = (laden(0.2), laden(0.5));

@@ -245,7 +245,7 @@ struct Held;
 #[branched_pendulum(gravity = 9.80665, stick: rod(mass = 0.1, length = 0.3, drag = 1e-3))]
 struct Alone;
 
-/// What hangs from a link at rest hangs from the ground; the hand carries the weights.
+/// Links that hang from one at rest hang from the ground; the hand carries the weights.
 #[test]
 fn a_link_held_at_rest_is_ground() {
     let (held, alone) = (Held::new(), Alone::new());

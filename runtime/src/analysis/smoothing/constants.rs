@@ -8,10 +8,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::gaussian::{Back, Innovations, Step};
 
-/// What constants of one do to a state: a column each.
+/// Changes of a state by constants of one: a column each.
 pub(super) type Effects<const D: usize, const K: usize> = SMatrix<f64, D, K>;
 
-/// What constants of one do at one time, before and after its data.
+/// Changes of the state at one time, before and after its data.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepEffects<const D: usize, const K: usize> {
     pub(super) predicted: Effects<D, K>,
@@ -117,8 +117,8 @@ impl<const K: usize> FittedConstants<K> {
         }
     }
 
-    /// What independent errors of one deviation of the constants do to the smoothed states: a
-    /// series each.
+    /// Returns the changes of the smoothed states by independent errors of one deviation of the
+    /// constants: a series each.
     pub(super) fn errors<const D: usize>(
         &self,
         back: &[Back<D>],

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::error::{SmoothingError, check_option, check_times, usual_interval};
 use super::likelihood::climb;
-use super::model_filter::{ModelFilter, Solution};
+use super::model_filter::{ModelFilter, SmoothingSolution};
 use super::series::{Scale, SmoothedMotion};
 use crate::analysis::variational::{Linearised, Variational};
 use crate::integrate::Integrator;
@@ -117,12 +117,12 @@ impl<const N: usize> ModelSmoother<N> {
             (Some(noise), Some(q)) => Some(q * cube / (noise * noise)),
             _ => None,
         };
-        let start = Solution::start(guess);
+        let start = SmoothingSolution::start(guess);
         let solution = match ratio {
             Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
             None => self.likeliest(&problem, start)?,
         };
-        let Solution {
+        let SmoothingSolution {
             logs,
             steps,
             innovations,
@@ -211,14 +211,15 @@ impl<const N: usize> ModelSmoother<N> {
     fn likeliest<const D: usize, L, M>(
         &self,
         problem: &ModelFilter<'_, N, L, M>,
-        start: Solution<D, N>,
-    ) -> Result<Solution<D, N>, SmoothingError>
+        start: SmoothingSolution<D, N>,
+    ) -> Result<SmoothingSolution<D, N>, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
-        let of =
-            |solution: &Solution<D, N>| problem.likelihood(&solution.logs, &solution.innovations);
+        let of = |solution: &SmoothingSolution<D, N>| {
+            problem.likelihood(&solution.logs, &solution.innovations)
+        };
         let [low, high] = LOG_RATIOS;
         let mut log = high;
         let mut best = problem.solve(&[log], start, NEAR)?;

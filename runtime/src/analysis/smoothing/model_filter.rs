@@ -27,7 +27,7 @@ pub(super) struct ModelFilter<'a, const N: usize, L, M> {
     pub(super) acceleration: Option<f64>,
     /// Covariances of the accelerations, of a density of 1 each.
     pub(super) kinds: Vec<SMatrix<f64, N, N>>,
-    /// What takes angular velocities to those that a damping acts on, for each of them.
+    /// Projections of angular velocities on those that a damping acts on, for each of them.
     pub(super) dampings: Vec<SMatrix<f64, N, N>>,
 }
 
@@ -37,11 +37,11 @@ pub(super) struct LinearFlow<const D: usize, const N: usize> {
     end: SVector<f64, D>,
     /// Its derivative, with dampings as they are.
     transition: SMatrix<f64, D, D>,
-    /// What dampings of one add to the end.
+    /// Changes of the end by dampings of one.
     effects: Effects<D, N>,
 }
 
-/// What a filter finds.
+/// Findings of a filter.
 pub(super) struct Filtered<const D: usize, const N: usize> {
     pub(super) innovations: Innovations,
     steps: Vec<Step<D>>,
@@ -51,7 +51,7 @@ pub(super) struct Filtered<const D: usize, const N: usize> {
 
 /// The motion for given ratios q τ³/σ².
 #[derive(Clone)]
-pub(super) struct Solution<const D: usize, const N: usize> {
+pub(super) struct SmoothingSolution<const D: usize, const N: usize> {
     /// Their logarithms: one for each kind of disturbance, or one for all.
     pub(super) logs: Vec<f64>,
     pub(super) motion: Vec<[f64; D]>,
@@ -62,7 +62,7 @@ pub(super) struct Solution<const D: usize, const N: usize> {
     pub(super) effects: Vec<StepEffects<D, N>>,
 }
 
-impl<const D: usize, const N: usize> Solution<D, N> {
+impl<const D: usize, const N: usize> SmoothingSolution<D, N> {
     /// A motion to begin with.
     pub(super) fn start(motion: &[[f64; D]]) -> Self {
         Self {
@@ -103,9 +103,9 @@ where
     pub(super) fn solve<const D: usize>(
         &self,
         logs: &[f64],
-        mut from: Solution<D, N>,
+        mut from: SmoothingSolution<D, N>,
         converged: f64,
-    ) -> Result<Solution<D, N>, SmoothingError> {
+    ) -> Result<SmoothingSolution<D, N>, SmoothingError> {
         for iteration in 1.. {
             let flow = self.linearise(&from)?;
             let Filtered {
@@ -133,7 +133,7 @@ where
             if !change.is_finite() {
                 return Err(SmoothingError::Diverged);
             }
-            from = Solution {
+            from = SmoothingSolution {
                 logs: logs.to_vec(),
                 motion,
                 steps,
@@ -150,7 +150,7 @@ where
 
     pub(super) fn linearise<const D: usize>(
         &self,
-        about: &Solution<D, N>,
+        about: &SmoothingSolution<D, N>,
     ) -> Result<Vec<LinearFlow<D, N>>, SmoothingError> {
         let ends = self.times.iter().zip(&about.motion).skip(1);
         let pairs = self.times.iter().zip(&about.motion).zip(ends);
@@ -177,7 +177,7 @@ where
             .collect()
     }
 
-    /// What dampings of one do over an interval on which the velocity is a line.
+    /// Returns the changes by dampings of one over an interval on which the velocity is a line.
     fn damped<const D: usize>(&self, h: f64, start: &[f64; D], end: &[f64; D]) -> Effects<D, N> {
         let mut effects = SMatrix::zeros();
         for (column, projection) in self.dampings.iter().enumerate() {

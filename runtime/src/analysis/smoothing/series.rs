@@ -29,7 +29,7 @@ enum Spread<const D: usize> {
         back: Vec<Back<D>>,
         /// Factors that take the smoother's state to the user's units.
         factors: SVector<f64, D>,
-        /// What independent errors of one deviation, which all states share, do at each time.
+        /// Changes at each time by independent errors of one deviation, which all states share.
         shared: Vec<Vec<SVector<f64, D>>>,
     },
     /// Each state a sum over data of independent errors.
