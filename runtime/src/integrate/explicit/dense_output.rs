@@ -4,7 +4,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::pair::{DenseForm, EmbeddedPair};
-use super::stages::{RightHandSide, StepSpan, StepStages, sum, terms, write_sums};
+use super::stages::{RightHandSide, StepSpan, StepStages, sum, terms};
 use crate::integrate::piece::Lift;
 use crate::scalar::Scalar;
 
@@ -47,7 +47,9 @@ impl<W: Scalar> StepStages<W> {
         let place = (M::DENSE.terms_before_rows() + ROW) * n;
         let coefficients = &mut self.dense[place..][..n];
         let terms = terms(row, &self.rates, n);
-        write_sums!(coefficients, row, &terms; i, sum => step * sum);
+        for i in 0..n {
+            coefficients[i] = step * sum(row, &terms, i);
+        }
     }
 
     /// The first three coefficients of [`DenseForm::Alternating`].

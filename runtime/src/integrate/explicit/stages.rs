@@ -105,29 +105,6 @@ macro_rules! make_stages {
     };
 }
 
-/// `write_sums!(out, row, terms; i, sum => value)` writes a value with the sum of a row to each
-/// component of `out`, two by two where numbers are single: they share a register.
-macro_rules! write_sums {
-    ($out:ident, $row:expr, $terms:expr; $i:ident, $sum:ident => $value:expr) => {
-        let mut place = 0;
-        while place < $out.len() {
-            let $i = place;
-            let $sum = sum($row, $terms, $i);
-            let value = $value;
-            if const { size_of::<W>() <= size_of::<u64>() } && place + 1 < $out.len() {
-                let $i = place + 1;
-                let $sum = sum($row, $terms, $i);
-                ($out[place], $out[place + 1]) = (value, $value);
-                place += 2;
-            } else {
-                $out[place] = value;
-                place += 1;
-            }
-        }
-    };
-}
-pub(super) use write_sums;
-
 /// Row and node of a stage. The compiler asks for those of stages that the pair has
 /// not got, too, before it leaves out their code.
 const fn table_entry<M: EmbeddedPair>(stage: usize) -> (&'static [(usize, f64)], f64) {
@@ -202,7 +179,9 @@ impl<W: Scalar> StepStages<W> {
         let (before, rates) = self.rates.split_at_mut((STAGE - 1) * n);
         let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
         let terms = terms(row, before, n);
-        write_sums!(stage, row, &terms; i, sum => span.step.mul_add(sum, start[i]));
+        for i in 0..n {
+            stage[i] = span.step.mul_add(sum(row, &terms, i), start[i]);
+        }
         system.evaluate(STAGE, span.node(node), stage, &mut rates[..n])
     }
 
@@ -220,7 +199,9 @@ impl<W: Scalar> StepStages<W> {
                 (end[i], rest[i]) = two_sum(start[i], change);
             }
         } else {
-            write_sums!(end, row, &terms; i, sum => step.mul_add(sum, start[i]));
+            for i in 0..n {
+                end[i] = step.mul_add(sum(row, &terms, i), start[i]);
+            }
         }
     }
 
@@ -388,6 +369,7 @@ pub(super) fn terms<'a, W>(
 }
 
 /// Component i of the sum of a row over the stages.
+///
 /// No closure takes part: those are functions of their own, which the compiler
 /// may leave without the instructions of the registers.
 #[inline(always)]
