@@ -7,10 +7,13 @@ use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use signal_hook::consts::SIGINT;
 
 use super::{folder, text};
 
@@ -162,6 +165,10 @@ fn interrupt(child: &Child) {
 /// program go side by side: most of their time is waiting.
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
+    // A shell's background jobs ignore Ctrl-C, and so do their children until they take it
+    // themselves. A signal that is handled here is one that children begin with.
+    let shut_down = Arc::new(AtomicBool::new(true));
+    signal_hook::flag::register_conditional_shutdown(SIGINT, 130, shut_down).unwrap();
     let mut random = SplitMix64::seed_from_u64(2026);
     for program in &PROGRAMS {
         std::thread::scope(|scope| {
