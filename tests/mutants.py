@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 MECHANICS = ["-p", "branched-pendulum-tests", "--test", "mechanics"]
-FRONT_END = ["-p", "branched-pendulum-tests", "--test", "front_end"]
+FRONT_END = ["-p", "branched-pendulum-compiler-tests", "--test", "front_end"]
 GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]

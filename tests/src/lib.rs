@@ -7,9 +7,7 @@
 
 pub mod oracle;
 pub mod promised;
-pub mod random;
 pub mod scenes;
-pub mod source;
 
 /// The front page compiles and holds.
 #[cfg(doctest)]

@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::{Add, Mul};
 
 use super::Vector;
-use crate::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// The drive of a tree at one time, and the size of the terms from which each
 /// figure is summed.

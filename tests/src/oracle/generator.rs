@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use super::{Law, Link, Tree};
-use crate::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// Properties of a random tree.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Random observables, twice: as text for a description, and as a tree that is
 //! evaluated in plain numbers.
 
-use crate::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// An expression in named symbols.
 #[derive(Clone, Debug)]

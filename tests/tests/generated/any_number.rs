@@ -8,7 +8,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, InstructionSet};
 use branched_pendulum::state_function;
 use branched_pendulum::system::{CastOde, Workspace};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     driven::{Driven, DrivenParameters},
     driven_loops::{DrivenLoops, DrivenLoopsParameters},

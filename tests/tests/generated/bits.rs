@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use branched_pendulum::tree::{LinkEquations, LinkMotion, Row};
 use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::functions::Argument;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::scene;
 use branched_pendulum_tests::scenes::{
     branch::{Branch, BranchParameters},
     chain::Chain,
@@ -23,7 +24,6 @@ use branched_pendulum_tests::scenes::{
     triplet::Triplet,
     unequal::Unequal,
 };
-use branched_pendulum_tests::source::scene;
 
 const STATES: usize = 200;
 

@@ -5,12 +5,12 @@
 use branched_pendulum::scalar::InstructionSet;
 use branched_pendulum::{Cast, Pendulum, Scalar};
 use branched_pendulum_codegen::functions::Argument;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::scene;
 use branched_pendulum_tests::scenes::{
     chain::Chain, driven::Driven, driven::DrivenParameters, generations::Generations,
     nested::Nested, offset::Offset, paper::Paper, triplet::Triplet,
 };
-use branched_pendulum_tests::source::scene;
 
 /// Hands out the sine and cosine that the machine computes with.
 struct Sines;

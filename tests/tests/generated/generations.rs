@@ -5,8 +5,8 @@ mod threads;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::{Link, Tree, closed_form};
-use branched_pendulum_tests::random::Random;
 use nalgebra::DMatrix;
 
 /// A tree in loops and the same one written out.

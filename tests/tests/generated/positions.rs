@@ -5,11 +5,11 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{LinkPoint, OdeFn, UnderTorques};
 use branched_pendulum_codegen::scene::{Offset, Quantity};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source;
 use branched_pendulum_tests::oracle::points::Place;
 use branched_pendulum_tests::oracle::{Link, Tree};
-use branched_pendulum_tests::random::Random;
 use branched_pendulum_tests::scenes::branch::{Branch, BranchParameters};
-use branched_pendulum_tests::source;
 
 /// One tree in loops and written out, and its text for the tests' own route.
 macro_rules! forms {

@@ -5,7 +5,7 @@ use branched_pendulum::Cast;
 use branched_pendulum::batch::{Batch, BatchError};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, InstructionSet, Lane, Lanes};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::{
     chain::Chain, generations::Generations, paper::Paper, triplet::Triplet,
 };

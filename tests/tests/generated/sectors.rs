@@ -2,7 +2,7 @@
 
 use branched_pendulum::Sectors as _;
 use branched_pendulum::analysis::{Modes, SectorModes};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::nested::Nested;
 
 type Model = Nested<f64>;

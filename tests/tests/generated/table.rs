@@ -6,9 +6,9 @@ mod random_trees;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum_codegen::scene::{Layout, Quantity, Scene};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source;
 use branched_pendulum_tests::oracle::{Link, Tree, closed_form};
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source;
 use nalgebra::DMatrix;
 
 /// A tree in a table, the same one written out, and its text.

@@ -3,10 +3,10 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::{TransferForm, TransferForms};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::stages_of;
 use branched_pendulum_tests::scenes::paper::Paper;
 use branched_pendulum_tests::scenes::triplet::Triplet;
-use branched_pendulum_tests::source::stages_of;
 
 /// Orders out of their order, of one sector of three.
 #[branched_pendulum(

@@ -8,11 +8,11 @@ use std::f64::consts::PI;
 
 use branched_pendulum_codegen::scene::Solve;
 use branched_pendulum_codegen::scene::coordinates::CoordinateKind;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::constrained;
 use branched_pendulum_tests::oracle::drive::{Jet, Push, Signal};
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
-use branched_pendulum_tests::random::Random;
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};

@@ -1,7 +1,7 @@
 //! Symmetry without rounding: what is zero stays zero, what is equal stays
 //! equal, bit for bit.
 
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::paper::Paper;
 
 use crate::fixtures::{Nested, Triple};

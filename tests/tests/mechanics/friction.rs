@@ -7,10 +7,10 @@ mod symmetric;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::constrained;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, braked_sample};
-use branched_pendulum_tests::random::Random;
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};

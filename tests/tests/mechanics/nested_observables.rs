@@ -3,7 +3,7 @@
 //! which are derived in the absolute angles, and without rounding where the
 //! symmetry makes them zero.
 
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use crate::support::{Compiled, Worst, compile};
 

@@ -9,10 +9,10 @@ use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::report::{Faults, Message, OutputMessage, TreeMessage};
 use branched_pendulum_codegen::{description, scene};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::{self, attributed_struct};
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source::{self, attributed_struct};
 
 use crate::support::{Worst, compile};
 use cases::{CASES, Case, OBSERVABLES, Point};

@@ -1,7 +1,7 @@
 //! Truncated forms of W are what they say: their error falls with the order of
 //! their first missing term, and orders that must vanish do.
 
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use crate::support::{Compiled, compile};
 

@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 
 use branched_pendulum_codegen::scene::Solve;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
 use branched_pendulum_tests::oracle::points::Place;
-use branched_pendulum_tests::random::Random;
 use nalgebra::DVector;
 
 use crate::support::{Worst, compile};

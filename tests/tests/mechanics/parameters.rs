@@ -2,7 +2,7 @@
 //! one.
 
 use branched_pendulum::ParameterError;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::paper::Paper;
 
 use crate::fixtures::{NAMED, Named, NamedParameters};

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
 use branched_pendulum_tests::oracle::{Link, Tree, closed_form, constrained};
-use branched_pendulum_tests::random::Random;
 use nalgebra::DVector;
 
 use crate::support::{Compiled, Worst, compile};

@@ -9,7 +9,7 @@ use branched_pendulum_codegen::program::Rebuilt;
 
 use crate::fixtures::FRICTIONAL;
 use crate::formulas::{Algebra, inside, product};
-use branched_pendulum_tests::source;
+use branched_pendulum_compiler_tests::source;
 
 use crate::support::{Compiled, compile_item, compile_paper, energies};
 

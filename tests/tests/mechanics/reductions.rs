@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::{WholeTree, system::WholeLengthError};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// One tree: whole, or with some of its joints and copies held together.
 macro_rules! crown {

@@ -3,8 +3,8 @@
 
 use branched_pendulum::analysis::Modes;
 use branched_pendulum::prelude::*;
+use branched_pendulum_compiler_tests::source::fixture;
 use branched_pendulum_tests::scenes::paper::Paper;
-use branched_pendulum_tests::source::fixture;
 use serde_json::Value;
 
 use crate::support::{Worst, compile_paper};

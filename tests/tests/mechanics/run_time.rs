@@ -1,12 +1,16 @@
 //! Trees that are described at run time, against the interpreted program that the compiler
 //! derives for each, and against bodies with Cartesian velocities.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
+use branched_pendulum_codegen::report::Problem;
+use branched_pendulum_compiler_tests::front_end::{run, split};
+use branched_pendulum_compiler_tests::mistakes::mistakes;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::support::{Worst, compile};
 
@@ -119,4 +123,39 @@ fn rough_trees_agree_with_their_programs() {
         let own = tree.outside_power(&omega, &torques);
         assert!((own - power).abs() < 1e-14, "{own} {power}");
     }
+}
+
+/// A text that a program reads is answered in the words of the macro, unless it asks for what
+/// is derived for one tree.
+#[test]
+fn texts_at_run_time_are_answered_alike() {
+    let (mut compared, mut differ) = (0, Vec::new());
+    for (name, source) in mistakes() {
+        let (_, text) = source.split_once("#[branched_pendulum(").expect(name);
+        let (text, _) = text.rsplit_once(")]").expect(name);
+        let Err(TreeError::Description(error)) = PendulumTree::parse(text) else {
+            continue;
+        };
+        let own: BTreeSet<[String; 3]> = error
+            .mistakes()
+            .iter()
+            .map(|at| [&at.message, &at.label, &at.help].map(Clone::clone))
+            .collect();
+        if own.iter().any(|[text, ..]| text.contains("at run time")) {
+            continue;
+        }
+        // Mistakes in the item are the macro's alone.
+        let item = "struct Pendulum;".parse().expect("an item");
+        let report = run(split(source).0, item).report;
+        let diagnostics = report.diagnostics().iter();
+        let problems = diagnostics.map(|diagnostic| diagnostic.message.problem());
+        let texts = problems.map(|Problem { text, label, hint }| [text, label, hint]);
+        let compiled: BTreeSet<[String; 3]> = texts.collect();
+        if own != compiled {
+            differ.push((name, own, compiled));
+        }
+        compared += 1;
+    }
+    assert!(differ.is_empty(), "{differ:#?}");
+    assert!(compared > 50, "{compared}");
 }

@@ -8,7 +8,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{DifferencePatterns, InPhaseMotion, PatternError, SmallOde};
 use branched_pendulum::{Transverse, WholeTree};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::transverse::{crown, fifteen, paper};
 

@@ -5,11 +5,11 @@ use std::f64::consts::PI;
 
 use branched_pendulum_codegen::program::cost;
 use branched_pendulum_codegen::scene::Solve;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::fixture;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
 use branched_pendulum_tests::oracle::{Link, Tree};
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source::fixture;
 use nalgebra::DVector;
 use serde_json::Value;
 

@@ -9,7 +9,7 @@ use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_codegen::mechanics::{EnergyParts, Frame, Mechanics};
 use branched_pendulum_codegen::program::{Interpreter, Program};
 use branched_pendulum_codegen::scene::Scene;
-use branched_pendulum_tests::source;
+use branched_pendulum_compiler_tests::source;
 
 /// The stages of a description that can be shared between threads.
 pub(crate) struct Compiled {

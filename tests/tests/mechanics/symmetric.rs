@@ -4,9 +4,9 @@
 use std::sync::LazyLock;
 
 use branched_pendulum_codegen::scene::coordinates::CoordinateKind;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
-use branched_pendulum_tests::random::Random;
 use nalgebra::{DMatrix, DVector};
 
 use crate::fixtures::TRIPLE;

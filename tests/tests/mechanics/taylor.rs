@@ -7,7 +7,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum::taylor::Quad;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::driven_series::{DrivenSeries, DrivenSeriesParameters};
 use branched_pendulum_tests::scenes::free_series::{FreeSeries, FreeSeriesParameters};
 use branched_pendulum_tests::scenes::series::Series;

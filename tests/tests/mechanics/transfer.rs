@@ -2,7 +2,7 @@
 //! the orders of the truncated forms.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::paper::Paper;
 
 use crate::fixtures::{Frictional, Triple};

@@ -6,7 +6,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{InPhaseMotion, TransverseOde, TransverseSector};
 use branched_pendulum::{Transverse, WholeTree};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// One tree, whole and in phase.
 macro_rules! crown {

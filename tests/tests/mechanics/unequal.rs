@@ -6,7 +6,7 @@ mod nested;
 use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::paper::Paper;
 
 use crate::support::{Worst, compile};

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{Torques, Workspace};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::gusts::Gusts;
 

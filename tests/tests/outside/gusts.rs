@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LinkPoint, Torques};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// A sum of sines.
 #[derive(Clone, Debug)]

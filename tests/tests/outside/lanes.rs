@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneOde, LaneTorques, Torques, TransverseOde, UnderTorques};
 use branched_pendulum::{Cast, state_function};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::balance::{ByGeneration, Irregular};
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{PrescribedMotion, PrescribedOde, UnderTorques};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// By one of the solves, or in a loop.
 macro_rules! branch {

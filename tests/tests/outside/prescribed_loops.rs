@@ -8,7 +8,7 @@ use branched_pendulum::system::{
     LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, PrescribedOde,
 };
 use branched_pendulum::{Cast, Scalar};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::prescribed::reactions_make_the_free_tree_move_so;
 

@@ -8,7 +8,7 @@ use branched_pendulum::system::{
     DifferencePatterns, OdeFn, SmallOde, SmallUnderTorques, UnderTorques,
 };
 use branched_pendulum::{ForcedDifferences, SmallDifferences};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::lanes::couples;
 

@@ -7,7 +7,7 @@ mod written_out;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{ScaleBudget, Scales};
 use branched_pendulum::system::Workspace;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// A tree in loops and its description.
 macro_rules! tree {

@@ -4,7 +4,7 @@ use super::*;
 use branched_pendulum_codegen::Stages;
 use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_codegen::scene::LinkId;
-use branched_pendulum_tests::source::stages_of;
+use branched_pendulum_compiler_tests::source::stages_of;
 
 /// A tree written out, and what of it is where in the model in loops.
 struct Written {

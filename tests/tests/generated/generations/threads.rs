@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 /// 32,767 links, taken apart.
 #[branched_pendulum(

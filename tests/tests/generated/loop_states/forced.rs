@@ -4,7 +4,7 @@
 use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Dual, Lanes};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::{TIME, batch_agrees, derivatives_agree, lanes_meet_the_plain_method};
 

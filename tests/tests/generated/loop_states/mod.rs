@@ -5,8 +5,8 @@ mod forced;
 use branched_pendulum::Cast;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Dual, InstructionSet, Lane, Lanes};
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::promised;
-use branched_pendulum_tests::random::Random;
 
 /// One subtree of 127 links.
 #[branched_pendulum(

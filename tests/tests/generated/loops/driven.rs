@@ -2,8 +2,8 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source;
 
 use super::{Powered, agree, array, balance, pair, powered};
 

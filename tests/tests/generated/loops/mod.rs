@@ -9,11 +9,11 @@ mod places;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::scene::{Offset, Quantity, Scene};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::drive::{Jet, Push};
 use branched_pendulum_tests::oracle::{Law, Link, Tree};
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source;
 use nalgebra::DVector;
 
 /// A tree in loops, the same one written out, its text, and the powers of both.

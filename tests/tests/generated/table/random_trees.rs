@@ -4,8 +4,8 @@ use super::{expected, largest, oracle_of, states};
 use branched_pendulum::prelude::*;
 use branched_pendulum::tree::{LinkEquations, Row, Tree};
 use branched_pendulum_codegen::program::Column;
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source;
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source;
 use std::fmt::Write;
 
 /// Lends its equations, those of links with all forces, to random trees.

@@ -4,7 +4,7 @@ use branched_pendulum::Transverse;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::InPhaseMotion;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use crate::support::compile;
 

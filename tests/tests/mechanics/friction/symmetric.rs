@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use branched_pendulum_codegen::scene::coordinates::CoordinateKind;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::generator::{Recipe, braked_sample};
-use branched_pendulum_tests::random::Random;
 
 use crate::support::{Compiled, Worst, compile};
 

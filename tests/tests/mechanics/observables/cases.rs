@@ -5,12 +5,12 @@ use std::sync::LazyLock;
 use branched_pendulum_codegen::report::Faults;
 use branched_pendulum_codegen::scene::coordinates::{Coordinate, symmetric_coordinates};
 use branched_pendulum_codegen::{description, scene};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_compiler_tests::source::attributed_struct;
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
 use branched_pendulum_tests::oracle::observable::Observable;
-use branched_pendulum_tests::random::Random;
-use branched_pendulum_tests::source::attributed_struct;
 use nalgebra::DVector;
 
 use crate::support::{Compiled, compile};

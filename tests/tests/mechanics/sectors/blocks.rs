@@ -1,7 +1,7 @@
 //! The block structure at the in-phase motion.
 
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::generator::{Recipe, sample};
-use branched_pendulum_tests::random::Random;
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 use super::oracle::Basis;

@@ -4,7 +4,7 @@ use branched_pendulum::integrate::{Dop853, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::functions::{Argument, Purpose, ResultShape};
 use branched_pendulum_codegen::program::Entry;
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use super::oracle::DEFINITIONS;
 use crate::support::{Compiled, compile};

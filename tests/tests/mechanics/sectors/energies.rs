@@ -1,9 +1,9 @@
 //! Energies of sectors.
 
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Recipe, Sample, sample};
-use branched_pendulum_tests::random::Random;
 use std::sync::LazyLock;
 
 use super::oracle::{Basis, DEFINITIONS, energies};

@@ -2,7 +2,7 @@
 
 use branched_pendulum::sectors::Normalisation::{self, Orthonormal, Plain};
 use branched_pendulum::{Sectors, SymmetricPendulum, branched_pendulum};
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::nested::Nested;
 
 /// Three arms with two hands each, and a tail.

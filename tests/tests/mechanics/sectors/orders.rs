@@ -1,6 +1,6 @@
 //! Transfers cut off in the amplitude of the differences.
 
-use branched_pendulum_tests::random::Random;
+use branched_pendulum_compiler_tests::random::Random;
 
 use crate::support::{Compiled, compile};
 

@@ -1,8 +1,8 @@
 //! Nested copies that differ, against bodies in numbers.
 
+use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::{Link, Tree};
-use branched_pendulum_tests::random::Random;
 
 use crate::support::{Compiled, Worst, compile};
 

@@ -1,0 +1,15 @@
+//! Descriptions with a mistake, at least one for each message of the front end.
+
+mod asked;
+mod tree;
+
+/// The name of a golden and the source with the mistake.
+pub type Mistake = (&'static str, &'static str);
+
+/// All of them.
+pub fn mistakes() -> impl Iterator<Item = Mistake> {
+    [tree::MISTAKES, asked::MISTAKES]
+        .into_iter()
+        .flatten()
+        .copied()
+}

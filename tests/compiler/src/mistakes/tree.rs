@@ -1,0 +1,321 @@
+//! Mistakes in the item, the scene, its links, rules and values.
+
+use super::Mistake;
+
+pub(super) const MISTAKES: &[Mistake] = &[
+    // The item.
+    (
+        "not_a_struct",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))] enum Pendulum {}",
+    ),
+    (
+        "struct_fields",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))] struct Pendulum { x: f64 }",
+    ),
+    (
+        "struct_generics",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))] struct Pendulum<T>;",
+    ),
+    // The scene.
+    (
+        "expected",
+        "#[branched_pendulum(
+    gravity 9.8,
+    a: rod(mass = 1, length 1),
+    b: rod{mass = 1},
+    = 2,
+)] struct Pendulum;",
+    ),
+    (
+        "colon",
+        "#[branched_pendulum(
+    gravity: 9.8,
+    a: rod(mass: 1, length = 1),
+)] struct Pendulum;",
+    ),
+    (
+        "brackets",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) { b: rod(mass = 1, length = 1) },
+    c: rod[mass = 1, length = 1],
+    d { mass = 1 },
+)] struct Pendulum;",
+    ),
+    (
+        "missing_comma",
+        "#[branched_pendulum(
+    gravity = 9.8
+    a: rod(mass = 1 length = m friction = 2) [ b: rod(mass = 1, length = 1) c: rod(mass = 1, length = 1) ],
+    emit(energies momenta),
+)] struct Pendulum;",
+    ),
+    (
+        "unit",
+        "#[branched_pendulum(gravity = 9.8 m/s^2, a: rod(mass = 1 kg, length = 2 * (3 m)))] struct Pendulum;",
+    ),
+    (
+        "lookalike",
+        "#[branched_pendulum(gravity = sin,
+    a: rod(mass = 1, length = 1, joint = prismatic, drag = 0.1 * omega, friction = theta_a^2),
+    drive(torque = exp * t),
+)] struct Pendulum;",
+    ),
+    (
+        "not_finite",
+        "#[branched_pendulum(gravity = inf, a: rod(mass = -NaN, length = PI))] struct Pendulum;",
+    ),
+    (
+        "long_number",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = -1e-300 / 3, length = 0x123456789012345678901234567890123456789012345678901234567890))] struct Pendulum;",
+    ),
+    (
+        "ended",
+        "#[branched_pendulum(
+    gravity =,
+    a: rod(mass = 1 +, length = 2 * (3 + )) [ b: rod ],
+    emit(transfer(angle =)),
+    crate
+)] struct Pendulum;",
+    ),
+    (
+        "unknown_entry",
+        "#[branched_pendulum(gravty = 9.8, zeal = 1, a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+    (
+        "missing_gravity",
+        "#[branched_pendulum(a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+    ("empty_tree", "#[branched_pendulum(gravity = 9.8)] struct Pendulum;"),
+    (
+        "second_root",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = 1, length = 1),
+    b: rod(mass = 1, length = 1),
+)] struct Pendulum;",
+    ),
+    (
+        "root_copies",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) * 2)] struct Pendulum;",
+    ),
+    (
+        "duplicate_property",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    gravity = 9.81,
+    a: rod(mass = 1, length = 1, mass = 2),
+    emit(energies),
+    emit(momenta),
+    crate = a,
+    crate = b,
+)] struct Pendulum;",
+    ),
+    // Names.
+    (
+        "duplicate_name",
+        "#[branched_pendulum(
+    gravity = 9.8,
+    a: rod(mass = child, length = 1) [
+        child: rod(mass = 1, length = 1) * 2,
+        child: rod(mass = 1, length = 1),
+        child_1: rod(mass = 1, length = 1),
+        arm: rod(mass = 1, length = 1) [ hand: rod(mass = 1, length = 1) * 2 ] * 2,
+        hand_1: rod(mass = 1, length = 1),
+    ],
+)] struct Pendulum;",
+    ),
+    (
+        "reserved_name",
+        "#[branched_pendulum(gravity = 9.8, loop: rod(mass = type, length = 1) [
+    state: rod(mass = 1, length = 1),
+])] struct T;",
+    ),
+    (
+        "not_snake_case",
+        "#[branched_pendulum(gravity = 9.8, upperArm: rod(mass = M, length = r#type) [
+    hand__left: rod(mass = 1, length = ℓ),
+    _x: rod(mass = 1, length = 1),
+])] struct Pendulum;",
+    ),
+    // Links.
+    (
+        "unknown_shape",
+        "#[branched_pendulum(gravity = 9.8, a: rdo(mass = 1) [ b: banana(mass = 1), c: sphere(mass = 1) ])] struct Pendulum;",
+    ),
+    (
+        "unknown_property",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mas = 1, length = 1) [
+    b(mass = 1, com = 1, inertia = 0, length = 1),
+    c: generations(count = 2, shape = rod, mass = 1, length = 1, depth = 2),
+])] struct Pendulum;",
+    ),
+    (
+        "missing_property",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1) [
+    b(mass = 1),
+    c: generations(shape = disc, mass = 1, length = 1),
+])] struct Pendulum;",
+    ),
+    (
+        "missing_joint",
+        "#[branched_pendulum(gravity = 9.8, a(mass = 1, com = 1, inertia = 0) [
+    b: rod(mass = 1, length = 1),
+    c: generations(count = 2, mass = 1, com = 1, inertia = 1),
+])] struct Pendulum;",
+    ),
+    (
+        "root_pivot",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1, at = 1))] struct Pendulum;",
+    ),
+    (
+        "not_a_point",
+        "#[branched_pendulum(gravity = (9.8, 0), a: rod(mass = (1, 2), length = 1))] struct Pendulum;",
+    ),
+    // Rules.
+    (
+        "rule_children",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 2, shape = rod, mass = 1, length = 1) [ b: rod(mass = 1, length = 1) ]
+)] struct Pendulum;",
+    ),
+    (
+        "not_a_count",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 0, branching = n, shape = rod, mass = 1, length = 1)
+)] struct Pendulum;",
+    ),
+    (
+        "not_a_shape",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 2, shape = 3, mass = 1, length = 1)
+)] struct Pendulum;",
+    ),
+    (
+        "too_many_links",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1, code = unrolled)
+)] struct Pendulum;",
+    ),
+    (
+        "too_many_pairs",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 111, branching = 1, shape = rod, mass = 1, length = 1, code = unrolled)
+)] struct Pendulum;",
+    ),
+    (
+        "not_a_code",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1, code = loop)
+)] struct Pendulum;",
+    ),
+    (
+        "no_loops",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1, code = loops),
+    emit(modes)
+)] struct Pendulum;",
+    ),
+    (
+        "too_many_for_unrolled",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 13, branching = 2, shape = rod, mass = 1, length = 1),
+    emit(modes)
+)] struct Pendulum;",
+    ),
+    (
+        "zero_copies",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) [
+    b: rod(mass = 1, length = 1) * 0
+])] struct Pendulum;",
+    ),
+    // Values.
+    (
+        "negative",
+        "#[branched_pendulum(gravity = -9.8, a(mass = -0.1, com = -1, inertia = 1 - 2, friction = -2e-5) [
+    b: rod(mass = 1, length = -1, at = -1),
+])] struct Pendulum;",
+    ),
+    (
+        "not_positive",
+        "#[branched_pendulum(gravity = 0, a: rod(mass = 1, length = 0) [
+    b: plate(mass = 1, length = 0.2, width = 0.1, margin = 0.1),
+])] struct Pendulum;",
+    ),
+    (
+        "singular",
+        "#[branched_pendulum(gravity = 9.8, trunk: rod(mass = 1, length = 1) [
+    massless_leaf: rod(mass = 0, length = 1),
+    massless_arm: rod(mass = 0, length = 1) [ bob: point(mass = 0.1, length = 1) ],
+    hung_at_its_centre(mass = 1, com = 0, inertia = 0),
+])] struct Pendulum;",
+    ),
+    (
+        "division_by_zero",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1 / (1 - 1), length = 0^-1))] struct Pendulum;",
+    ),
+    (
+        "not_decimal",
+        "#[branched_pendulum(gravity = 9.8f64, a: rod(mass = 0x10, length = \"1\"))] struct Pendulum;",
+    ),
+    (
+        "number_range",
+        "#[branched_pendulum(gravity = 1e309, a: rod(mass = 1e-330, length = 1e999999999))] struct Pendulum;",
+    ),
+    (
+        "number_length",
+        "#[branched_pendulum(gravity = 9.8^5000, a: rod(mass = 1, length = 2^8000 * 3^5000))] struct Pendulum;",
+    ),
+    (
+        "exponent",
+        "#[branched_pendulum(gravity = 9.8^0.5, a: rod(mass = 2^n, length = 2^(1 + 1)))] struct Pendulum;",
+    ),
+    (
+        "degree",
+        "#[branched_pendulum(gravity = g^100000000, a: rod(mass = m^-9, length = ((l^4)^2)^2))] struct Pendulum;",
+    ),
+    (
+        "chained_power",
+        "#[branched_pendulum(gravity = 9.8^2^3, a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+    (
+        "function_call",
+        "#[branched_pendulum(gravity = sqrt(96), a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+    (
+        "not_exact",
+        "#[branched_pendulum(gravity = pi^2, a: rod(mass = 1, length = tau))] struct Pendulum;",
+    ),
+    (
+        "rest_without_spring",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1, rest = 0.1))] struct Pendulum;",
+    ),
+    (
+        "laws_of_friction",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1, friction(width = 0.1), drag(coulomb = 1, quadratic = 2)) [
+        b: rod(mass = 1, length = 1, friction = 1, friction(viscous = 2, coulomb = -1, width = 0)),
+        c: rod(mass = 1, length = 1, friction(columb = 1, quadratic 2), coulomb = 1, spring(rest = 1)),
+        d: rod(mass = 1, length = 1, friction(), drag(quadratic = omega_d)),
+    ])] struct Pendulum;",
+    ),
+    (
+        "locked_drag",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1, drag(quadratic = 1)) [
+        b: rod(mass = 1, length = 1, drag(quadratic = 1, width = 0.1)),
+    ],
+    locked(b, 0.1))] struct Pendulum;",
+    ),
+    (
+        "declared_parameters",
+        "#[branched_pendulum(
+    gravity = g,
+    parameters(g, mass_of_a, r, mass_of_a),
+    a: rod(mass = mas_of_a, length = prism),
+)] struct Pendulum;",
+    ),
+    (
+        "unused_parameter",
+        "#[branched_pendulum(parameters(g, m), gravity = g, a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+];

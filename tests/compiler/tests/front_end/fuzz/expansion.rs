@@ -1,0 +1,171 @@
+//! Random descriptions through the whole pipeline: each is expanded within limits
+//! of time and memory, or refused in our words.
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use proc_macro2::{TokenStream, TokenTree};
+
+use super::grammar::description;
+use super::verdict::{Verdict, judge, peak_memory, processor_time};
+use super::{alone, flattened, mutated};
+use branched_pendulum_compiler_tests::random::Random;
+
+/// Most processor time for one description, in an unoptimised build.
+const TIME: Duration = Duration::from_secs(5);
+
+/// Most memory for all of them.
+const MEMORY: u64 = 1 << 30;
+
+/// Description that is being expanded, and the processor time at its start.
+type Present = Arc<Mutex<(Duration, String)>>;
+
+/// Ends the process over a description that takes far too long: no test can.
+fn watch(present: Present) {
+    std::thread::spawn(move || {
+        loop {
+            std::thread::sleep(Duration::from_millis(500));
+            // The test is over.
+            if Arc::strong_count(&present) == 1 {
+                return;
+            }
+            let Ok(present) = present.lock() else { return };
+            let memory = peak_memory().unwrap_or(0);
+            if processor_time().saturating_sub(present.0) > 4 * TIME || memory > 2 * MEMORY {
+                eprintln!("far too much time or memory: {}", present.1);
+                std::process::exit(1);
+            }
+        }
+    });
+}
+
+/// Looks at `count` descriptions; gives those that broke something, with what.
+fn broken(seed: u64, count: usize) -> Vec<String> {
+    let _alone = alone();
+    let mut random = Random::new(seed);
+    let present: Present = Arc::default();
+    watch(Arc::clone(&present));
+    let (mut faults, mut expanded, mut refused) = (Vec::new(), 0, 0);
+    let mut longest = (Duration::ZERO, String::new());
+    for index in 0..count {
+        let (attribute, item) = description(&mut random);
+        let tokens = |text: &str| text.parse::<TokenStream>().unwrap_or_default();
+        let mut attribute = tokens(&attribute);
+        let item = tokens(&item);
+        if random.below(4) == 0 {
+            let mut supply = Vec::new();
+            flattened(attribute.clone(), &mut supply);
+            let mut trees: Vec<TokenTree> = attribute.into_iter().collect();
+            for _ in 0..1 + random.below(3) {
+                trees = mutated(&trees, &supply, &mut random);
+            }
+            attribute = trees.into_iter().collect();
+        }
+        let shown = format!("#[branched_pendulum({attribute})] {item}");
+        let start = processor_time();
+        if let Ok(mut present) = present.lock() {
+            *present = (start, shown.clone());
+        }
+        let verdict = judge(&attribute, &item);
+        let time = processor_time().saturating_sub(start);
+        if time > TIME {
+            faults.push(format!("{index}: took {time:?}: {shown}"));
+        }
+        if time > longest.0 {
+            longest = (time, shown.clone());
+        }
+        match verdict {
+            Verdict::Expanded => expanded += 1,
+            Verdict::Refused => refused += 1,
+            Verdict::Broken(what) => {
+                let fault = format!("{index}: {what}: {shown}");
+                eprintln!("{fault}");
+                faults.push(fault);
+            }
+        }
+        if (index + 1) % 10_000 == 0 {
+            eprintln!("{} looked at, {} broken", index + 1, faults.len());
+        }
+    }
+    let memory = peak_memory().unwrap_or(0);
+    eprintln!(
+        "{expanded} expanded, {refused} refused, {} broken; {memory} bytes at most; longest {:?}: {}",
+        faults.len(),
+        longest.0,
+        longest.1,
+    );
+    if memory > MEMORY {
+        faults.push(format!("{memory} bytes of memory"));
+    }
+    // Neither all right nor all wrong.
+    assert!(expanded > count / 6 && refused > count / 5);
+    faults
+}
+
+/// Descriptions that broke something once.
+const CURED: &[&str] = &[
+    "#[branched_pendulum(crate = ::r#type, gravity = 9.8, a: rod(mass = 1, length = 1))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a(mass = m, com = 1e308, inertia = 0))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = self))] struct A;",
+    "#[branched_pendulum(gravity = crate, a: rod(mass = async, length = gen * _))] struct A;",
+    "#[branched_pendulum(gravity = sin, a: rod(mass = cos, length = 1), emit(taylor))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+        drive(x = 0.5 * ((t + p) * t)^3), emit(taylor))] struct A;",
+    "#[branched_pendulum(gravity = 9.8,
+        a: generations(count = 45, shape = rod, mass = m, length = l))] struct A;",
+    "#[branched_pendulum(gravity = 9.8,
+        a: generations(count = 4000, shape = rod, mass = m, length = 1))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1), emit(taylor))] struct S;",
+    "#[branched_pendulum(gravity = -1, a: rod(mass = 1, length = 1))] struct S;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1))] struct f64;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+        observe(accelerations = theta_a, friction_power = 1, z = omega_a))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) * 2,
+        a: rod(mass = 1, length = 1) * 2)] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1)
+        [r#type: rod(mass = 1, length = 1) * 3])] struct A;",
+    "#[branched_pendulum(gravity = 9.8,
+        a: generations(count = 4, branching = 3, shape = rod, mass = m, length = 1),
+        emit(symmetric, budget))] struct A;",
+    "#[branched_pendulum(gravity = g, a(mass = m, com = c, inertia = i, joint = l) [
+        b(mass = n, com = d, inertia = k) * 3], emit(transfer(amplitude = 8, angle = 8)))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) [
+        b: rod(mass = 1, length = 1) * 400], emit(budget))] struct A;",
+    "#[branched_pendulum(gravity = g, a(mass = m, com = c, inertia = i, joint = l) [
+        b(mass = each(x, y), com = d, inertia = k, joint = l) [
+            e: rod(mass = each(1, 2, q), length = n) * 3] * 2],
+        emit(symmetric, momenta, energies, modes))] struct A;",
+];
+
+#[test]
+fn cured_descriptions_stay_cured() {
+    let _alone = alone();
+    for source in CURED {
+        let (attribute, item) = branched_pendulum_compiler_tests::front_end::split(source);
+        let start = processor_time();
+        if let Verdict::Broken(what) = judge(&attribute, &item) {
+            panic!("{what}: {source}");
+        }
+        let time = processor_time().saturating_sub(start);
+        assert!(time < TIME, "{time:?}: {source}");
+    }
+}
+
+#[test]
+fn descriptions_are_expanded_or_refused() {
+    let faults = broken(20_251_122, 2_000);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// As many as the environment asks for; see `README.md`.
+#[test]
+#[ignore = "runs for hours"]
+fn many_descriptions_are_expanded_or_refused() {
+    let number = |name: &str, otherwise: u64| {
+        let text = std::env::var(name).ok();
+        text.map_or(otherwise, |text| text.parse().expect("a whole number"))
+    };
+    let count = number("FUZZ_COUNT", 1_000_000);
+    let faults = broken(number("FUZZ_SEED", 1), count as usize);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
