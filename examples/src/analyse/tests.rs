@@ -1,6 +1,7 @@
 //! Estimates from a simulated camera against the truth.
 
 use branched_pendulum::Parametric;
+use branched_pendulum::prelude::Ensemble;
 use clap::Parser;
 
 use super::arguments::Arguments;
@@ -118,41 +119,46 @@ fn the_right_model_is_worth_a_factor_ten_and_a_wrong_one_is_no_loss() {
 /// Parts of all times at which the truth is within 1.96 deviations, of rates, H_d and W, and
 /// the closure in its deviations (rms).
 fn coverage(arguments: &Arguments, way: Way, cameras: u64, draws: usize) -> [f64; 6] {
-    let mut sums = [0.0; 6];
-    let mut count = 0.0;
-    for seed in 1..=cameras {
+    let seeds: Vec<u64> = (1..=cameras).collect();
+    let all = Ensemble::new().map(&seeds, |_, &seed| {
         let arguments = Arguments {
             seed,
             ..arguments.clone()
         };
-        let draws = Draws { count: draws, seed };
-        let (source, all) = estimate(&arguments, draws, &[way]);
-        let Estimate {
-            rates, energies, ..
-        } = &all[0];
-        for (index, truth) in source.truth.iter().enumerate().skip(1) {
-            let (mean, deviation) = (energies.means[index], energies.deviations[index]);
-            let mut within = |place: usize, error: f64, deviation: f64| {
-                sums[place] += f64::from(u8::from(error.abs() <= 1.96 * deviation));
-            };
-            for place in 0..3 {
-                let error = rates.means[index][place] - truth.rates[place];
-                within(place, error, rates.deviations[index][place]);
-            }
-            for (place, own, truth) in [
-                (3, quantity::ENERGY, truth.energy),
-                (4, quantity::POWER, truth.power),
-            ] {
-                within(place, mean[own] - truth, deviation[own]);
-            }
-            let closure = mean[quantity::CLOSURE] / deviation[quantity::CLOSURE];
-            sums[5] += closure * closure;
-            count += 1.0;
-        }
-    }
-    let mut parts = sums.map(|sum| sum / count);
+        coverage_of_one(&arguments, way, Draws { count: draws, seed })
+    });
+    let sum = |place: usize| all.iter().map(|one| one[place]).sum::<f64>();
+    let mut parts = std::array::from_fn(|place| sum(place) / cameras as f64);
     parts[5] = parts[5].sqrt();
     parts
+}
+
+/// Those of one camera, the closure squared.
+fn coverage_of_one(arguments: &Arguments, way: Way, draws: Draws) -> [f64; 6] {
+    let (source, all) = estimate(arguments, draws, &[way]);
+    let Estimate {
+        rates, energies, ..
+    } = &all[0];
+    let mut sums = [0.0; 6];
+    for (index, truth) in source.truth.iter().enumerate().skip(1) {
+        let (mean, deviation) = (energies.means[index], energies.deviations[index]);
+        let mut within = |place: usize, error: f64, deviation: f64| {
+            sums[place] += f64::from(u8::from(error.abs() <= 1.96 * deviation));
+        };
+        for place in 0..3 {
+            let error = rates.means[index][place] - truth.rates[place];
+            within(place, error, rates.deviations[index][place]);
+        }
+        for (place, own, truth) in [
+            (3, quantity::ENERGY, truth.energy),
+            (4, quantity::POWER, truth.power),
+        ] {
+            within(place, mean[own] - truth, deviation[own]);
+        }
+        let closure = mean[quantity::CLOSURE] / deviation[quantity::CLOSURE];
+        sums[5] += closure * closure;
+    }
+    sums.map(|sum| sum / (source.truth.len() - 1) as f64)
 }
 
 fn assert_coverage(way: Way, cameras: u64, draws: usize) {
@@ -286,15 +292,13 @@ fn friction_of_the_chain_by_all_laws() {
 
 /// Errors of W in per cent: medians of three cameras.
 fn median_errors(arguments: &Arguments, ways: &[Way]) -> Vec<f64> {
-    let cameras: Vec<Vec<f64>> = (1..=3)
-        .map(|seed| {
-            let arguments = Arguments {
-                seed,
-                ..arguments.clone()
-            };
-            errors(&arguments, ways)
-        })
-        .collect();
+    let cameras = Ensemble::new().map(&[1, 2, 3], |_, &seed| {
+        let arguments = Arguments {
+            seed,
+            ..arguments.clone()
+        };
+        errors(&arguments, ways)
+    });
     let of = |way: usize| {
         let mut all: Vec<f64> = cameras.iter().map(|errors| 100.0 * errors[way]).collect();
         all.sort_by(f64::total_cmp);

@@ -67,16 +67,8 @@ pub fn releases(
     });
     let panel = match arguments.scene {
         Scene::Paper => {
-            let middle = 0.5 * (PAPER[0] + PAPER[1]);
             let line = [-arguments.parent, arguments.parent];
-            let threshold = Series::points("the paper's threshold", &[0.0; 2], &[-middle, middle]);
-            panel
-                .series(
-                    Series::line("the paper's releases", &[0.0; 2], &line)
-                        .color(LINES[2])
-                        .dash(Dash::Dashed),
-                )
-                .series(threshold.color(LINES[2]).symbol(Symbol::Diamond))
+            of_the_paper(panel, 0.0, &line, &[-THRESHOLD, THRESHOLD])
         }
         Scene::Arms => panel,
     };
@@ -84,6 +76,9 @@ pub fn releases(
     let chart = Chart::new(title, x.range(-arguments.children, arguments.children));
     draw(job, "release-map", chart.panel(panel))
 }
+
+/// Angle of the parent between the paper's last release without growth and its first with, degrees.
+const THRESHOLD: f64 = 0.5 * (PAPER[0] + PAPER[1]);
 
 /// Colours of lines that are seen on dark blue and on yellow.
 const LINES: [Color; 3] = [
@@ -108,12 +103,23 @@ pub fn ratios(job: &Job, map: &Map) -> Result<(), Failure> {
         .map(|(x, y, grown)| [x, y, grown.rate.value])
         .collect();
     let [x, y, rates] = [0, 1, 2].map(|i| points.iter().map(|p| p[i]).collect::<Vec<f64>>());
-    let panel = Panel::new(Axis::linear("energy over that with a horizontal parent"))
-        .series(Series::shaded(&x, &y, &rates))
-        .vertical(1.0, "the paper's children");
+    let energy = Axis::linear("energy over that with a horizontal parent");
+    let panel = Panel::new(energy).series(Series::shaded(&x, &y, &rates));
+    let threshold = 1.0 - THRESHOLD.to_radians().cos();
+    let panel = of_the_paper(panel, 1.0, &[0.0, 1.0], &[threshold]);
     let x = Axis::log("mass of the children over that of the paper's");
     let title = "Growth rate of the antiphase mode, released with vertical children";
     draw(job, "ratio-energy", Chart::new(title, x).panel(panel))
+}
+
+/// Adds the paper's releases, from one end to the other, and those at its threshold.
+fn of_the_paper(panel: Panel, x: f64, ends: &[f64; 2], thresholds: &[f64]) -> Panel {
+    let releases = Series::line("the paper's releases", &[x; 2], ends);
+    let at = vec![x; thresholds.len()];
+    let threshold = Series::points("the paper's threshold", &at, thresholds);
+    panel
+        .series(releases.color(LINES[2]).dash(Dash::Dashed))
+        .series(threshold.color(LINES[2]).symbol(Symbol::Diamond))
 }
 
 fn draw(job: &Job, name: &str, chart: Chart) -> Result<(), Failure> {

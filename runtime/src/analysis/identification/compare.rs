@@ -3,7 +3,7 @@
 use super::error::{IdentificationError, positive};
 use super::family::Family;
 use super::fit::{AngleErrors, Fit};
-use super::least_squares::{FULL, FitStage};
+use super::least_squares::{DAMPING, FULL, FitStage};
 use super::problem::{Identification, no_motion};
 use super::record::{AngleRecord, MeasuredLink};
 use super::task::split;
@@ -107,6 +107,7 @@ impl<F: Family> Identification<F> {
                 globals: globals.clone(),
                 free: Vec::new(),
                 junction: Vec::new(),
+                damping: DAMPING,
             };
             let (residuals, _) = stage.solve(&task, FULL).ok_or_else(|| no_motion(record))?;
             all.rows.extend(task.errors(&stage, &residuals).rows);

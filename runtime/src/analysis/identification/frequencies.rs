@@ -30,7 +30,7 @@ impl FitTask<'_> {
         let start = system.start(&vec![0.0; n]);
         let mut rates = vec![0.0; start.len()];
         system.rates(0.0, &start, &mut rates);
-        let matrix = DMatrix::from_column_slice(n, n, &rates[n..]);
+        let matrix = DMatrix::from_fn(n, n, |row, column| rates[system.place(column, row)]);
         if !matrix.iter().all(|value| value.is_finite()) {
             return Vec::new();
         }

@@ -10,8 +10,8 @@ use super::task::{FitTask, LinearSegment};
 /// Steps of one stage at most.
 const STEPS: usize = 100;
 /// Shares of the sum of squares below which a gain ends the iteration: of early stages, which
-/// only lead to the next one, and of the last.
-pub(super) const ROUGH: f64 = 1e-4;
+/// only lead to the next one and are integrated no better, and of the last.
+pub(super) const ROUGH: f64 = 3e-3;
 pub(super) const FULL: f64 = 2e-6;
 /// Steps that together gain a share of no more than this are a walk along a valley without end:
 /// a model that does not hold has such.
@@ -23,7 +23,7 @@ const UNCERTAIN: f64 = 1e-4;
 /// Root mean square of residuals, in deviations, at which nothing is left to be done.
 const NOTHING: f64 = 1e-8;
 /// Damping: its start, what it is multiplied and divided by, its bounds.
-const DAMPING: f64 = 1e-3;
+pub(super) const DAMPING: f64 = 1e-3;
 const MORE: f64 = 6.0;
 const LESS: f64 = 10.0;
 const DAMPING_RANGE: [f64; 2] = [1e-10, 1e10];
@@ -45,6 +45,8 @@ pub(super) struct FitStage {
     pub(super) free: Vec<usize>,
     /// Weights of the jump from a segment to the next.
     pub(super) junction: Vec<f64>,
+    /// Damping of the next step. Longer segments go on with that of shorter ones.
+    pub(super) damping: f64,
 }
 
 /// Residuals of a stage, in deviations.
@@ -138,8 +140,8 @@ impl FitStage {
         settled: f64,
         choices: usize,
     ) -> Option<Solved> {
-        let (mut before, mut steps) = (f64::INFINITY, 0);
         let mut known = self.residuals(task)?;
+        let (mut before, mut steps) = (known.squares, 0);
         for choice in 1.. {
             self.free = (0..task.names.len()).collect();
             let linear = self.linearise(task, &known)?;
@@ -180,10 +182,10 @@ impl FitStage {
     ) -> Option<(Residuals, usize)> {
         let count: usize = best.angles.iter().map(Vec::len).sum();
         let nothing = (count + task.frequencies.len()) as f64 * NOTHING * NOTHING;
-        let mut lambda = DAMPING;
+        self.damping = self.damping.min(DAMPING);
         let mut before = f64::INFINITY;
         for step in 0..STEPS {
-            if best.squares <= nothing || lambda > DAMPING_RANGE[1] {
+            if best.squares <= nothing || self.damping > DAMPING_RANGE[1] {
                 return Some((best, step));
             }
             if step % WALK == 0 {
@@ -192,22 +194,23 @@ impl FitStage {
                 }
                 before = best.squares;
             }
-            let Some((trial, residuals)) = self.step(task, &linear, lambda) else {
-                lambda *= MORE;
+            let Some((trial, residuals)) = self.step(task, &linear) else {
+                self.damping *= MORE;
                 continue;
             };
             let gain = best.squares - residuals.squares;
-            // A step that is held back changes little wherever it is.
             let small = match gain > 0.0 {
                 true => settled,
-                false => UNCERTAIN,
+                false => settled.max(UNCERTAIN),
             };
-            let is_settled = lambda <= NEARLY_FREE && gain.abs() <= small * best.squares;
+            // A step that is held back changes little wherever it is.
+            let is_free = self.damping <= NEARLY_FREE;
+            let is_settled = is_free && gain.abs() <= small * best.squares;
             if gain > 0.0 {
                 (*self, best) = (trial, residuals);
-                lambda = (lambda / LESS).max(DAMPING_RANGE[0]);
+                self.damping = (self.damping / LESS).max(DAMPING_RANGE[0]);
             } else {
-                lambda *= MORE;
+                self.damping *= MORE;
             }
             if is_settled {
                 return Some((best, step + 1));
@@ -220,13 +223,8 @@ impl FitStage {
     }
 
     /// One step, and the residuals after it.
-    fn step(
-        &self,
-        task: &FitTask<'_>,
-        linear: &LinearStage,
-        lambda: f64,
-    ) -> Option<(Self, Residuals)> {
-        let damping = linear.damping(lambda.sqrt());
+    fn step(&self, task: &FitTask<'_>, linear: &LinearStage) -> Option<(Self, Residuals)> {
+        let damping = linear.damping(self.damping.sqrt());
         let (globals, starts) = self.eliminate(linear, Some(&damping)).solve()?;
         let mut trial = self.clone();
         for (&global, step) in self.free.iter().zip(&globals) {

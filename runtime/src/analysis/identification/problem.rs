@@ -6,7 +6,7 @@ use super::error::IdentificationError;
 use super::family::Family;
 use super::fit::{Fit, StageReport};
 use super::frequencies::Frequency;
-use super::least_squares::{FULL, FitStage, ROUGH, Solved};
+use super::least_squares::{DAMPING, FULL, FitStage, ROUGH, Solved};
 use super::record::AngleRecord;
 use super::task::{FitTask, split};
 
@@ -201,6 +201,7 @@ impl<F: Family> Identification<F> {
             starts,
             globals,
             free: (0..task.names.len()).collect(),
+            damping: DAMPING,
         }
     }
 

@@ -7,14 +7,15 @@ use crate::analysis::variational::TangentMemory;
 use crate::scalar::Dual;
 use crate::system::Ode;
 
-/// A motion y and its derivatives: the state is y, followed by a column ∂y/∂x for each
-/// component x of its start, then one for each free parameter, in units of its scale.
+/// A motion y and its derivatives: a column ∂y/∂x for each component x of its start, then one
+/// for each free parameter, in units of its scale.
 ///
 /// With y' = f(y, p), a column v obeys v' = ∂f/∂y v + ∂f/∂p: what a number with the
-/// derivatives v and ∂p has for a derivative of its rate. Some columns are taken at a time.
+/// derivatives v and ∂p has for a derivative of its rate. [`WIDTH`] columns are taken at a time:
+/// the state is y, followed by groups of so many, in which those of a component are neighbours,
+/// as they are in the number. What is left over of the last group is zero.
 pub(super) struct Sensitivities<'a> {
     dimension: usize,
-    columns: usize,
     /// The equations, whose parameters carry the derivatives of their group of columns.
     groups: Vec<Box<dyn Ode<Wide> + 'a>>,
     memory: RefCell<TangentMemory<Wide>>,
@@ -45,7 +46,6 @@ impl<'a> Sensitivities<'a> {
         };
         Self {
             dimension,
-            columns,
             groups: (0..columns.div_ceil(WIDTH)).map(group).collect(),
             memory: RefCell::new(TangentMemory::new(dimension)),
         }
@@ -53,19 +53,24 @@ impl<'a> Sensitivities<'a> {
 
     /// The start of motion and columns.
     pub(super) fn start(&self, state: &[f64]) -> Vec<f64> {
-        let n = self.dimension;
-        let mut start = vec![0.0; n * (1 + self.columns)];
-        start[..n].copy_from_slice(state);
-        for component in 0..n {
-            start[n * (1 + component) + component] = 1.0;
+        let mut start = vec![0.0; self.dimension()];
+        start[..self.dimension].copy_from_slice(state);
+        for component in 0..self.dimension {
+            start[self.place(component, component)] = 1.0;
         }
         start
+    }
+
+    /// The place of a component of a column in the state.
+    pub(super) fn place(&self, column: usize, component: usize) -> usize {
+        let group = self.dimension * (1 + column / WIDTH * WIDTH);
+        group + component * WIDTH + column % WIDTH
     }
 }
 
 impl Ode<f64> for Sensitivities<'_> {
     fn dimension(&self) -> usize {
-        self.dimension * (1 + self.columns)
+        self.dimension * (1 + self.groups.len() * WIDTH)
     }
 
     fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
@@ -74,15 +79,14 @@ impl Ode<f64> for Sensitivities<'_> {
         let own = &mut *memory;
         let (motion, columns) = state.split_at(n);
         let (motion_rates, column_rates) = rates.split_at_mut(n);
+        let (columns, _) = columns.as_chunks::<WIDTH>();
+        let (column_rates, _) = column_rates.as_chunks_mut::<WIDTH>();
         let in_groups = columns
-            .chunks(n * WIDTH)
-            .zip(column_rates.chunks_mut(n * WIDTH));
+            .chunks_exact(n)
+            .zip(column_rates.chunks_exact_mut(n));
         for (equations, (columns, column_rates)) in self.groups.iter().zip(in_groups) {
             for (component, number) in own.state.iter_mut().enumerate() {
-                *number = Dual::constant(motion[component]);
-                for (tangent, column) in number.tangents.iter_mut().zip(columns.chunks_exact(n)) {
-                    *tangent = column[component];
-                }
+                (number.value, number.tangents) = (motion[component], columns[component]);
             }
             equations.rates_with(
                 &mut own.workspace,
@@ -92,10 +96,7 @@ impl Ode<f64> for Sensitivities<'_> {
             );
             for (component, number) in own.rates.iter().enumerate() {
                 motion_rates[component] = number.value;
-                let columns = column_rates.chunks_exact_mut(n);
-                for (tangent, column) in number.tangents.iter().zip(columns) {
-                    column[component] = *tangent;
-                }
+                column_rates[component] = number.tangents;
             }
         }
     }

@@ -148,7 +148,7 @@ impl FitTask<'_> {
                     continue;
                 };
                 for column in 0..width {
-                    let slope = state[n * (1 + column) + link.component];
+                    let slope = state[system.place(column, link.component)];
                     data[(row, column)] = link.weight * slope;
                 }
                 let offset = free.iter().position(|&global| Some(global) == link.offset);
@@ -159,7 +159,7 @@ impl FitTask<'_> {
             }
         })?;
         let end = DMatrix::from_fn(n, last + 1, |component, column| match column {
-            column if column < width => end[n * (1 + column) + component],
+            column if column < width => end[system.place(column, component)],
             column if column < last => 0.0,
             _ => reached[component],
         });

@@ -46,6 +46,10 @@ impl<const K: usize> FittedConstants<K> {
         rows: &[SVector<f64, K>],
         noise: Option<f64>,
     ) -> Self {
+        let mut found = Self::none();
+        if rows.is_empty() {
+            return found;
+        }
         let (mut information, mut pull) = (SMatrix::zeros(), SVector::zeros());
         let used = rows.iter().zip(&innovations.standard);
         for (row, value) in used.skip(innovations.free) {
@@ -54,7 +58,6 @@ impl<const K: usize> FittedConstants<K> {
         }
         let all = innovations.clone();
         let mut taken = [false; K];
-        let mut found = Self::none();
         loop {
             let mut better = None;
             let mut best = innovations.log_likelihood(noise);

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::error::{SmoothingError, check_option, check_times, usual_interval};
 use super::likelihood::climb;
-use super::model_filter::{ModelFilter, SmoothingSolution};
+use super::model_filter::{DampedMotion, Filtered, ModelFilter, SmoothingSolution};
 use super::series::{Scale, SmoothedMotion};
 use crate::analysis::variational::{Linearised, Variational};
 use crate::integrate::Integrator;
@@ -117,19 +117,21 @@ impl<const N: usize> ModelSmoother<N> {
             (Some(noise), Some(q)) => Some(q * cube / (noise * noise)),
             _ => None,
         };
-        let start = SmoothingSolution::start(guess);
+        let start = DampedMotion {
+            states: guess.to_vec(),
+            dampings: SVector::zeros(),
+        };
         let solution = match ratio {
             Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
             None => self.likeliest(&problem, start)?,
         };
-        let SmoothingSolution {
-            logs,
-            steps,
+        let SmoothingSolution { logs, filtered, .. } = solution;
+        let Filtered {
             innovations,
+            steps,
             constants,
             effects,
-            ..
-        } = solution;
+        } = filtered;
         let noise = problem.noise_of(&logs, &innovations);
         let scale = Scale {
             noise,
@@ -196,9 +198,14 @@ impl<const N: usize> ModelSmoother<N> {
         if !self.damping {
             return Vec::new();
         }
-        let angle = |of: usize| SVector::from_fn(|row, _| f64::from(u8::from(row == of)));
         let patterns: Vec<SVector<f64, N>> = match self.disturbances.is_empty() {
-            true => (0..N).map(angle).collect(),
+            true => {
+                let angles = SMatrix::<f64, N, N>::identity();
+                angles
+                    .column_iter()
+                    .map(|angle| angle.into_owned())
+                    .collect()
+            }
             false => self.disturbances.iter().map(|p| (*p).into()).collect(),
         };
         let projection = |pattern: &SVector<f64, N>| {
@@ -211,26 +218,26 @@ impl<const N: usize> ModelSmoother<N> {
     fn likeliest<const D: usize, L, M>(
         &self,
         problem: &ModelFilter<'_, N, L, M>,
-        start: SmoothingSolution<D, N>,
+        start: DampedMotion<D, N>,
     ) -> Result<SmoothingSolution<D, N>, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
         let of = |solution: &SmoothingSolution<D, N>| {
-            problem.likelihood(&solution.logs, &solution.innovations)
+            problem.likelihood(&solution.logs, &solution.filtered.innovations)
         };
         let [low, high] = LOG_RATIOS;
         let mut log = high;
         let mut best = problem.solve(&[log], start, NEAR)?;
-        let mut last = best.clone();
+        let mut last = best.motion.clone();
         while log > low {
             log -= LOG_STEP;
             // A model that cannot follow the data any more has been trusted too far.
             let Ok(next) = problem.solve(&[log], last, NEAR) else {
                 break;
             };
-            last = next.clone();
+            last = next.motion.clone();
             if of(&next) < of(&best) - HOPELESS {
                 break;
             }
@@ -244,14 +251,14 @@ impl<const N: usize> ModelSmoother<N> {
         }
         for search in 1..=SEARCHES {
             // The linearisation about the best motion serves its neighbours.
-            let linear = problem.linearise(&best)?;
+            let linear = problem.linearise(&best.motion)?;
             let near = |logs: &[f64]| {
-                let filtered = problem.filter(logs, &best.motion, &linear);
+                let filtered = problem.filter(logs, &best.motion.states, &linear);
                 problem.likelihood(logs, &filtered.innovations)
             };
             let logs = climb(near, best.logs.clone(), low, STEPS);
             let enough = if search < SEARCHES { NEAR } else { CONVERGED };
-            best = problem.solve(&logs, best, enough)?;
+            best = problem.solve(&logs, best.motion, enough)?;
         }
         Ok(best)
     }

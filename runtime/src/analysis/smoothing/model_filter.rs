@@ -44,36 +44,26 @@ pub(super) struct LinearFlow<const D: usize, const N: usize> {
 /// Findings of a filter.
 pub(super) struct Filtered<const D: usize, const N: usize> {
     pub(super) innovations: Innovations,
-    steps: Vec<Step<D>>,
-    constants: FittedConstants<N>,
-    effects: Vec<StepEffects<D, N>>,
-}
-
-/// The motion for given ratios q τ³/σ².
-#[derive(Clone)]
-pub(super) struct SmoothingSolution<const D: usize, const N: usize> {
-    /// Their logarithms: one for each kind of disturbance, or one for all.
-    pub(super) logs: Vec<f64>,
-    pub(super) motion: Vec<[f64; D]>,
     pub(super) steps: Vec<Step<D>>,
-    pub(super) innovations: Innovations,
     /// The dampings.
     pub(super) constants: FittedConstants<N>,
     pub(super) effects: Vec<StepEffects<D, N>>,
 }
 
-impl<const D: usize, const N: usize> SmoothingSolution<D, N> {
-    /// A motion to begin with.
-    pub(super) fn start(motion: &[[f64; D]]) -> Self {
-        Self {
-            logs: Vec::new(),
-            motion: motion.to_vec(),
-            steps: Vec::new(),
-            innovations: Innovations::default(),
-            constants: FittedConstants::none(),
-            effects: Vec::new(),
-        }
-    }
+/// A motion, with the dampings that act on it beside the equations.
+#[derive(Clone)]
+pub(super) struct DampedMotion<const D: usize, const N: usize> {
+    pub(super) states: Vec<[f64; D]>,
+    pub(super) dampings: SVector<f64, N>,
+}
+
+/// The motion for given ratios q τ³/σ².
+pub(super) struct SmoothingSolution<const D: usize, const N: usize> {
+    /// Their logarithms: one for each kind of disturbance, or one for all.
+    pub(super) logs: Vec<f64>,
+    pub(super) motion: DampedMotion<D, N>,
+    /// Findings of the filter that led to it.
+    pub(super) filtered: Filtered<D, N>,
 }
 
 impl<const N: usize, L, M> ModelFilter<'_, N, L, M>
@@ -103,22 +93,16 @@ where
     pub(super) fn solve<const D: usize>(
         &self,
         logs: &[f64],
-        mut from: SmoothingSolution<D, N>,
+        mut motion: DampedMotion<D, N>,
         converged: f64,
     ) -> Result<SmoothingSolution<D, N>, SmoothingError> {
         for iteration in 1.. {
-            let flow = self.linearise(&from)?;
-            let Filtered {
-                innovations,
-                steps,
-                constants,
-                effects,
-            } = self.filter(logs, &from.motion, &flow);
-            let mut motion = from.motion;
-            let (smoothed, _) = smooth(&steps);
-            let noise = innovations.noise();
+            let flow = self.linearise(&motion)?;
+            let filtered = self.filter(logs, &motion.states, &flow);
+            motion.dampings = filtered.constants.values;
+            let (smoothed, _) = smooth(&filtered.steps);
             let mut change = 0.0_f64;
-            for (old, new) in motion.iter_mut().zip(&smoothed) {
+            for (old, new) in motion.states.iter_mut().zip(&smoothed) {
                 let new: [f64; D] = new.mean.into();
                 for (old, new) in old.iter().zip(&new).take(N) {
                     // NaN does not pass as small.
@@ -133,16 +117,13 @@ where
             if !change.is_finite() {
                 return Err(SmoothingError::Diverged);
             }
-            from = SmoothingSolution {
-                logs: logs.to_vec(),
-                motion,
-                steps,
-                innovations,
-                constants,
-                effects,
-            };
-            if change <= converged * noise || iteration == ITERATIONS {
-                return Ok(from);
+            let enough = converged * filtered.innovations.noise();
+            if change <= enough || iteration == ITERATIONS {
+                return Ok(SmoothingSolution {
+                    logs: logs.to_vec(),
+                    motion,
+                    filtered,
+                });
             }
         }
         Err(SmoothingError::Diverged)
@@ -150,10 +131,10 @@ where
 
     pub(super) fn linearise<const D: usize>(
         &self,
-        about: &SmoothingSolution<D, N>,
+        about: &DampedMotion<D, N>,
     ) -> Result<Vec<LinearFlow<D, N>>, SmoothingError> {
-        let ends = self.times.iter().zip(&about.motion).skip(1);
-        let pairs = self.times.iter().zip(&about.motion).zip(ends);
+        let ends = self.times.iter().zip(&about.states).skip(1);
+        let pairs = self.times.iter().zip(&about.states).zip(ends);
         pairs
             .map(|((&time, state), (&end, next))| {
                 let start = State::new(time, state.to_vec());
@@ -161,7 +142,7 @@ where
                 let (reached, columns) = flow.map_err(|_| SmoothingError::Diverged)?;
                 let mut transition = SMatrix::from_column_slice(&columns);
                 let h = end - time;
-                for (projection, damping) in self.dampings.iter().zip(&about.constants.values) {
+                for (projection, damping) in self.dampings.iter().zip(&about.dampings) {
                     for (row, column) in (0..N).flat_map(|row| (0..N).map(move |c| (row, c))) {
                         let lost = h * damping * projection[(row, column)];
                         transition[(row, N + column)] -= 0.5 * h * lost;
