@@ -47,6 +47,8 @@ pub use prescribed::{
     LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedLinks, PrescribedMotion,
     PrescribedOde,
 };
+#[doc(hidden)]
+pub use prescribed::{course_room, on_course};
 pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};

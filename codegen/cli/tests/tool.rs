@@ -39,7 +39,13 @@ fn committed_expansions_are_fresh() {
         &[],
     );
     let trees = fixture("../../runtime/trees");
-    for name in ["by_rule.rs", "general.rs", "rough.rs", "straight.rs"] {
+    for name in [
+        "by_rule.rs",
+        "general.rs",
+        "held.rs",
+        "rough.rs",
+        "straight.rs",
+    ] {
         let folders = ["src/equations", "equations"];
         let equations = folders.map(|folder| trees.join(folder).join(name));
         check(equations, &["--emit".as_ref(), "equations".as_ref()]);

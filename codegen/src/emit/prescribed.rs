@@ -119,6 +119,7 @@ impl Emission<'_> {
                     reactions: &mut [T],
                 ) {
                     let links = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(set);
+                    let links = links.map(|set| set.links);
                     self.tree.accelerations_prescribed_with(
                         workspace, #drive, links, motion, [alpha, reactions],
                     );
@@ -134,6 +135,7 @@ impl Emission<'_> {
                     reactions: &mut [#other],
                 ) {
                     let links = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(set);
+                    let links = links.map(|set| set.links);
                     pendulum.tree.evaluate_prescribed(
                         #drive_of, links, motion, [alpha, reactions],
                     );

@@ -134,6 +134,7 @@ impl Emission<'_> {
                     let mut reactions = [T::from_f64(0.0); #held];
                     #workspace
                     let held = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(#number);
+                    let held = held.map(|set| set.links);
                     let motion =
                         #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
                     self.tree.accelerations_prescribed_with(

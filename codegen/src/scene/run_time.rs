@@ -34,9 +34,6 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
     for observable in kept.observables.drain(..) {
         refuse(&observable.name, "observe(...)".to_owned());
     }
-    for prescribed in kept.prescribed.drain(..) {
-        refuse(&prescribed.name, "prescribed(...)".to_owned());
-    }
     let scene = resolve(&kept, report)?;
     if let (Layout::Generations { links, .. }, Some(root)) =
         (scene.layout, description.roots.first())

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::by_reference::by_reference;
-use super::ode::halves;
+use super::ode::{StateHalves, halves};
 use super::{Cast, LaneOde, Ode, Workspace};
 use crate::scalar::Scalar;
 
@@ -273,16 +273,11 @@ impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
         let Self { pendulum, torques } = self;
-        fill(
-            P::LINKS,
-            torques,
-            time,
-            state,
-            rates,
-            |[theta, omega, torques], alpha| {
-                pendulum.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
-            },
-        );
+        if let Some((given, out)) = under(P::LINKS, torques, time, state, rates) {
+            let ([theta, omega], [velocities, alpha]) = (given, out);
+            pendulum.accelerations_under_with(workspace, time, theta, omega, velocities, alpha);
+            velocities.copy_from_slice(omega);
+        }
     }
 }
 
@@ -301,33 +296,27 @@ impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, 
     #[inline(always)]
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let UnderTorques { pendulum, torques } = system;
-        fill(
-            P::LINKS,
-            torques,
-            time,
-            state,
-            rates,
-            |[theta, omega, torques], alpha| {
-                P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
-            },
-        );
+        if let Some((given, out)) = under(P::LINKS, torques, time, state, rates) {
+            let ([theta, omega], [velocities, alpha]) = (given, out);
+            P::accelerations_under_of(pendulum, time, theta, omega, velocities, alpha);
+            velocities.copy_from_slice(omega);
+        }
     }
 }
 
-/// Writes the rates of a state of so many angles under torques, which stand where the
-/// velocities will.
+/// Angles and angular velocities of a state of so many angles, and the places of their
+/// rates: where the velocities will stand are the torques now. None where lengths do not
+/// fit.
 #[inline(always)]
-pub(super) fn fill<T: Scalar>(
+pub(super) fn under<'s, 'r, T: Scalar>(
     angles: usize,
     torques: &impl Torques<T>,
     time: T,
-    state: &[T],
-    rates: &mut [T],
-    accelerate: impl FnOnce([&[T]; 3], &mut [T]),
-) {
-    if let Some(([theta, omega], [first, alpha])) = halves(angles, state, rates) {
-        torques.torques_into(time, theta, omega, first);
-        accelerate([theta, omega, first], alpha);
-        first.copy_from_slice(omega);
-    }
+    state: &'s [T],
+    rates: &'r mut [T],
+) -> Option<StateHalves<'s, 'r, T>> {
+    let (given, out) = halves(angles, state, rates)?;
+    let ([theta, omega], [first, second]) = (given, out);
+    torques.torques_into(time, theta, omega, first);
+    Some((given, [first, second]))
 }

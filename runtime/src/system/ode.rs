@@ -45,7 +45,7 @@ by_reference! {
 }
 
 /// Halves of a state, and of its rates.
-type StateHalves<'s, 'r, T> = ([&'s [T]; 2], [&'r mut [T]; 2]);
+pub(crate) type StateHalves<'s, 'r, T> = ([&'s [T]; 2], [&'r mut [T]; 2]);
 
 /// Splits a state and its rates in halves of so many numbers. None, and rates that are NaN,
 /// where lengths do not fit: there is no answer.

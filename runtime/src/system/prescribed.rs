@@ -227,46 +227,35 @@ impl<P, F> PrescribedOde<P, F> {
         }
         let mut rates = alloc::vec![nan; state.len()];
         let mut workspace = Workspace::new();
-        let (room, workspace) = workspace.with_inner(self.set.room(P::LINKS));
+        let (room, workspace) = workspace.with_inner(course_room(P::LINKS, self.set.links.len()));
         let held = (self.set.links, &self.course);
-        fill(
-            P::LINKS,
-            held,
-            time,
-            state,
-            &mut rates,
-            room,
-            |motion, alpha, _| {
-                self.pendulum.accelerations_prescribed_with(
-                    workspace, self.index, time, motion, alpha, reactions,
-                );
-            },
-        );
+        let moved = on_course(P::LINKS, held, time, state, &mut rates, room);
+        let Some((motion, [alpha, _])) = moved else {
+            return reactions.fill(nan);
+        };
+        self.pendulum
+            .accelerations_prescribed_with(workspace, self.index, time, motion, alpha, reactions);
     }
 }
 
-impl PrescribedLinks {
-    /// How many numbers [`fill`] takes.
-    fn room(&self, links: usize) -> usize {
-        3 * links + 5 * self.links.len()
-    }
+/// Returns how many numbers [`on_course`] takes room for.
+pub fn course_room(links: usize, held: usize) -> usize {
+    3 * links + 5 * held
 }
 
-/// Writes the rates of a state of so many links, of which some are on a course; what
-/// accelerates them may write the reactions.
+/// The motion of a state of so many links, of which some are on a course, and the places of
+/// the accelerations and of the reactions; the rates of the angles are written. None where
+/// lengths do not fit.
 #[inline(always)]
-fn fill<T: Scalar>(
+pub fn on_course<'r, T: Scalar>(
     links: usize,
     (held, course): (&[usize], &impl LinkCourses<T>),
     time: T,
     state: &[T],
-    rates: &mut [T],
-    room: &mut [T],
-    accelerate: impl FnOnce(PrescribedMotion<'_, T>, &mut [T], &mut [T]),
-) {
-    let Some((_, [velocities, alpha])) = halves(links, state, rates) else {
-        return;
-    };
+    rates: &'r mut [T],
+    room: &'r mut [T],
+) -> Option<(PrescribedMotion<'r, T>, [&'r mut [T]; 2])> {
+    let (_, [velocities, alpha]) = halves(links, state, rates)?;
     let (all, own) = room.split_at_mut(3 * links);
     let (motion, torques) = all.split_at_mut(2 * links);
     let (courses, others) = own.split_at_mut(3 * held.len());
@@ -291,7 +280,7 @@ fn fill<T: Scalar>(
         torques,
         prescribed,
     };
-    accelerate(motion, alpha, reactions);
+    Some((motion, [alpha, reactions]))
 }
 
 impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
@@ -321,21 +310,14 @@ impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P,
 
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        let (room, workspace) = workspace.with_inner(self.set.room(P::LINKS));
+        let (room, workspace) = workspace.with_inner(course_room(P::LINKS, self.set.links.len()));
         let held = (self.set.links, &self.course);
-        fill(
-            P::LINKS,
-            held,
-            time,
-            state,
-            rates,
-            room,
-            |motion, alpha, reactions| {
-                self.pendulum.accelerations_prescribed_with(
-                    workspace, self.index, time, motion, alpha, reactions,
-                );
-            },
-        );
+        let moved = on_course(P::LINKS, held, time, state, rates, room);
+        if let Some((motion, [alpha, reactions])) = moved {
+            self.pendulum.accelerations_prescribed_with(
+                workspace, self.index, time, motion, alpha, reactions,
+            );
+        }
     }
 }
 
@@ -361,18 +343,11 @@ impl<T: Scalar, P: Prescribed<T>, F: LaneCourses<T>> LaneOde<T> for PrescribedOd
             set,
             course,
         } = system;
-        let mut room = alloc::vec![S::from_f64(0.0); set.room(P::LINKS)];
+        let mut room = alloc::vec![S::from_f64(0.0); course_room(P::LINKS, set.links.len())];
         let held = (set.links, course);
-        fill(
-            P::LINKS,
-            held,
-            time,
-            state,
-            rates,
-            &mut room,
-            |motion, alpha, reactions| {
-                P::accelerations_prescribed_of(pendulum, *index, time, motion, alpha, reactions);
-            },
-        );
+        let moved = on_course(P::LINKS, held, time, state, rates, &mut room);
+        if let Some((motion, [alpha, reactions])) = moved {
+            P::accelerations_prescribed_of(pendulum, *index, time, motion, alpha, reactions);
+        }
     }
 }

@@ -5,7 +5,7 @@ mod forced;
 pub use forced::{ForcedDifferences, SmallUnderTorques};
 
 use super::by_reference::by_reference;
-use super::transverse::fill;
+use super::transverse::with_differences;
 use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
@@ -143,13 +143,11 @@ impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let Self(model) = self;
         let differences = differences(P::TRANSVERSE, P::SMALL);
-        fill(
-            (P::LINKS, differences),
-            (state, rates),
-            |[theta, omega, difference, rate], second| {
-                model.small_accelerations_into(time, theta, omega, difference, rate, second);
-            },
-        );
+        let lengths = (P::LINKS, differences);
+        if let Some((given, second)) = with_differences(lengths, state, rates) {
+            let [theta, omega, difference, rate] = given;
+            model.small_accelerations_into(time, theta, omega, difference, rate, second);
+        }
     }
 }
 
@@ -180,13 +178,11 @@ impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let SmallOde(model) = system;
         let differences = differences(P::TRANSVERSE, P::SMALL);
-        fill(
-            (P::LINKS, differences),
-            (state, rates),
-            |[theta, omega, difference, rate], second| {
-                P::small_accelerations_of(model, time, theta, omega, difference, rate, second);
-            },
-        );
+        let lengths = (P::LINKS, differences);
+        if let Some((given, second)) = with_differences(lengths, state, rates) {
+            let [theta, omega, difference, rate] = given;
+            P::small_accelerations_of(model, time, theta, omega, difference, rate, second);
+        }
     }
 }
 

@@ -196,20 +196,18 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
             index,
             sector,
         } = self;
-        fill(
-            (P::LINKS, sector.links),
-            (state, rates),
-            |[theta, omega, difference, rate], accelerations| {
-                let (alpha, second) = accelerations.split_at_mut(P::LINKS);
-                model.accelerations_with(workspace, time, theta, omega, alpha);
-                let motion = InPhaseMotion {
-                    theta,
-                    omega,
-                    alpha,
-                };
-                model.transverse_accelerations_into(*index, time, motion, difference, rate, second);
-            },
-        );
+        let lengths = (P::LINKS, sector.links);
+        if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
+            let [theta, omega, difference, rate] = given;
+            let (alpha, second) = accelerations.split_at_mut(P::LINKS);
+            model.accelerations_with(workspace, time, theta, omega, alpha);
+            let motion = InPhaseMotion {
+                theta,
+                omega,
+                alpha,
+            };
+            model.transverse_accelerations_into(*index, time, motion, difference, rate, second);
+        }
     }
 }
 
@@ -236,27 +234,23 @@ impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
             index,
             sector,
         } = system;
-        fill(
-            (P::LINKS, sector.links),
-            (state, rates),
-            |[theta, omega, difference, rate], accelerations| {
-                let (alpha, second) = accelerations.split_at_mut(P::LINKS);
-                model.evaluate(
-                    time,
-                    |link| at(theta, link),
-                    |link| at(omega, link),
-                    |link, value| put(alpha, link, value),
-                );
-                let motion = InPhaseMotion {
-                    theta,
-                    omega,
-                    alpha,
-                };
-                P::transverse_accelerations_of(
-                    model, *index, time, motion, difference, rate, second,
-                );
-            },
-        );
+        let lengths = (P::LINKS, sector.links);
+        if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
+            let [theta, omega, difference, rate] = given;
+            let (alpha, second) = accelerations.split_at_mut(P::LINKS);
+            model.evaluate(
+                time,
+                |link| at(theta, link),
+                |link| at(omega, link),
+                |link, value| put(alpha, link, value),
+            );
+            let motion = InPhaseMotion {
+                theta,
+                omega,
+                alpha,
+            };
+            P::transverse_accelerations_of(model, *index, time, motion, difference, rate, second);
+        }
     }
 
     fn shape(&self) -> usize {
@@ -279,22 +273,24 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
     }
 }
 
-/// Writes the rates of a state of so many links and so many differences.
+/// Angles, angular velocities, differences and their rates in a state of so many links and
+/// so many differences, and the place of the accelerations of all; the rates of the angles
+/// are written. None where lengths do not fit.
+///
+/// What accelerates is no closure that this calls: the compiler may leave those without the
+/// instructions of the registers.
 #[inline(always)]
-pub(super) fn fill<T: Scalar>(
+pub(super) fn with_differences<'s, 'r, T: Scalar>(
     (links, differences): (usize, usize),
-    (state, rates): (&[T], &mut [T]),
-    accelerate: impl FnOnce([&[T]; 4], &mut [T]),
-) {
+    state: &'s [T],
+    rates: &'r mut [T],
+) -> Option<([&'s [T]; 4], &'r mut [T])> {
     let half = links + differences;
-    let Some(([angles, velocities], [angle_rates, accelerations])) = halves(half, state, rates)
-    else {
-        return;
-    };
+    let ([angles, velocities], [angle_rates, accelerations]) = halves(half, state, rates)?;
     angle_rates.copy_from_slice(velocities);
     let (theta, difference) = angles.split_at(links);
     let (omega, difference_rate) = velocities.split_at(links);
-    accelerate([theta, omega, difference, difference_rate], accelerations);
+    Some(([theta, omega, difference, difference_rate], accelerations))
 }
 
 by_reference! {

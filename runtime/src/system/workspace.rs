@@ -35,7 +35,8 @@ impl<T: Scalar> Workspace<T> {
     }
 
     /// Returns the first `length` numbers, and another workspace.
-    pub(crate) fn with_inner(&mut self, length: usize) -> (&mut [T], &mut Self) {
+    #[doc(hidden)]
+    pub fn with_inner(&mut self, length: usize) -> (&mut [T], &mut Self) {
         let numbers = first(&mut self.numbers, length);
         (numbers, self.inner.get_or_insert_default())
     }

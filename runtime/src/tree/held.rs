@@ -4,10 +4,10 @@ use super::small::LinkStates;
 use super::{LinkEquations, RootDrive, Tree, states};
 use crate::scalar::{Scalar, at};
 use crate::system::cast::put;
-use crate::system::{PrescribedLinks, PrescribedMotion, Workspace};
+use crate::system::{PrescribedMotion, Workspace};
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
-    /// Writes the angular accelerations and reactions where those of a set of links are
+    /// Writes the angular accelerations and reactions where those of the links `set` are
     /// given, as
     /// [`Prescribed::accelerations_prescribed_with`](crate::Prescribed::accelerations_prescribed_with):
     /// NaN without a set, and for equations that know no held links
@@ -16,7 +16,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         &self,
         workspace: &mut Workspace<T>,
         drive: Option<RootDrive<T>>,
-        set: Option<&PrescribedLinks>,
+        set: Option<&[usize]>,
         motion: PrescribedMotion<'_, T>,
         [alpha, reactions]: [&mut [T]; 2],
     ) {
@@ -43,7 +43,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     pub fn evaluate_prescribed(
         &self,
         drive: Option<RootDrive<T>>,
-        set: Option<&PrescribedLinks>,
+        set: Option<&[usize]>,
         motion: PrescribedMotion<'_, T>,
         [alpha, reactions]: [&mut [T]; 2],
     ) {
@@ -73,11 +73,11 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// Returns the links of a set, of which there are some, if all lengths fit.
     fn held_links<'s>(
         &self,
-        set: Option<&'s PrescribedLinks>,
+        set: Option<&'s [usize]>,
         motion: &PrescribedMotion<'_, T>,
         [alpha, reactions]: [&[T]; 2],
     ) -> Option<&'s [usize]> {
-        let held = set?.links;
+        let held = set?;
         let links = self.skeleton.plan.links();
         let PrescribedMotion {
             theta,

@@ -159,7 +159,7 @@ fn evaluate<E: LinkEquations, T: Scalar>(
 /// All torque on a tree of one link, if a drive turns it: the equations know a torque of
 /// the drive on links with children alone.
 #[inline(always)]
-fn on_single_link<T: Scalar>(acting: &Acting<'_, T>, links: usize) -> Option<[T; 1]> {
+pub(crate) fn on_single_link<T: Scalar>(acting: &Acting<'_, T>, links: usize) -> Option<[T; 1]> {
     let drive = acting.drive.filter(|_| links == 1)?;
     let given = acting.torques.and_then(|torques| torques.first());
     Some([match given {

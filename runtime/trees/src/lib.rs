@@ -6,7 +6,7 @@
 //! the compiler derived and wrote for one link with all its properties left open; they are
 //! part of this crate, and the runtime takes them through any tree.
 //!
-//! Accelerations, energies, momenta, linear modes, positions, forces, drives, every
+//! Accelerations, energies, momenta, linear modes, positions, forces, links that are held, drives, every
 //! integrator, ensembles in lanes and, of trees by rule, budgets by scale are there. Other
 //! energy transfers, symmetric coordinates, observables and Taylor series are derived for
 //! one tree and stay with compiled models, as does the speed of code that is written out:
@@ -21,6 +21,7 @@ mod forms;
 mod numbers;
 mod ode;
 mod positions;
+mod prescribed;
 mod rows;
 mod scales;
 mod text;
@@ -29,4 +30,5 @@ mod tree;
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
 pub use ode::TreeUnderTorques;
+pub use prescribed::PrescribedTree;
 pub use tree::PendulumTree;

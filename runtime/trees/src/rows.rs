@@ -193,6 +193,21 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
+/// Numbers of a row of [`Form::Rough`].
+const ROUGH: usize = 19;
+
+/// Returns the constants of the equations of links that may be held, a row for each link:
+/// those of [`Form::Rough`] without b/J of links without children.
+pub(crate) fn held(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+    let rough = Form::Rough.rows(links, carries);
+    let (rows, _) = rough.as_chunks::<ROUGH>();
+    let rows = rows.iter().flat_map(|row| {
+        let [inertia, moment, lateral, mass, _, _, others @ ..] = row;
+        [inertia, moment, lateral, mass].into_iter().chain(others)
+    });
+    rows.copied().collect()
+}
+
 /// Links of one generation, all alike.
 pub(crate) struct Generation {
     /// One of them.

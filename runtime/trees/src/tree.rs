@@ -13,6 +13,7 @@ use crate::drive::Courses;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
+use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
 use crate::scales::ByRule;
 
@@ -65,6 +66,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) properties: PropertyTable<T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) rule: Option<ByRule<T>>,
+    pub(crate) held: Option<HeldLinks<T>>,
 }
 
 /// Parts that trees on all scalars share.
@@ -117,6 +119,11 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(&links, drive.is_some());
         let rows = in_numbers(&form.rows(&links, &carries));
         let rule = ByRule::of(&links, &carries, gravity);
+        let sets = scene.prescribed.iter();
+        let sets = sets.map(|set| set.links.iter().map(|link| link.0).collect());
+        let held = HeldLinks::of(sets.collect(), &parents, above, || {
+            in_numbers(&rows::held(&links, &carries))
+        });
         let equations = Equations::new(form, &parents, rows, above);
         let mut hasher = DefaultHasher::new();
         (&parents, form).hash(&mut hasher);
@@ -134,6 +141,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links))),
             drive: drive.map(|drive| Courses::of(drive, &parameters)),
             rule,
+            held,
         })
     }
 
@@ -183,6 +191,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: self.properties.cast(&convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
             rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
+            held: self.held.as_ref().map(|held| held.cast(&convert)),
         }
     }
 

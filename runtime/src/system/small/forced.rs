@@ -5,7 +5,7 @@ use core::fmt;
 use super::{SmallDifferences, differences};
 use crate::scalar::Scalar;
 use crate::system::by_reference::by_reference;
-use crate::system::forced::fill;
+use crate::system::forced::under;
 use crate::system::{Forced, LaneOde, LaneTorques, Ode, Torques};
 
 /// A model of [`SmallDifferences`] that takes torques from outside: `emit(small)` with
@@ -137,10 +137,13 @@ impl<T: Scalar, P: ForcedDifferences<T>, F: Torques<T>> Ode<T> for SmallUnderTor
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let Self { model, torques } = self;
         let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
-        fill(half, torques, time, state, rates, |given, second| {
-            let [angles, rates, torques] = given.map(|values| parts(P::LINKS, values));
+        if let Some((given, out)) = under(half, torques, time, state, rates) {
+            let ([theta, omega], [first, second]) = (given, out);
+            let (angles, rates) = (parts(P::LINKS, theta), parts(P::LINKS, omega));
+            let torques = parts(P::LINKS, first);
             model.small_accelerations_under_into(time, angles, rates, torques, second);
-        });
+            first.copy_from_slice(omega);
+        }
     }
 }
 
@@ -160,10 +163,13 @@ impl<T: Scalar, P: ForcedDifferences<T>, F: LaneTorques<T>> LaneOde<T> for Small
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let SmallUnderTorques { model, torques } = system;
         let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
-        fill(half, torques, time, state, rates, |given, second| {
-            let [angles, rates, torques] = given.map(|values| parts(P::LINKS, values));
+        if let Some((given, out)) = under(half, torques, time, state, rates) {
+            let ([theta, omega], [first, second]) = (given, out);
+            let (angles, rates) = (parts(P::LINKS, theta), parts(P::LINKS, omega));
+            let torques = parts(P::LINKS, first);
             P::small_accelerations_under_of(model, time, angles, rates, torques, second);
-        });
+            first.copy_from_slice(omega);
+        }
     }
 }
 

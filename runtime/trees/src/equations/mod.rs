@@ -10,11 +10,14 @@ mod by_rule;
 #[rustfmt::skip]
 mod general;
 #[rustfmt::skip]
+mod held;
+#[rustfmt::skip]
 mod rough;
 #[rustfmt::skip]
 mod straight;
 
 pub(crate) use by_rule::ByRuleEquations;
 pub(crate) use general::GeneralEquations;
+pub(crate) use held::HeldEquations;
 pub(crate) use rough::RoughEquations;
 pub(crate) use straight::StraightEquations;

@@ -2,5 +2,6 @@
 
 mod costs;
 mod mechanics;
+mod prescribed;
 mod scales;
 mod text;

@@ -8,7 +8,7 @@ use branched_pendulum::system::{LinkPoint, Workspace};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeUnderTorques};
 
 /// Everything that a link can have.
-const BENT: &str = "gravity = 9.80665,
+pub(crate) const BENT: &str = "gravity = 9.80665,
     limb(mass = 0.4, com = (0.2, 0.03), inertia = 2e-3, joint = 0.5, friction = 1e-3) [
         bough(mass = 0.1, com = (0.12, 0.01), inertia = 1e-3, at = (0.3, -0.02),
             joint = (0.25, 0.03), spring = 0.1, rest = 0.2) [
@@ -19,15 +19,15 @@ const BENT: &str = "gravity = 9.80665,
     ],
     drive(torque = 0.01 * cos(3 * t), x = 0.02 * sin(2 * t)^2)";
 
-fn bent() -> PendulumTree {
+pub(crate) fn bent() -> PendulumTree {
     let description = TreeDescription::parse(BENT).unwrap();
     description.tree(&[("m", 0.07)]).unwrap()
 }
 
-const THETA: [f64; 5] = [0.4, -1.1, 2.0, 0.3, -0.6];
-const OMEGA: [f64; 5] = [1.0, -2.0, 0.5, 3.0, -0.2];
+pub(crate) const THETA: [f64; 5] = [0.4, -1.1, 2.0, 0.3, -0.6];
+pub(crate) const OMEGA: [f64; 5] = [1.0, -2.0, 0.5, 3.0, -0.2];
 
-fn near(left: f64, right: f64, tolerance: f64) {
+pub(crate) fn near(left: f64, right: f64, tolerance: f64) {
     let size = left.abs().max(right.abs()).max(1e-3);
     assert!((left - right).abs() <= tolerance * size, "{left} {right}");
 }

@@ -38,7 +38,6 @@ fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
         ("emit(budget(parseval))", "budget"),
         ("emit(taylor)", "taylor"),
         ("observe(f = theta_a^2)", "f"),
-        ("prescribed(b_1)", "prescribed"),
     ] {
         let text = format!("{tree}{more}");
         let found = message(&text);
