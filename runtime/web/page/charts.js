@@ -12,8 +12,8 @@ export class History {
   }
 
   push(time, values) {
-    const last = this.rows.at(-1);
-    if (last && time <= last.time) this.rows = [];
+    if (time < this.rows.at(-1)?.time) this.rows = [];
+    if (time === this.rows.at(-1)?.time) this.rows.pop();
     this.rows.push({ time, values });
     while (this.rows[0].time < time - SPAN) this.rows.shift();
   }
@@ -45,7 +45,7 @@ function linear(values) {
   const largest = Math.max(...values.map(Math.abs), 1e-9);
   const size = 10 ** Math.floor(Math.log10(largest));
   const round = [1, 2, 5, 10].map((factor) => factor * size).find((value) => value >= largest);
-  const text = (value) => (value === 0 ? "0" : value.toPrecision(1).replace("e-", "e−").replace("-", "−"));
+  const text = (value) => String(Number(value.toPrecision(1))).replaceAll("-", "−");
   const ticks = [-round, 0, round].map((value) => ({ value, text: text(value) }));
   return { ticks, part: (value) => 0.5 + (0.5 * value) / round };
 }

@@ -20,11 +20,16 @@ const name = (scale) => (scale === 0 ? "0: together" : `${scale}: H_d`);
 
 export class EnergyPanel {
   constructor() {
-    this.clear();
+    this.begin(0);
   }
 
-  /** Begins with a tree, of which `scales` are known or 0. */
-  clear(scales = 0) {
+  /** Takes a tree with so many scales, 0 where it has none; curves of as many go on. */
+  take(scales) {
+    if (scales !== this.scales) this.begin(scales);
+  }
+
+  /** Begins the curves of a tree anew. */
+  begin(scales = this.scales) {
     this.history = new History();
     this.scales = scales;
     element("energy-hint").textContent = HINTS[scales > 1 ? "scales" : "none"];

@@ -81,11 +81,8 @@ function changeParameter(name, value) {
   mapTimer = setTimeout(() => map.begin(tree.text, tree.values, pendulum.has_copies()), CALM);
 }
 
-/** Begins curves and sums anew. */
+/** Begins the sums anew. */
 function begin() {
-  const budget = pendulum.budget();
-  energy.clear(budget?.energies.length ?? 0);
-  budget?.free();
   accuracy.begin();
   tell("");
   record();
@@ -107,6 +104,7 @@ function release() {
   );
   pendulum.release(root, rest, difference);
   map.mark(root, rest);
+  energy.begin();
   begin();
 }
 
@@ -130,6 +128,7 @@ export function frame(duration) {
 function record() {
   const budget = pendulum.budget();
   const { energies, received, powers } = budget ?? {};
+  energy.take(energies?.length ?? 0);
   energy.record(pendulum.time(), pendulum.energy(), budget && { energies, received, powers });
   budget?.free();
 }

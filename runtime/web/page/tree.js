@@ -30,6 +30,8 @@ export class TreePanel {
     this.replace = replace;
     this.change = change;
     this.values = new Map();
+    // Values of names that a text has had, for when they come again.
+    this.remembered = new Map();
     const options = examples.map(({ title }, index) => new Option(title, index));
     element("example").replaceChildren(...options);
     element("example").addEventListener("change", (event) => this.show(examples[event.target.value]));
@@ -46,7 +48,7 @@ export class TreePanel {
 
   /** Takes an example. */
   show({ text, values }) {
-    this.values = new Map(Object.entries(values));
+    this.remembered = new Map(Object.entries(values));
     element("description").value = text;
     this.describe(text);
   }
@@ -62,12 +64,13 @@ export class TreePanel {
     try {
       const known = parameters(text).map(({ name, meaning }) => ({ name, meaning }));
       const values = new Map(known.map(({ name, meaning }) => {
-        const value = this.values.get(name) ?? FIRST[unit(meaning)] ?? 0;
+        const value = this.remembered.get(name) ?? FIRST[unit(meaning)] ?? 0;
         return [name, value];
       }));
       this.replace(text, values);
       this.shown = text;
-      this.values = new Map([...this.values, ...values]);
+      this.values = values;
+      values.forEach((value, name) => this.remembered.set(name, value));
       this.sliders(known);
       element("message").textContent = "";
       return true;
@@ -105,6 +108,7 @@ export class TreePanel {
     try {
       this.change(name, value);
       this.values.set(name, value);
+      this.remembered.set(name, value);
       element("message").textContent = "";
     } catch (error) {
       element("message").textContent = String(error);

@@ -58,9 +58,11 @@ impl Written {
             None => (None, rest),
         };
         let (copies, rest) = match rest {
-            [TokenTree::Punct(star), TokenTree::Literal(count), behind @ ..]
-                if star.as_char() == '*' =>
-            {
+            [
+                TokenTree::Punct(star),
+                TokenTree::Literal(count),
+                behind @ ..,
+            ] if star.as_char() == '*' => {
                 let place = star.span().byte_range().start..count.span().byte_range().end;
                 match count.to_string().parse() {
                     Ok(count) => (Some((place, count)), behind),
@@ -136,7 +138,9 @@ fn changed(
     loop {
         if let Some(found) = Written::find(&links, None, written) {
             return match found.link.is_rule() {
-                true => Err("a tree by rule has its branches by `branching` and `count`".to_owned()),
+                true => {
+                    Err("a tree by rule has its branches by `branching` and `count`".to_owned())
+                }
                 false => change(text, found),
             };
         }
@@ -157,11 +161,21 @@ pub fn with_branch(text: &str, name: &str) -> Result<String, String> {
     changed(text, name, |text, Found { link, .. }| {
         let Some(child) = link.children().last() else {
             let end = link.properties.end;
-            let place = link.children.as_ref().map_or(end..end, |(place, _)| place.clone());
-            let shape = link.shape.as_ref().map_or_else(String::new, |shape| format!(": {shape}"));
+            let place = link
+                .children
+                .as_ref()
+                .map_or(end..end, |(place, _)| place.clone());
+            let shape = link
+                .shape
+                .as_ref()
+                .map_or_else(String::new, |shape| format!(": {shape}"));
             let like = text.get(link.properties.clone()).unwrap_or_default();
             let name = &link.name;
-            return Ok(replaced(text, place, &format!(" [{name}_twig{shape}{like}]")));
+            return Ok(replaced(
+                text,
+                place,
+                &format!(" [{name}_twig{shape}{like}]"),
+            ));
         };
         Ok(match &child.copies {
             Some((place, count)) => replaced(text, place.clone(), &format!("* {}", count + 1)),
@@ -198,7 +212,11 @@ pub fn without_branch(text: &str, name: &str) -> Result<String, String> {
                     let behind = text.get(whole.end..).unwrap_or_default();
                     let space = behind.len() - behind.trim_start().len();
                     let comma = usize::from(behind.trim_start().starts_with(','));
-                    Ok(replaced(text, whole.start..whole.end + (space + 1) * comma, ""))
+                    Ok(replaced(
+                        text,
+                        whole.start..whole.end + (space + 1) * comma,
+                        "",
+                    ))
                 }
             },
         }

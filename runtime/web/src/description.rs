@@ -23,7 +23,10 @@ pub fn parameters(text: &str) -> Result<Vec<Parameter>, String> {
     let names = description.parameters();
     let parameters = names.map(|name| Parameter {
         name: name.to_owned(),
-        meaning: description.parameter_use(name).unwrap_or_default().to_owned(),
+        meaning: description
+            .parameter_use(name)
+            .unwrap_or_default()
+            .to_owned(),
     });
     Ok(parameters.collect())
 }

@@ -22,7 +22,9 @@ pub struct MethodChoice {
 /// for compiled trees.
 #[wasm_bindgen]
 pub fn methods() -> Vec<MethodChoice> {
-    let methods = Method::ALL.iter().filter(|&&method| method != Method::Taylor);
+    let methods = Method::ALL
+        .iter()
+        .filter(|&&method| method != Method::Taylor);
     let choice = |method: &Method| MethodChoice {
         name: method.to_string(),
         title: method.title().to_owned(),

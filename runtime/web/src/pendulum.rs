@@ -222,7 +222,9 @@ impl Pendulum {
     /// Point that is held and place of the hand, x, y, x, y (m); empty without a hand.
     pub fn hand(&self) -> Vec<f64> {
         let Swing { tree, hand } = self.swing();
-        let ends = hand.as_ref().and_then(|hand| hand.ends(tree, self.theta_omega().0));
+        let ends = hand
+            .as_ref()
+            .and_then(|hand| hand.ends(tree, self.theta_omega().0));
         ends.map_or_else(Vec::new, |ends| flat(ends.to_vec()))
     }
 

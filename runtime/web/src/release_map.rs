@@ -38,9 +38,8 @@ pub(crate) fn copies(tree: &PendulumTree) -> Option<Vec<[usize; 2]>> {
         let others = one + 1..parents.len();
         others.map(move |other| [one, other])
     });
-    let mut siblings = siblings.filter(|[one, other]| {
-        parents[*one].is_some() && parents[*one] == parents[*other]
-    });
+    let mut siblings =
+        siblings.filter(|[one, other]| parents[*one].is_some() && parents[*one] == parents[*other]);
     siblings.find_map(|links| {
         let pairs = pairs_of_links(&parents, links)?;
         let both = BetweenCopies::new(tree, pairs.clone());

@@ -47,7 +47,8 @@ impl Ode<f64> for Swing {
     ) {
         let tree = &self.tree;
         let n = tree.links();
-        let (Some((theta, omega, _)), Some((power, motion))) = (parts(state), rates.split_last_mut())
+        let (Some((theta, omega, _)), Some((power, motion))) =
+            (parts(state), rates.split_last_mut())
         else {
             return rates.fill(f64::NAN);
         };

@@ -17,7 +17,9 @@ fn every_method_keeps_the_energy_as_its_setting_lets_it() {
     for method in methods() {
         let setting = if method.adaptive { 1e-9 } else { 1e-3 };
         let mut pendulum = paper();
-        pendulum.set_method(&method.name, setting).expect("it is a method");
+        pendulum
+            .set_method(&method.name, setting)
+            .expect("it is a method");
         pendulum.release(1.0, 0.0, 0.01).expect("it is a release");
         for _ in 0..300 {
             pendulum.advance(1.0 / 60.0).expect("it moves");
@@ -27,9 +29,16 @@ fn every_method_keeps_the_energy_as_its_setting_lets_it() {
         assert!((pendulum.time() - 5.0).abs() < 1e-12);
     }
     let mut pendulum = paper();
-    assert!(pendulum.set_method("euler", 0.1).unwrap_err().contains("rk4"));
+    assert!(
+        pendulum
+            .set_method("euler", 0.1)
+            .unwrap_err()
+            .contains("rk4")
+    );
     assert!(pendulum.set_method("rk4", 0.0).is_err());
-    pendulum.release(1.0, 0.0, 0.01).expect("the method is the one before");
+    pendulum
+        .release(1.0, 0.0, 0.01)
+        .expect("the method is the one before");
     pendulum.advance(0.1).expect("it moves");
 }
 
@@ -75,7 +84,10 @@ fn a_hand_draws_the_point_that_it_holds() {
         pendulum.advance(1.0 / 60.0).expect("it moves");
     }
     let hand = pendulum.hand();
-    assert!((hand[0] - 0.2).abs() < 1e-3 && hand[1].abs() < 1e-3, "{hand:?}");
+    assert!(
+        (hand[0] - 0.2).abs() < 1e-3 && hand[1].abs() < 1e-3,
+        "{hand:?}"
+    );
 }
 
 #[test]
@@ -86,7 +98,12 @@ fn a_change_keeps_the_motion() {
     let angles = pendulum.angles();
     pendulum.set_parameter("m", 0.3).expect("a mass");
     assert_eq!(pendulum.angles(), angles);
-    assert!(pendulum.set_parameter("m", -1.0).unwrap_err().contains("positive"));
+    assert!(
+        pendulum
+            .set_parameter("m", -1.0)
+            .unwrap_err()
+            .contains("positive")
+    );
 
     let more = with_branch(PAPER, "parent").expect("a branch more");
     let names = ["g", "m"].map(str::to_owned).to_vec();
@@ -100,45 +117,73 @@ fn a_change_keeps_the_motion() {
 fn branches_come_and_go() {
     let three = with_branch(PAPER, "parent").expect("a branch more");
     assert_eq!(three, PAPER.replace("* 2", "* 3"));
-    assert_eq!(without_branch(&three, "child_3").expect("a branch less"), PAPER);
+    assert_eq!(
+        without_branch(&three, "child_3").expect("a branch less"),
+        PAPER
+    );
     let one = without_branch(PAPER, "child_2").expect("a branch less");
     assert_eq!(one, PAPER.replace(" * 2", ""));
     assert_eq!(with_branch(&one, "parent").expect("a branch more"), PAPER);
-    assert!(!without_branch(&one, "child").expect("a branch less").contains("child"));
+    assert!(
+        !without_branch(&one, "child")
+            .expect("a branch less")
+            .contains("child")
+    );
     assert!(without_branch(PAPER, "parent").is_err());
 
     let text = "gravity = 9.81, arm: rod(mass = 1, length = 1) [a: rod(mass = 1, length = 2), b: \
         rod(mass = 1, length = 3) * 2]";
     let more = with_branch(text, "b_2").expect("a branch more");
     assert!(more.contains("b: rod(mass = 1, length = 3) [b_twig: rod(mass = 1, length = 3)] * 2"));
-    let names = Pendulum::new(&more, vec![], vec![]).expect("a tree").names();
+    let names = Pendulum::new(&more, vec![], vec![])
+        .expect("a tree")
+        .names();
     assert_eq!(names, ["arm", "a", "b_1", "b_twig_1", "b_2", "b_twig_2"]);
     // From the name in the tree back to that in the text.
     let back = without_branch(&more, "b_twig_2").expect("a branch less");
     assert_eq!(back, text);
     let less = without_branch(text, "a").expect("a branch less");
-    assert_eq!(Pendulum::new(&less, vec![], vec![]).expect("a tree").names().len(), 3);
+    assert_eq!(
+        Pendulum::new(&less, vec![], vec![])
+            .expect("a tree")
+            .names()
+            .len(),
+        3
+    );
     assert!(with_branch("gravity = 1, t: generations(count = 2)", "t_1").is_err());
 }
 
 #[test]
 fn mistakes_are_marked_and_parameters_explained() {
     let error = parameters("gravity = g, arm: rod(mas = 0.1, length = l)").unwrap_err();
-    assert!(error.contains("^^^") && error.contains("did you mean `mass`?"), "{error}");
+    assert!(
+        error.contains("^^^") && error.contains("did you mean `mass`?"),
+        "{error}"
+    );
     let known = parameters(PAPER).expect("a description");
     assert_eq!(known[0].meaning, "gravity, m/s²");
     assert_eq!(known[1].name, "m");
-    assert!(Pendulum::new(PAPER, vec![], vec![]).unwrap_err().contains("no value for `g`, `m`"));
+    assert!(
+        Pendulum::new(PAPER, vec![], vec![])
+            .unwrap_err()
+            .contains("no value for `g`, `m`")
+    );
 }
 
 #[test]
 fn the_map_knows_the_threshold() {
     let pendulum = paper();
     assert!(pendulum.has_copies());
-    let map = pendulum.release_map(10.0, 1e-7).expect("a tree with two equal branches");
+    let map = pendulum
+        .release_map(10.0, 1e-7)
+        .expect("a tree with two equal branches");
     let rate = |degrees: f64| map.rate(degrees.to_radians(), 0.0);
     assert!(rate(30.0)[0] < 0.1, "{:?}", rate(30.0));
-    assert!(rate(44.0)[0] > 0.3 && rate(44.0)[1] < 0.01, "{:?}", rate(44.0));
+    assert!(
+        rate(44.0)[0] > 0.3 && rate(44.0)[1] < 0.01,
+        "{:?}",
+        rate(44.0)
+    );
     let chain = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1)]";
     let chain = Pendulum::new(chain, vec![], vec![]).expect("a tree");
     assert!(!chain.has_copies() && chain.release_map(10.0, 1e-7).is_err());

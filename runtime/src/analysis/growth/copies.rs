@@ -101,7 +101,9 @@ impl<L: Ode<f64>> BetweenCopies<L> {
         let state = &start.values;
         let mut rates = vec![0.0; state.len()];
         self.system.rates(start.time, state, &mut rates);
-        let size = rates.iter().fold(0.0, |size: f64, rate| size.max(rate.abs()));
+        let size = rates
+            .iter()
+            .fold(0.0, |size: f64, rate| size.max(rate.abs()));
         let difference = |values: &[f64], [one, other]: [usize; 2]| -> Option<f64> {
             Some((values.get(one)? - values.get(other)?).abs())
         };
