@@ -16,7 +16,7 @@ const HINTS = {
 
 const milli = (value) => (1000 * value).toFixed(Math.abs(value) < 1e-2 ? 3 : 1).replace("-", "−");
 
-const name = (scale) => (scale === 0 ? "0: together" : `${scale}: H_d`);
+const name = (scale) => (scale === 0 ? "0: all" : `${scale}: H_d`);
 
 export class EnergyPanel {
   constructor() {

@@ -94,7 +94,7 @@ export class TreePanel {
       slider.value = value;
       const shown = () => `${readable(Number(slider.value))} ${unit(meaning)}`;
       output.textContent = shown();
-      words.textContent = meaning;
+      words.textContent = meaning.replaceAll("`", "");
       slider.addEventListener("input", () => {
         output.textContent = shown();
         this.set(name, Number(slider.value));
