@@ -1,6 +1,7 @@
 //! The struct that an attribute stands on, and how deep tokens may nest.
 
-use proc_macro2::{Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use quote::quote;
 
 use super::StructItem;
 use crate::report::{Faults, SyntaxMessage, TreeMessage};
@@ -31,6 +32,17 @@ pub(super) fn deepest(tokens: &TokenStream) -> Option<Span> {
 const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
 
 impl StructItem {
+    /// The struct without fields and attributes, `struct NAME;`.
+    pub(super) fn unit(name: &str) -> Self {
+        let ident = Ident::new(name, Span::call_site());
+        Self {
+            attrs: Vec::new(),
+            vis: syn::Visibility::Inherited,
+            tokens: quote!(struct #ident;),
+            ident,
+        }
+    }
+
     /// Returns true if the struct is called as a type that the code of a model names.
     pub fn is_reserved(&self) -> bool {
         RESERVED_TYPES.iter().any(|name| self.ident == name)

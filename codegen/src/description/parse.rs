@@ -15,7 +15,7 @@ use super::list::{
 use super::requests::{observable, request};
 use super::{
     Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
-    PrescribedClause, Property, Reductions, Request, Value,
+    PrescribedClause, Property, Reductions, Request, StructItem, Value,
 };
 use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
@@ -30,6 +30,16 @@ pub fn parse(
     item: TokenStream,
     report: &mut Faults,
 ) -> Option<Description> {
+    let item = parse_item(item, report)?;
+    Some(parse_attribute(attribute, item, report))
+}
+
+/// Reads the attribute of a struct that has been read.
+pub(super) fn parse_attribute(
+    attribute: TokenStream,
+    item: StructItem,
+    report: &mut Faults,
+) -> Description {
     let entries = if let Some(span) = deepest(&attribute) {
         report.error(span, SyntaxMessage::Nesting { limit: MAX_NESTING });
         List {
@@ -43,7 +53,7 @@ pub fn parse(
         list((attribute, end), report, entry)
     };
     let mut description = Description {
-        item: parse_item(item, report)?,
+        item,
         crate_path: None,
         gravity: None,
         solve: None,
@@ -58,7 +68,7 @@ pub fn parse(
         damaged: entries.damaged,
     };
     gather(entries.members, &mut description, report);
-    Some(description)
+    description
 }
 
 /// Puts the members of an attribute in their places.

@@ -18,8 +18,12 @@ const FEWEST: usize = 63;
 /// and takes long to derive and compile (`docs/performance.md`).
 const MOST_UNROLLED: usize = 100;
 
-/// Most links of a tree by rule: what an index of 32 bits counts.
-const MOST: usize = 1 << 32;
+/// Most links of a tree by rule: what an index of 32 bits counts. Where all numbers have as
+/// many bits the largest stands for every sum beyond, and is too many.
+pub(super) const MOST: usize = match 1_usize.checked_shl(32) {
+    Some(most) => most,
+    None => usize::MAX - 1,
+};
 
 /// Most generations of such a tree whose bodies have parameters.
 const MOST_WITH_PARAMETERS: usize = 64;

@@ -21,9 +21,6 @@ use crate::report::{
     Faults, OutputMessage, SizeMessage, TreeMessage, UnequalUse, ValueMessage, nearest,
 };
 
-/// Most links of a whole tree: what an index of 32 bits counts.
-const MOST_WHOLE: usize = 1 << 32;
-
 /// Makes the reductions that the description names and returns how the links that are
 /// left stand for those of the whole tree; `None` without reductions and after an error.
 pub(super) fn reduce(
@@ -192,8 +189,8 @@ fn order(builder: &TreeBuilder, asked: &Asked<'_>) -> WholeOrder {
 /// Number of links of the whole tree.
 fn whole_links(templates: &[Template], report: &mut Faults) -> Option<usize> {
     let links = *running_totals(templates).last()?;
-    if links > MOST_WHOLE {
-        let limit = MOST_WHOLE;
+    if links > layout::MOST {
+        let limit = layout::MOST;
         let span = templates.first()?.span;
         report.error(span, SizeMessage::TooManyLinks { limit });
         return None;
@@ -343,7 +340,7 @@ fn merge(templates: &mut [Template], alike: &[bool]) {
 
 /// A multiple of a value.
 pub(super) fn times(count: usize, value: &Quantity) -> Quantity {
-    // Counts are below 2^32, see `MOST_WHOLE`.
+    // Counts are below 2^32, see `layout::MOST`.
     let count = Quantity::integer(i64::try_from(count).unwrap_or(i64::MAX));
     Quantity::product([count, value.clone()])
 }

@@ -53,9 +53,6 @@ pub(crate) struct GrowthTask {
     pub(crate) tolerance: f64,
 }
 
-/// Largest part by which accelerations of copies differ, from rounding.
-const ALIKE: f64 = 1e-12;
-
 impl GrowthTask {
     /// Growth of a difference between two links, by their names, along all motions.
     pub(crate) fn grown(
@@ -70,12 +67,8 @@ impl GrowthTask {
             let found = names.iter().position(|own| own == name);
             found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
         };
-        let copies = motions.copies([place(&one)?, place(&other)?]);
-        let start_alike = |copies: &Vec<[usize; 2]>| {
-            let mut starts = self.starts.iter();
-            starts.all(|start| are_alike(motions, copies, start))
-        };
-        let Some(copies) = copies.filter(start_alike) else {
+        let copies = motions.copies([place(&one)?, place(&other)?], &self.starts);
+        let Some(copies) = copies else {
             let text = format!("`{one}` and `{other}` are no copies that start alike");
             return Err(PyValueError::new_err(text));
         };
@@ -95,21 +88,6 @@ impl GrowthTask {
             &grown.collect::<PyResult<Vec<_>>>()?,
         )
     }
-}
-
-/// Returns true if copies are in one state, and remain so. NaN is alike.
-fn are_alike(motions: &dyn Motions, copies: &[[usize; 2]], start: &State<f64>) -> bool {
-    let state = &start.values;
-    let mut rates = vec![0.0; state.len()];
-    motions.rates(start.time, state, &mut rates);
-    let size = rates
-        .iter()
-        .fold(0.0, |size: f64, rate| size.max(rate.abs()));
-    let differ = |[one, other]: &[usize; 2]| {
-        (state[*one] - state[*other]).abs() > 0.0
-            || (rates[*one] - rates[*other]).abs() > ALIKE * size
-    };
-    !copies.iter().any(differ)
 }
 
 impl Growth {

@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthError};
+use branched_pendulum::analysis::growth::{
+    BetweenCopies, Grown, Growth, GrowthError, pairs_of_links,
+};
 use branched_pendulum::analysis::variational::{
     Linearised, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
@@ -90,8 +92,8 @@ pub(crate) trait Motions: Send + Sync {
     ) -> Result<LyapunovSpectrum, LyapunovError>;
 
     /// Pairs of components of a state, of two links with all that hangs from them; none where
-    /// they do not carry as much.
-    fn copies(&self, links: [usize; 2]) -> Option<Vec<[usize; 2]>>;
+    /// they are no copies that are in phase at all starts.
+    fn copies(&self, links: [usize; 2], starts: &[State<f64>]) -> Option<Vec<[usize; 2]>>;
 
     /// Growth of a difference between copies, by pairs of components, along a motion; without
     /// a frequency looked at by that of the difference beside all links at rest.
@@ -244,26 +246,11 @@ impl<M: Model> Motions for M {
         exponents.spectrum(&Dop853::new(options), &linearised(self.clone()), start)
     }
 
-    fn copies(&self, links: [usize; 2]) -> Option<Vec<[usize; 2]>> {
-        let parents = self.link_parents();
-        let carried = |from: usize| -> Vec<usize> {
-            let mut own = vec![from];
-            // A link stands behind the one that it hangs from.
-            for (link, parent) in parents.iter().enumerate() {
-                if parent.is_some_and(|parent| own.contains(&parent)) {
-                    own.push(link);
-                }
-            }
-            own
-        };
-        let [one, other] = links.map(carried);
-        let are_apart = one.len() == other.len() && !one.iter().any(|link| other.contains(link));
-        let angles = one.into_iter().zip(other).map(|(one, other)| [one, other]);
-        let angles: Vec<[usize; 2]> = angles.collect();
-        let rates = angles
-            .iter()
-            .map(|pair| pair.map(|link| link + parents.len()));
-        are_apart.then(|| angles.iter().copied().chain(rates).collect())
+    fn copies(&self, links: [usize; 2], starts: &[State<f64>]) -> Option<Vec<[usize; 2]>> {
+        let pairs = pairs_of_links(&self.link_parents(), links)?;
+        let both = BetweenCopies::new(self, pairs.clone());
+        let in_phase = starts.iter().all(|start| both.is_in_phase(start));
+        in_phase.then_some(pairs)
     }
 
     fn growth(
@@ -279,10 +266,7 @@ impl<M: Model> Motions for M {
             horizons: task.horizons.clone(),
             tolerance: task.tolerance,
         };
-        let n = start.values.len() / 2;
-        let one = copies.first().map_or(0, |[one, _]| *one);
-        let differences = [one..one + 1, n + one..n + one + 1];
-        growth.along(&system, start, &system.opposite(), differences)
+        growth.between_copies(&system, start)
     }
 
     fn smoothed_coordinates(&self) -> Coordinates {

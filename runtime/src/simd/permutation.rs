@@ -28,6 +28,8 @@ pub(super) const fn tiled<const N: usize, const WORDS: usize>() -> [[u32; WORDS]
 
 /// All bits of the words in the first lanes, for each count of these, and none of the
 /// others.
+// As for kernels on one state.
+#[cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 pub(super) const fn first_lanes<const N: usize, const WORDS: usize>() -> [[u32; WORDS]; N] {
     let mut table = [[0; WORDS]; N];
     let mut i = 0;

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Builds the page into target/page: files for any static server.
+set -euo pipefail
+cd "$(dirname "$0")"
+target=wasm32-unknown-unknown
+# The versions of the workspace, where it has them.
+[ -f Cargo.lock ] || cp ../../Cargo.lock .
+
+if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
+    echo "for $target with the installed standard library"
+    cargo build --release --target "$target"
+elif [ -x /usr/bin/rustc ] && [ -d /usr/lib/rustlib/src/rust/library ]; then
+    # Debian's packages rustc-web, cargo-web and rust-web-src have no such standard library
+    # either, but its source; the linker is that of the other compiler.
+    echo "for $target with a standard library built from Debian's source"
+    linker="$(find "$(rustc --print sysroot)/lib/rustlib" -name rust-lld | head -n 1)"
+    RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER="$linker" \
+        /usr/bin/cargo build -Z build-std=std,panic_abort --release --target "$target"
+else
+    echo "$target is not installed: rustup target add $target" >&2
+    exit 1
+fi
+
+rm -rf target/page
+cp -r page target/page
+cargo run --quiet --package bindings --target-dir target/host -- \
+    "target/$target/release/branched_pendulum_web.wasm" target/page/wasm
+du --apparent-size --bytes --all target/page | sort -n
+size="$(find target/page -type f -exec cat {} + | wc -c)"
+echo "all of the page: $size bytes"
+if [ "$size" -ge 600000 ]; then
+    echo "it must stay below 600000" >&2
+    exit 1
+fi

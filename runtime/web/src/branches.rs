@@ -1,0 +1,224 @@
+//! A branch more and a branch less, in the text of a description.
+
+use std::ops::Range;
+
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A link as it stands in a text: `name(properties) [children] * copies`, with or without a
+/// shape, children and copies.
+struct Written {
+    name: String,
+    /// All of it.
+    place: Range<usize>,
+    /// Name of the shape; the properties with their parentheses.
+    shape: Option<String>,
+    properties: Range<usize>,
+    children: Option<(Range<usize>, Vec<Written>)>,
+    /// The star with the number, and the number.
+    copies: Option<(Range<usize>, usize)>,
+}
+
+impl Written {
+    /// Returns the links that stand side by side among tokens.
+    fn all(tokens: TokenStream) -> Vec<Self> {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        let (mut rest, mut links) = (&tokens[..], Vec::new());
+        while let Some((_, behind)) = rest.split_first() {
+            rest = match Self::read(rest) {
+                Some((link, behind)) => {
+                    links.push(link);
+                    behind
+                }
+                None => behind,
+            };
+        }
+        links
+    }
+
+    /// Reads a link that tokens begin with; returns it and the tokens behind.
+    fn read(tokens: &[TokenTree]) -> Option<(Self, &[TokenTree])> {
+        let (TokenTree::Ident(name), rest) = tokens.split_first()? else {
+            return None;
+        };
+        let (shape, rest) = match rest {
+            [TokenTree::Punct(colon), TokenTree::Ident(shape), rest @ ..]
+                if colon.as_char() == ':' =>
+            {
+                (Some(shape.to_string()), rest)
+            }
+            rest => (None, rest),
+        };
+        let (properties, rest) = group(rest, Delimiter::Parenthesis)?;
+        let (children, rest) = match group(rest, Delimiter::Bracket) {
+            Some((children, rest)) => {
+                let links = Self::all(children.stream());
+                (Some((children.span().byte_range(), links)), rest)
+            }
+            None => (None, rest),
+        };
+        let (copies, rest) = match rest {
+            [
+                TokenTree::Punct(star),
+                TokenTree::Literal(count),
+                behind @ ..,
+            ] if star.as_char() == '*' => {
+                let place = star.span().byte_range().start..count.span().byte_range().end;
+                match count.to_string().parse() {
+                    Ok(count) => (Some((place, count)), behind),
+                    Err(_) => (None, rest),
+                }
+            }
+            rest => (None, rest),
+        };
+        let properties = properties.span().byte_range();
+        let mut end = properties.end;
+        if let Some((place, _)) = &children {
+            end = place.end;
+        }
+        if let Some((place, _)) = &copies {
+            end = place.end;
+        }
+        let link = Self {
+            name: name.to_string(),
+            place: name.span().byte_range().start..end,
+            shape,
+            properties,
+            children,
+            copies,
+        };
+        Some((link, rest))
+    }
+
+    fn children(&self) -> &[Self] {
+        self.children.as_ref().map_or(&[], |(_, links)| links)
+    }
+
+    /// Finds a link and the one that it hangs from.
+    fn find<'a>(links: &'a [Self], above: Option<&'a Self>, name: &str) -> Option<Found<'a>> {
+        links.iter().find_map(|link| match link.name == name {
+            true => Some(Found { link, above }),
+            false => Self::find(link.children(), Some(link), name),
+        })
+    }
+
+    fn is_rule(&self) -> bool {
+        self.shape.as_deref() == Some("generations")
+    }
+}
+
+struct Found<'a> {
+    link: &'a Written,
+    above: Option<&'a Written>,
+}
+
+fn group(tokens: &[TokenTree], delimiter: Delimiter) -> Option<(&Group, &[TokenTree])> {
+    match tokens.split_first()? {
+        (TokenTree::Group(group), rest) if group.delimiter() == delimiter => Some((group, rest)),
+        _ => None,
+    }
+}
+
+fn replaced(text: &str, place: Range<usize>, by: &str) -> String {
+    let mut text = text.to_owned();
+    text.replace_range(place, by);
+    text
+}
+
+/// Reads a text and changes it at a link, which has a name of the tree: that in the text, and
+/// the numbers of its copies.
+fn changed(
+    text: &str,
+    name: &str,
+    change: impl FnOnce(&str, Found<'_>) -> Result<String, String>,
+) -> Result<String, String> {
+    let tokens: TokenStream = text.parse().map_err(|_| "the description has a mistake")?;
+    let links = Written::all(tokens);
+    let mut written = name;
+    loop {
+        if let Some(found) = Written::find(&links, None, written) {
+            return match found.link.is_rule() {
+                true => {
+                    Err("a tree by rule has its branches by `branching` and `count`".to_owned())
+                }
+                false => change(text, found),
+            };
+        }
+        written = match written.rsplit_once('_') {
+            Some((stem, _)) => stem,
+            None => return Err(format!("there is no link `{name}` in the text")),
+        };
+    }
+}
+
+/// Returns the description with a branch more on a link: a copy more of its last child, or one
+/// like itself where it has none.
+///
+/// # Errors
+/// A text without the link, and a tree by rule.
+#[wasm_bindgen]
+pub fn with_branch(text: &str, name: &str) -> Result<String, String> {
+    changed(text, name, |text, Found { link, .. }| {
+        let Some(child) = link.children().last() else {
+            let end = link.properties.end;
+            let place = link
+                .children
+                .as_ref()
+                .map_or(end..end, |(place, _)| place.clone());
+            let shape = link
+                .shape
+                .as_ref()
+                .map_or_else(String::new, |shape| format!(": {shape}"));
+            let like = text.get(link.properties.clone()).unwrap_or_default();
+            let name = &link.name;
+            return Ok(replaced(
+                text,
+                place,
+                &format!(" [{name}_twig{shape}{like}]"),
+            ));
+        };
+        Ok(match &child.copies {
+            Some((place, count)) => replaced(text, place.clone(), &format!("* {}", count + 1)),
+            None => replaced(text, child.place.end..child.place.end, " * 2"),
+        })
+    })
+}
+
+/// Returns the description with a branch less: a copy less of the link, or without it and all
+/// that hangs from it where it is the only one.
+///
+/// # Errors
+/// A text without the link, a tree by rule, and the root.
+#[wasm_bindgen]
+pub fn without_branch(text: &str, name: &str) -> Result<String, String> {
+    changed(text, name, |text, Found { link, above }| {
+        let (Some(above), whole) = (above, link.place.clone()) else {
+            return Err("all links hang from the root".to_owned());
+        };
+        match &link.copies {
+            Some((place, count)) if *count > 2 => {
+                Ok(replaced(text, place.clone(), &format!("* {}", count - 1)))
+            }
+            Some((place, 2)) => {
+                let kept = text.get(..place.start).unwrap_or_default().trim_end().len();
+                Ok(replaced(text, kept..place.end, ""))
+            }
+            _ => match &above.children {
+                Some((place, links)) if links.len() == 1 => {
+                    let kept = text.get(..place.start).unwrap_or_default().trim_end().len();
+                    Ok(replaced(text, kept..place.end, ""))
+                }
+                _ => {
+                    let behind = text.get(whole.end..).unwrap_or_default();
+                    let space = behind.len() - behind.trim_start().len();
+                    let comma = usize::from(behind.trim_start().starts_with(','));
+                    Ok(replaced(
+                        text,
+                        whole.start..whole.end + (space + 1) * comma,
+                        "",
+                    ))
+                }
+            },
+        }
+    })
+}

@@ -1,0 +1,192 @@
+//! What the page asks for, on this machine.
+
+use branched_pendulum_web::{Pendulum, methods, parameters, with_branch, without_branch};
+
+const PAPER: &str = "gravity = g,
+parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+    child(mass = m, com = 0.043, inertia = 0.516e-3) * 2
+]";
+
+fn paper() -> Pendulum {
+    let names = ["g", "m"].map(str::to_owned).to_vec();
+    Pendulum::new(PAPER, names, vec![9.80665, 0.10531]).expect("it is a tree")
+}
+
+#[test]
+fn every_method_keeps_the_energy_as_its_setting_lets_it() {
+    for method in methods() {
+        let setting = if method.adaptive { 1e-9 } else { 1e-3 };
+        let mut pendulum = paper();
+        pendulum
+            .set_method(&method.name, setting)
+            .expect("it is a method");
+        pendulum.release(1.0, 0.0, 0.01).expect("it is a release");
+        for _ in 0..300 {
+            pendulum.advance(1.0 / 60.0).expect("it moves");
+        }
+        let error = pendulum.energy_error().abs();
+        assert!(error > 0.0 && error < 1e-4, "{}: {error}", method.name);
+        assert!((pendulum.time() - 5.0).abs() < 1e-12);
+    }
+    let mut pendulum = paper();
+    assert!(
+        pendulum
+            .set_method("euler", 0.1)
+            .unwrap_err()
+            .contains("rk4")
+    );
+    assert!(pendulum.set_method("rk4", 0.0).is_err());
+    pendulum
+        .release(1.0, 0.0, 0.01)
+        .expect("the method is the one before");
+    pendulum.advance(0.1).expect("it moves");
+}
+
+#[test]
+fn the_account_knows_the_work_of_friction_and_of_the_hand() {
+    let text = "gravity = 9.81, arm: rod(mass = 0.2, length = 0.4, friction = c) [
+        hand: rod(mass = 0.1, length = 0.3, friction = c) * 2
+    ]";
+    let mut pendulum = Pendulum::new(text, vec!["c".to_owned()], vec![1e-3]).expect("a tree");
+    pendulum.set_method("dop853", 1e-10).expect("a method");
+    pendulum.release(0.8, 0.2, 0.1).expect("a release");
+    let start = pendulum.energy();
+    pendulum.advance(1.0).expect("it moves");
+    assert!(pendulum.energy() < 0.999 * start);
+    assert!(pendulum.energy_error().abs() < 1e-8);
+    pendulum.grab(1, 0.3, -0.2);
+    for step in 0..60 {
+        pendulum.pull(0.3, -0.2 + 0.005 * f64::from(step));
+        pendulum.advance(1.0 / 60.0).expect("it moves");
+    }
+    assert_eq!(pendulum.hand().len(), 4);
+    // The powers on the scales are all that changes the energy.
+    let budget = pendulum.budget().expect("a tree with scales");
+    let (received, power): (f64, f64) = (budget.received.iter().sum(), budget.powers.iter().sum());
+    assert!(received.abs() < 1e-12);
+    let before = pendulum.energy();
+    pendulum.advance(1e-6).expect("it moves");
+    let rate = (pendulum.energy() - before) / 1e-6;
+    assert!((rate - power).abs() < 1e-3 * power.abs(), "{rate} {power}");
+    pendulum.let_go();
+    assert!(pendulum.hand().is_empty());
+    assert!(pendulum.energy_error().abs() < 1e-7);
+}
+
+#[test]
+fn a_hand_draws_the_point_that_it_holds() {
+    let mut pendulum = paper();
+    // A point of the parent, between its ends.
+    pendulum.grab(0, 0.0, -0.2);
+    pendulum.set_parameter("g", 0.0).expect("a value");
+    pendulum.pull(0.2, 0.0);
+    for _ in 0..6000 {
+        pendulum.advance(1.0 / 60.0).expect("it moves");
+    }
+    let hand = pendulum.hand();
+    assert!(
+        (hand[0] - 0.2).abs() < 1e-3 && hand[1].abs() < 1e-3,
+        "{hand:?}"
+    );
+}
+
+#[test]
+fn a_change_keeps_the_motion() {
+    let mut pendulum = paper();
+    pendulum.release(0.9, 0.1, 0.05).expect("a release");
+    pendulum.advance(0.7).expect("it moves");
+    let angles = pendulum.angles();
+    pendulum.set_parameter("m", 0.3).expect("a mass");
+    assert_eq!(pendulum.angles(), angles);
+    assert!(
+        pendulum
+            .set_parameter("m", -1.0)
+            .unwrap_err()
+            .contains("positive")
+    );
+
+    let more = with_branch(PAPER, "parent").expect("a branch more");
+    let names = ["g", "m"].map(str::to_owned).to_vec();
+    let mut larger = Pendulum::new(&more, names, vec![9.8, 0.1]).expect("a tree");
+    larger.take_up(&pendulum).expect("a state");
+    assert_eq!(larger.angles()[..3], angles[..]);
+    assert_eq!(larger.time(), 0.7);
+}
+
+#[test]
+fn branches_come_and_go() {
+    let three = with_branch(PAPER, "parent").expect("a branch more");
+    assert_eq!(three, PAPER.replace("* 2", "* 3"));
+    assert_eq!(
+        without_branch(&three, "child_3").expect("a branch less"),
+        PAPER
+    );
+    let one = without_branch(PAPER, "child_2").expect("a branch less");
+    assert_eq!(one, PAPER.replace(" * 2", ""));
+    assert_eq!(with_branch(&one, "parent").expect("a branch more"), PAPER);
+    assert!(
+        !without_branch(&one, "child")
+            .expect("a branch less")
+            .contains("child")
+    );
+    assert!(without_branch(PAPER, "parent").is_err());
+
+    let text = "gravity = 9.81, arm: rod(mass = 1, length = 1) [a: rod(mass = 1, length = 2), b: \
+        rod(mass = 1, length = 3) * 2]";
+    let more = with_branch(text, "b_2").expect("a branch more");
+    assert!(more.contains("b: rod(mass = 1, length = 3) [b_twig: rod(mass = 1, length = 3)] * 2"));
+    let names = Pendulum::new(&more, vec![], vec![])
+        .expect("a tree")
+        .names();
+    assert_eq!(names, ["arm", "a", "b_1", "b_twig_1", "b_2", "b_twig_2"]);
+    // From the name in the tree back to that in the text.
+    let back = without_branch(&more, "b_twig_2").expect("a branch less");
+    assert_eq!(back, text);
+    let less = without_branch(text, "a").expect("a branch less");
+    assert_eq!(
+        Pendulum::new(&less, vec![], vec![])
+            .expect("a tree")
+            .names()
+            .len(),
+        3
+    );
+    assert!(with_branch("gravity = 1, t: generations(count = 2)", "t_1").is_err());
+}
+
+#[test]
+fn mistakes_are_marked_and_parameters_explained() {
+    let error = parameters("gravity = g, arm: rod(mas = 0.1, length = l)").unwrap_err();
+    assert!(
+        error.contains("^^^") && error.contains("did you mean `mass`?"),
+        "{error}"
+    );
+    let known = parameters(PAPER).expect("a description");
+    assert_eq!(known[0].meaning, "gravity, m/s²");
+    assert_eq!(known[1].name, "m");
+    assert!(
+        Pendulum::new(PAPER, vec![], vec![])
+            .unwrap_err()
+            .contains("no value for `g`, `m`")
+    );
+}
+
+#[test]
+fn the_map_knows_the_threshold() {
+    let pendulum = paper();
+    assert!(pendulum.has_copies());
+    let map = pendulum
+        .release_map(10.0, 1e-7)
+        .expect("a tree with two equal branches");
+    let rate = |degrees: f64| map.rate(degrees.to_radians(), 0.0);
+    assert!(rate(30.0)[0] < 0.1, "{:?}", rate(30.0));
+    assert!(
+        rate(44.0)[0] > 0.3 && rate(44.0)[1] < 0.01,
+        "{:?}",
+        rate(44.0)
+    );
+    let chain = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1)]";
+    let chain = Pendulum::new(chain, vec![], vec![]).expect("a tree");
+    assert!(!chain.has_copies() && chain.release_map(10.0, 1e-7).is_err());
+    assert_eq!(chain.generations(), [0, 1]);
+    assert!((chain.reach() - 2.0).abs() < 1e-15);
+}
