@@ -298,6 +298,7 @@ impl Emission<'_> {
                 vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
             }
             Purpose::Transverse(_)
+            | Purpose::TransverseMotion(_)
             | Purpose::TransverseEnergy(_)
             | Purpose::TransverseTransfer(_)
             | Purpose::TransverseFriction(..) => self.transverse_meaning(purpose),

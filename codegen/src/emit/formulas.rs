@@ -83,6 +83,7 @@ impl Emission<'_> {
             | Purpose::SmallAccelerationsUnder
             | Purpose::AbsoluteVelocities
             | Purpose::AccelerationsUnder
+            | Purpose::TransverseMotion(_)
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower
             | Purpose::AntiphaseOutsidePower(_)

@@ -37,7 +37,7 @@ impl Emission<'_> {
             Purpose::Accelerations
             | Purpose::AccelerationsUnder
             | Purpose::Prescribed(_)
-            | Purpose::Transverse(_)
+            | Purpose::TransverseMotion(_)
             | Purpose::SmallAccelerations
             | Purpose::SmallAccelerationsUnder => {
                 quote!(#[inline(always)])

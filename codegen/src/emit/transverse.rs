@@ -48,6 +48,13 @@ impl Emission<'_> {
                 "M(θ) δ̈ + r(θ, ω, α, δ, δ̇) = 0".into(),
                 "```".into(),
             ],
+            Purpose::TransverseMotion(sector) => vec![
+                format!(
+                    "Angular accelerations (in rad/s²) of the {}in-phase motion, as [`accelerations`](Self::accelerations) gives them, and after them those of small differences beside it: {}, {below}. Sines, cosines and couplings are formed once for both.",
+                    self.at_time(),
+                    pattern(sector)
+                ),
+            ],
             Purpose::TransverseEnergy(sector) => vec![format!(
                 "Energy (in J) of small differences, quadratic in them, in the copies under one link: {}, {below}. Its potential part is that about hanging links.",
                 pattern(sector)
@@ -105,6 +112,9 @@ impl Emission<'_> {
         let accelerations = self.match_sector(&unknown, |number, _| {
             self.fill("accelerations", Purpose::Transverse(number))
         });
+        let motion_accelerations = self.match_sector(&unknown, |number, _| {
+            self.fill("accelerations", Purpose::TransverseMotion(number))
+        });
         let power = self.friction_by_sector();
         let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
         let along = braked.then(|| {
@@ -124,30 +134,43 @@ impl Emission<'_> {
         let motion = quote! {
             let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
-        let accelerations = self.on_any_scalar(
-            ["Transverse", "transverse_accelerations", "model"],
+        let both = self.on_any_scalar(
+            ["Transverse", "transverse_motion", "model"],
             &quote!(
                 sector,
                 time,
-                motion,
-                difference,
-                difference_rate,
+                [theta, omega],
+                [difference, difference_rate],
                 accelerations
             ),
             |time, t| {
                 quote! {
-                    sector: usize, #time: #t, motion: #runtime::system::InPhaseMotion<'_, #t>,
-                    difference: &[#t], difference_rate: &[#t], accelerations: &mut [#t]
+                    sector: usize, #time: #t, [theta, omega]: [&[#t]; 2],
+                    [difference, difference_rate]: [&[#t]; 2], accelerations: &mut [#t]
                 }
             },
-            &quote!(#motion #accelerations),
+            &motion_accelerations,
         );
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
                 const TRANSVERSE: &'static [#runtime::system::TransverseSector] =
                     &[#(#sectors),*];
 
-                #accelerations
+                #[inline]
+                fn transverse_accelerations_into(
+                    &self,
+                    sector: usize,
+                    #time: T,
+                    motion: #runtime::system::InPhaseMotion<'_, T>,
+                    difference: &[T],
+                    difference_rate: &[T],
+                    accelerations: &mut [T],
+                ) {
+                    #motion
+                    #accelerations
+                }
+
+                #both
 
                 #[inline]
                 fn transverse_energy_of(

@@ -97,6 +97,7 @@ impl Naming {
         for sector in 0..self.transverse.len() {
             all.extend([
                 P::Transverse(sector),
+                P::TransverseMotion(sector),
                 P::TransverseEnergy(sector),
                 P::TransverseTransfer(sector),
                 P::TransverseFriction(sector, true),

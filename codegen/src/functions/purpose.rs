@@ -184,6 +184,11 @@ purposes! { naming:
         let name = format!("transverse_accelerations_{}", naming.transverse[sector]);
         naming.timed(name, &along_motion(sector), Vector)
     };
+    /// θ̈ of the motion in phase, and those accelerations after them.
+    TransverseMotion(sector: usize) => {
+        let name = format!("transverse_motion_{}", naming.transverse[sector]);
+        naming.timed(name, &[Theta, Omega, Difference(sector), DifferenceRate(sector)], Vector)
+    };
     /// Their energy.
     TransverseEnergy(sector: usize) => {
         let name = format!("transverse_energy_{}", naming.transverse[sector]);

@@ -29,13 +29,17 @@ pub struct FusedSum {
 }
 
 impl Program {
-    /// The fused sums of an entry point, which are those of accelerations and of links in loops: other
+    /// The fused sums of an entry point, which are those of accelerations, with those of small
+    /// differences or without, and of links in loops: other
     /// functions run in plain numbers. Linear in the program's length, times a
     /// logarithm.
     pub fn fused(&self, entry: &Entry) -> BTreeMap<ValueId, FusedSum> {
         let accelerates = matches!(
             entry.purpose,
-            Purpose::Accelerations | Purpose::Link(_) | Purpose::Scale(_)
+            Purpose::Accelerations
+                | Purpose::TransverseMotion(_)
+                | Purpose::Link(_)
+                | Purpose::Scale(_)
         );
         if !accelerates || self.without == Some(Pass::Fusing) {
             return BTreeMap::new();

@@ -1,5 +1,6 @@
 //! Entry points of small differences between copies that move in phase.
 
+use super::Entry;
 use super::entries::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, Purpose};
@@ -10,6 +11,9 @@ impl EntryList<'_, '_> {
         use Argument::{Alpha, Difference, DifferenceRate, Omega, Theta};
         let frame = &mechanics.absolute;
         let names = self.lowering.coordinate_names(frame);
+        let is_driver = |entry: &&Entry| entry.purpose == Purpose::Accelerations;
+        let driver = self.entries.iter().find(is_driver);
+        let driver = driver.map_or_else(Vec::new, |entry| entry.outputs.clone());
         for (number, formulas) in all.sectors.iter().enumerate() {
             let TransverseFormulas {
                 sector,
@@ -34,14 +38,22 @@ impl EntryList<'_, '_> {
                 }
             }
             let block = sector.first.0..sector.first.0 + sector.links;
-            let matrix = self.lowering.matrix(&mut environment, mass);
-            let right = self.exprs(&mut environment, residual);
-            let right = right
-                .into_iter()
-                .map(|value| self.lowering.builder.neg(value));
-            let right = right.collect();
-            let outputs = self.lowering.builder.solve(matrix, right, &names[block]);
+            let mut both = environment.clone();
+            for (&symbol, &value) in all.accelerations.iter().zip(&driver) {
+                both.supply(symbol, value);
+            }
+            let mut accelerations = |environment: &mut Environment<'_>| {
+                let matrix = self.lowering.matrix(environment, mass);
+                let right = self.exprs(environment, residual).into_iter();
+                let right = right.map(|value| self.lowering.builder.neg(value));
+                let right = right.collect();
+                (self.lowering.builder).solve(matrix, right, &names[block.clone()])
+            };
+            let outputs = accelerations(&mut environment);
+            let beside = accelerations(&mut both);
             self.push(Purpose::Transverse(number), outputs);
+            let together = driver.iter().copied().chain(beside).collect();
+            self.push(Purpose::TransverseMotion(number), together);
             let friction_power = Purpose::TransverseFriction(number, *braked);
             for (purpose, value) in [
                 (Purpose::TransverseEnergy(number), energy),

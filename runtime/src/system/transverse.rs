@@ -1,10 +1,9 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::cast::put;
 use super::ode::halves;
-use super::{Cast, LaneOde, Ode, Workspace};
-use crate::scalar::{Scalar, at};
+use super::{Cast, LaneOde, Ode};
+use crate::scalar::Scalar;
 
 /// Copies that move in phase, whose small differences follow equations of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,18 +60,28 @@ pub trait Transverse<T: Scalar>: Cast<T> {
         accelerations: &mut [T],
     );
 
+    /// Writes the angular accelerations of the in-phase motion and after them those of the
+    /// differences, with what both need formed once.
+    fn transverse_motion_into(
+        &self,
+        sector: usize,
+        time: T,
+        angles_and_velocities: [&[T]; 2],
+        differences_and_rates: [&[T]; 2],
+        accelerations: &mut [T],
+    );
+
     /// Writes those of this model on other scalars, in their arithmetic: of as many
     /// motions at a time as a vector register holds.
     ///
     /// Write `#[inline(always)]`: the caller chooses the instructions that this is
     /// compiled for.
-    fn transverse_accelerations_of<S: Scalar>(
+    fn transverse_motion_of<S: Scalar>(
         model: &Self::Of<S>,
         sector: usize,
         time: S,
-        motion: InPhaseMotion<'_, S>,
-        difference: &[S],
-        difference_rate: &[S],
+        angles_and_velocities: [&[S]; 2],
+        differences_and_rates: [&[S]; 2],
         accelerations: &mut [S],
     );
 
@@ -186,11 +195,6 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        self.rates_with(&mut Workspace::new(), time, state, rates);
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
         let Self {
             model,
             index,
@@ -199,14 +203,8 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
         let lengths = (P::LINKS, sector.links);
         if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
-            let (alpha, second) = accelerations.split_at_mut(P::LINKS);
-            model.accelerations_with(workspace, time, theta, omega, alpha);
-            let motion = InPhaseMotion {
-                theta,
-                omega,
-                alpha,
-            };
-            model.transverse_accelerations_into(*index, time, motion, difference, rate, second);
+            let (motion, differences) = ([theta, omega], [difference, rate]);
+            model.transverse_motion_into(*index, time, motion, differences, accelerations);
         }
     }
 }
@@ -237,19 +235,8 @@ impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
         let lengths = (P::LINKS, sector.links);
         if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
-            let (alpha, second) = accelerations.split_at_mut(P::LINKS);
-            model.evaluate(
-                time,
-                |link| at(theta, link),
-                |link| at(omega, link),
-                |link, value| put(alpha, link, value),
-            );
-            let motion = InPhaseMotion {
-                theta,
-                omega,
-                alpha,
-            };
-            P::transverse_accelerations_of(model, *index, time, motion, difference, rate, second);
+            let (motion, differences) = ([theta, omega], [difference, rate]);
+            P::transverse_motion_of(model, *index, time, motion, differences, accelerations);
         }
     }
 
@@ -296,9 +283,13 @@ pub(super) fn with_differences<'s, 'r, T: Scalar>(
 by_reference! {
     impl<T: Scalar> Transverse<T> for &P {
         const TRANSVERSE: &'static [TransverseSector];
-        for fn transverse_accelerations_of<S: Scalar>(
-            model: &Self::Of<S>, sector: usize, time: S, motion: InPhaseMotion<'_, S>,
-            difference: &[S], difference_rate: &[S], accelerations: &mut [S]
+        for fn transverse_motion_of<S: Scalar>(
+            model: &Self::Of<S>, sector: usize, time: S, angles_and_velocities: [&[S]; 2],
+            differences_and_rates: [&[S]; 2], accelerations: &mut [S]
+        );
+        fn transverse_motion_into(
+            &self, sector: usize, time: T, angles_and_velocities: [&[T]; 2],
+            differences_and_rates: [&[T]; 2], accelerations: &mut [T]
         );
         fn transverse_accelerations_into(
             &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>, difference: &[T],

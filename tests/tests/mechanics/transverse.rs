@@ -94,6 +94,15 @@ impl Sample {
     }
 }
 
+/// The accelerations of the motion in phase and those of the differences, formed together.
+fn together<M: Transverse<f64>>(model: &M, number: usize, sample: &Sample) -> Vec<f64> {
+    let mut both = vec![0.0; M::LINKS + sample.difference.len()];
+    let motion = [&sample.theta[..], &sample.omega];
+    let differences = [&sample.difference[..], &sample.rate];
+    model.transverse_motion_into(number, 0.7, motion, differences, &mut both);
+    both
+}
+
 /// The derivative of the whole tree's accelerations along the difference, by dual
 /// numbers, is the second derivative of the difference times the weights.
 fn agrees_with_the_whole_tree<M: Transverse<f64>>(model: &M, tree: WholeTree) -> Vec<&'static str> {
@@ -134,6 +143,13 @@ fn agrees_with_the_whole_tree<M: Transverse<f64>>(model: &M, tree: WholeTree) ->
             let largest = expected
                 .iter()
                 .fold(0.0_f64, |m, x| m.max(x.tangents[0].abs()));
+            let both = together(model, number, &sample);
+            for (own, other) in both.iter().zip(sample.alpha.iter().chain(&found)) {
+                assert!(
+                    (own - other).abs() <= 1e-12 * largest.max(other.abs()),
+                    "{own} {other}"
+                );
+            }
             for (link, expected) in expected.iter().enumerate() {
                 let own = places[link].checked_sub(sector.first);
                 let found = own

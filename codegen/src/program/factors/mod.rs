@@ -130,7 +130,10 @@ impl FactoredEntry {
             chosen,
             fused: matches!(
                 entry.purpose,
-                Purpose::Accelerations | Purpose::Link(_) | Purpose::Scale(_)
+                Purpose::Accelerations
+                    | Purpose::TransverseMotion(_)
+                    | Purpose::Link(_)
+                    | Purpose::Scale(_)
             ),
             own: BTreeMap::new(),
         }

@@ -95,7 +95,8 @@ fn held_trees_in_lanes() {
     assert!(PrescribedTree::of(bent(), 0, course).is_none());
     let system = PrescribedTree::of(tree.clone(), 0, course).unwrap();
     let method = Dop853::new(Options::with_tolerance(1e-11));
-    let lanes = Ensemble::new().integrate_in_lanes(&method, &system, &[start.clone()], 0.8);
+    let lanes =
+        Ensemble::new().integrate_in_lanes(&method, &system, std::slice::from_ref(&start), 0.8);
     let plain = method.integrate(&system, &start, 0.8, |_| ControlFlow::Continue(()));
     let (lane, plain) = (lanes[0].as_ref().unwrap(), plain.unwrap());
     for (own, other) in lane.state.values.iter().zip(&plain.state.values) {
