@@ -34,7 +34,18 @@ macro_rules! trees {
     };
 }
 
-trees!(Links31 5, Links127 7, Links1023 10, Links8191 13, Links131071 17);
+trees!(
+    Links31 5,
+    Links127 7,
+    Links1023 10,
+    Links2047 11,
+    Links4095 12,
+    Links8191 13,
+    Links16383 14,
+    Links32767 15,
+    Links65535 16,
+    Links131071 17
+);
 
 /// Least time of a pass, after so many rounds that it is one.
 struct Case<'a> {

@@ -16,11 +16,12 @@ dask() {
 
 stop() {
     local code=$?
-    # Each is a group of its own, with what it started.
+    # Each is a group of its own, with what it started. Asked kindly, a worker waits for its
+    # scheduler.
     for process in $(jobs -p); do
-        kill -- "-$process" 2> /dev/null || true
+        kill -9 -- "-$process" 2> /dev/null || true
     done
-    wait
+    wait 2> /dev/null
     end "$code"
 }
 
@@ -33,7 +34,7 @@ done
 worker=$!
 one_process
 address=$("$python" -c "import json, sys; print(json.load(open(sys.argv[1]))['address'])" "$cluster")
-"$python" "$here/dask_sweep.py" "$shards" --scheduler "$address" -- \
+setsid "$python" "$here/dask_sweep.py" "$shards" --scheduler "$address" -- \
     "${cascade[@]}" --output "$sweep" > "$folder/sweep.log" 2>&1 &
 engine=$!
 wait_until 300 has_finished 20

@@ -84,6 +84,8 @@ pub struct Threshold {
     pub angle_deg: Option<f64>,
     /// False where the growth there is not determined.
     pub determined: bool,
+    /// Growth factor at the first angle of the scan.
+    pub first_factor: f64,
 }
 
 /// Growth factor at an angle, and whether it is determined.
@@ -150,12 +152,14 @@ fn level(arguments: &Arguments) -> f64 {
 pub fn threshold(rule: Rule, arguments: &Arguments) -> Result<Threshold, Failure> {
     let level = level(arguments);
     let factors = factors(rule, arguments)?;
+    let first_factor = factors.first().map_or(f64::NAN, |(factor, _)| *factor);
     let both = arguments.angles_deg.iter().zip(&factors);
     let first = both.into_iter().find(|(_, (factor, _))| *factor >= level);
     Ok(Threshold {
         rule,
         angle_deg: first.map(|(angle, _)| *angle),
         determined: first.is_none_or(|(_, (_, determined))| *determined),
+        first_factor,
     })
 }
 
@@ -192,10 +196,12 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         return Ok(());
     }
     job.print(&report(arguments, &thresholds))?;
-    if thresholds
-        .iter()
-        .any(|threshold| threshold.angle_deg.is_some())
-    {
+    // A run that was interrupted may not have come to all ratios, which are a panel each.
+    let is_found = |length: &f64| {
+        let mut found = thresholds.iter().filter(|t| t.angle_deg.is_some());
+        found.any(|threshold| threshold.rule.length_ratio == *length)
+    };
+    if LENGTHS.iter().all(is_found) {
         let chart = charts::thresholds(arguments, &thresholds);
         job.chart("critical-angles", &chart)?;
     }
@@ -206,6 +212,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         Column::new("generations", ""),
         Column::new("critical angle", "degrees"),
         Column::new("determined", ""),
+        Column::new("growth at the first angle", ""),
     ];
     job.csv("critical-angles.csv", &columns, |csv| {
         thresholds.iter().try_for_each(|threshold| {
@@ -222,6 +229,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 (generations as u64).into(),
                 threshold.angle_deg.unwrap_or(f64::NAN).into(),
                 u64::from(threshold.determined).into(),
+                threshold.first_factor.into(),
             ])
         })
     })
@@ -255,6 +263,14 @@ fn report(arguments: &Arguments, thresholds: &[Threshold]) -> String {
             let _ = write!(text, "{angle:>9}");
         }
     }
-    text.push_str("\n(- nowhere in the scan, ? not determined)\n");
+    let factors = || thresholds.iter().map(|threshold| threshold.first_factor);
+    let _ = writeln!(
+        text,
+        "\n(- nowhere in the scan, ? not determined)\n\n\
+         At the first angle, {}°, they grow {:.3}- to {:.3}-fold.",
+        arguments.angles_deg.first().copied().unwrap_or(f64::NAN),
+        factors().fold(f64::INFINITY, f64::min),
+        factors().fold(f64::NEG_INFINITY, f64::max),
+    );
     text
 }

@@ -26,6 +26,7 @@ fn lengths(program: &Program) -> BTreeMap<Argument, usize> {
 }
 
 /// A call of a function: its name, its inputs, and what the interpreter gives.
+#[derive(Clone)]
 struct Call {
     name: String,
     time: Option<f64>,
@@ -140,7 +141,8 @@ fn all_scenes_in_all_languages() {
     names.sort();
     let folder = folder();
     let has_c = has("cc", &["--version"]);
-    let mut numpy = NumpyMain::new();
+    let mut numpy = Session::new(Language::Numpy);
+    let mut julia = Session::new(Language::Julia);
     let mut loops = 0;
     for name in &names {
         let stages = scene(name);
@@ -154,16 +156,21 @@ fn all_scenes_in_all_languages() {
         if has_c {
             c_has_the_bits_of_the_interpreter(name, &stages, &calls, &folder);
         }
-        julia_counts_from_one_and_ends_what_it_begins(name, &stages, &folder);
-        numpy.add(name, &stages, calls, &folder);
+        julia_counts_from_one_and_ends_what_it_begins(name, &stages);
+        numpy.add(name, &stages, &calls, &folder);
+        julia.add(name, &stages, &calls, &folder);
     }
     assert!(loops > 0 && names.len() - loops > 10, "{names:?}");
     if !has_c {
         println!("C not checked: there is no cc");
     }
     match has("python3", &["-c", "import numpy"]) {
-        true => numpy.has_the_bits_of_the_interpreter(&folder),
+        true => numpy.has_the_bits_of_the_interpreter("python3", &folder),
         false => println!("NumPy not checked: python3 has none"),
+    }
+    match has("julia", &["--version"]) {
+        true => julia.has_the_bits_of_the_interpreter("julia", &folder),
+        false => println!("Julia not run: there is no julia"),
     }
     std::fs::remove_dir_all(folder).expect("it is ours");
 }
@@ -214,58 +221,110 @@ fn c_has_the_bits_of_the_interpreter(name: &str, stages: &Stages, calls: &[Call]
     compare(name, &output(&mut Command::new(&binary)), calls);
 }
 
-/// One program of Python that calls the functions of all scenes, with sines of the C library
-/// in place of NumPy's own, which differ in the last bit; and with many states at once.
-struct NumpyMain {
+/// The head of a program of Python. The sines are those of the C library in place of NumPy's
+/// own, which differ in the last bit.
+const NUMPY: &str = "import math
+import numpy
+class Plain:
+    def __getattr__(self, name):
+        return getattr(numpy, name)
+Plain.sin = lambda _, x: math.sin(x)
+Plain.cos = lambda _, x: math.cos(x)
+def show(x):
+    for number in numpy.ravel(x):
+        print(repr(float(number)))
+";
+
+/// The head of a program of Julia.
+const JULIA: &str = "show_all(numbers) = foreach(number -> println(repr(number)), numbers)\n";
+
+/// The sines of the C library for a module of Julia, whose own differ in the last bit.
+const JULIA_SINES: &str = "const libm = Sys.isapple() ? \"libSystem\" : \"libm.so.6\"
+sin(x) = ccall((:sin, libm), Cdouble, (Cdouble,), x)
+cos(x) = ccall((:cos, libm), Cdouble, (Cdouble,), x)
+";
+
+/// One program that calls the functions of all scenes, in a language that is not compiled
+/// before; in NumPy with many states at once too.
+struct Session {
+    language: Language,
     program: String,
     calls: Vec<Call>,
 }
 
-impl NumpyMain {
-    fn new() -> Self {
-        let program = "import math, sys\nsys.path.insert(0, sys.argv[1])\nimport numpy\n\
-             class Plain:\n    def __getattr__(self, name):\n        return getattr(numpy, name)\n\
-             Plain.sin = lambda _, x: math.sin(x)\nPlain.cos = lambda _, x: math.cos(x)\n\
-             def show(x):\n    for number in numpy.ravel(x):\n        print(repr(float(number)))\n";
+impl Session {
+    fn new(language: Language) -> Self {
+        let head = if language == Language::Julia {
+            JULIA
+        } else {
+            NUMPY
+        };
         Self {
-            program: program.to_owned(),
+            language,
+            program: head.to_owned(),
             calls: Vec::new(),
         }
     }
 
-    fn add(&mut self, name: &str, stages: &Stages, calls: Vec<Call>, folder: &Path) {
-        let code = written(Language::Numpy, stages).expect("no loops");
-        let file = folder.join(format!("scene_{name}.py"));
-        std::fs::write(file, code).expect("it can be written");
+    fn add(&mut self, name: &str, stages: &Stages, calls: &[Call], folder: &Path) {
+        let code = written(self.language, stages).expect("no loops");
         let parameters = list(&parameters(stages));
-        let _ = writeln!(
-            self.program,
-            "import scene_{name} as scene\nreal = scene.np\nscene.np = Plain()\nk = scene.constants([{parameters}])"
-        );
-        for call in &calls {
+        let scene = &stages.scene.name;
+        let (file, code) = match self.language {
+            Language::Julia => {
+                let opening = format!("module {scene}\n");
+                let with_sines = code.replacen(&opening, &(opening.clone() + JULIA_SINES), 1);
+                let _ = writeln!(
+                    self.program,
+                    "include(\"scene_{name}.jl\")\nk = {scene}.constants(Float64[{parameters}])"
+                );
+                (format!("scene_{name}.jl"), with_sines)
+            }
+            _ => {
+                let _ = writeln!(
+                    self.program,
+                    "import scene_{name} as scene\nreal = scene.np\nscene.np = Plain()\n\
+                     k = scene.constants([{parameters}])"
+                );
+                (format!("scene_{name}.py"), code)
+            }
+        };
+        std::fs::write(folder.join(file), code).expect("it can be written");
+        let (module, show, open) = match self.language {
+            Language::Julia => (scene.as_str(), "show_all", "Float64["),
+            _ => ("scene", "show", "["),
+        };
+        for call in calls {
             let arrays = call.inputs.iter();
-            let arrays: String = arrays.map(|array| format!(", [{}]", list(array))).collect();
-            let time = call.time();
-            let _ = writeln!(self.program, "show(scene.{}(k{time}{arrays}))", call.name);
+            let arrays: String = arrays
+                .map(|array| format!(", {open}{}]", list(array)))
+                .collect();
+            let (time, function) = (call.time(), &call.name);
+            let _ = writeln!(self.program, "{show}({module}.{function}(k{time}{arrays}))");
         }
-        self.calls.extend(calls);
-        self.program.push_str(
-            "scene.np = real\nn = scene.accelerations.__code__.co_argcount\n\
-             if n == 3:\n    states = numpy.full((100, 1000), 0.3)\n    \
-             assert scene.accelerations(k, states, states).shape[-1:] == (1000,)\n",
-        );
+        self.calls.extend_from_slice(calls);
+        if self.language == Language::Numpy {
+            self.program.push_str(
+                "scene.np = real\nn = scene.accelerations.__code__.co_argcount\n\
+                 if n == 3:\n    states = numpy.full((100, 1000), 0.3)\n    \
+                 assert scene.accelerations(k, states, states).shape[-1:] == (1000,)\n",
+            );
+        }
     }
 
-    fn has_the_bits_of_the_interpreter(&self, folder: &Path) {
-        let file = folder.join("main.py");
+    fn has_the_bits_of_the_interpreter(&self, program: &str, folder: &Path) {
+        let file = folder.join(format!("main_{program}"));
         std::fs::write(&file, &self.program).expect("it can be written");
-        let printed = output(Command::new("python3").arg(&file).arg(folder));
-        compare("numpy", &printed, &self.calls);
+        compare(
+            program,
+            &output(Command::new(program).arg(file)),
+            &self.calls,
+        );
     }
 }
 
-/// Julia counts from one; where it is installed it has to read the file.
-fn julia_counts_from_one_and_ends_what_it_begins(name: &str, stages: &Stages, folder: &Path) {
+/// Julia counts from one, and ends its functions. `tests/languages/run.sh` parses it.
+fn julia_counts_from_one_and_ends_what_it_begins(name: &str, stages: &Stages) {
     let code = written(Language::Julia, stages).expect("no loops");
     assert!(!code.contains("[0]"), "{name}");
     let begun = code
@@ -274,12 +333,6 @@ fn julia_counts_from_one_and_ends_what_it_begins(name: &str, stages: &Stages, fo
         .count();
     let ended = code.lines().filter(|line| *line == "end").count();
     assert_eq!(begun, ended, "{name}");
-    if has("julia", &["--version"]) {
-        let file = folder.join("scene.jl");
-        std::fs::write(&file, code).expect("it can be written");
-        let parse = format!("Meta.parseall(read({file:?}, String)).args[end]");
-        output(Command::new("julia").arg("-e").arg(parse));
-    }
 }
 
 /// Braces, groups and environments are closed; no sign is what LaTeX takes for something else.
