@@ -1,9 +1,13 @@
 //! Integrals over time of quantities that are known at given times.
 
+/// Values to which the polynomial between two times is fitted.
+const NODES: usize = 6;
+
 /// Returns the integral of a quantity from the first time to each: over each interval by
-/// Simpson's rule, its middle by the cubic through the four nearest values. Exact for cubics,
-/// with even and uneven times; for motions some (ω h)²/4 times closer than the trapezoidal
-/// rule, h being the interval. As many values as times are used.
+/// Simpson's rule, its middle by the polynomial through the six nearest values. Exact for
+/// cubics, with even and uneven times; the integral of a swing cos ω t at steps h is off by less
+/// than (ω h)⁴/2000 of its amplitude 1/ω where ω h ≤ 0.3, as much as the rule itself. As many
+/// values as times are used.
 ///
 /// # Examples
 ///
@@ -21,8 +25,9 @@ pub fn running_integral(times: &[f64], values: &[f64]) -> Vec<f64> {
     for index in 0..count {
         if let Some(before) = index.checked_sub(1) {
             let step = times[index] - times[before];
-            let first = before.saturating_sub(1).min(count.saturating_sub(4));
-            let nodes = first..(first + 4).min(count);
+            let first = (before + 1).saturating_sub(NODES / 2);
+            let first = first.min(count.saturating_sub(NODES));
+            let nodes = first..(first + NODES).min(count);
             let middle = interpolated(
                 &times[nodes.clone()],
                 &values[nodes],
