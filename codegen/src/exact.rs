@@ -3,6 +3,7 @@
 //! Every literal of a description is read as a rational number and combined
 //! exactly; [`Rational::to_f64`] rounds once, at the very end.
 
+mod integers;
 mod operators;
 mod round;
 mod text;
@@ -10,9 +11,7 @@ mod turn;
 
 use std::fmt;
 
-use num_bigint::BigInt;
-use num_rational::BigRational as Fraction;
-use num_traits::{One, Signed, Zero};
+use self::integers::Fraction;
 
 /// An arbitrary-precision rational number, always in lowest terms with a
 /// positive denominator.
@@ -83,7 +82,12 @@ impl Rational {
         if denominator == 0 {
             return None;
         }
-        Some(Self(Fraction::new(numerator.into(), denominator.into())))
+        // Wide integers, because the sign moves to the numerator and
+        // `i64::MIN` has no negative.
+        Some(Self(Fraction::new(
+            i128::from(numerator),
+            i128::from(denominator),
+        )))
     }
 
     /// Returns true if the number is 0.
@@ -115,7 +119,8 @@ impl Rational {
 
     /// Bits of the longer of numerator and denominator.
     fn bits(&self) -> u64 {
-        self.0.numer().bits().max(self.0.denom().bits())
+        let numerator = self.0.numerator_ref().abs().significant_bits();
+        numerator.max(self.0.denominator_ref().significant_bits())
     }
 
     /// The quotient `self / divisor`; `None` when `divisor` is 0.
@@ -133,33 +138,39 @@ impl Rational {
         if exponent < 0 && self.is_zero() {
             return Err(ExactError::DivisionByZero);
         }
+        let magnitude = u64::from(exponent.unsigned_abs());
         // 0, 1 and -1 have one bit and stay as short in every power.
         let bits = self.bits();
-        if bits > 1 && bits.saturating_mul(exponent.unsigned_abs().into()) > Self::MAX_BITS {
+        if bits > 1 && bits.saturating_mul(magnitude) > Self::MAX_BITS {
             return Err(ExactError::TooLong);
         }
-        Ok(Self(self.0.pow(if bits > 1 {
-            exponent
+        let magnitude = if bits > 1 {
+            magnitude
         } else {
-            exponent % 2
-        })))
+            2 - magnitude % 2
+        };
+        if exponent == 0 {
+            return Ok(Self::one());
+        }
+        let power = self.0.pow(magnitude);
+        Ok(Self(if exponent < 0 { power.inv() } else { power }))
     }
 
     /// The decimal digits of the numerator, with its sign.
     pub fn numerator_text(&self) -> String {
-        self.0.numer().to_string()
+        self.0.numerator_ref().to_string()
     }
 
     /// The decimal digits of the denominator, which is positive.
     pub fn denominator_text(&self) -> String {
-        self.0.denom().to_string()
+        self.0.denominator_ref().to_string()
     }
 
     /// The nearest `f64`, ties to even; numbers beyond the largest finite
     /// `f64` give an infinity, as a decimal literal in Rust source does.
     pub fn to_f64(&self) -> f64 {
-        let (numerator, denominator) = (self.0.numer(), self.0.denom());
-        let magnitude = round::magnitude_to_f64(numerator.magnitude(), denominator.magnitude());
+        let magnitude =
+            round::magnitude_to_f64(&self.0.numerator_ref().abs(), self.0.denominator_ref());
         if self.is_negative() {
             -magnitude
         } else {
@@ -198,19 +209,21 @@ impl Rational {
 
 impl From<i64> for Rational {
     fn from(value: i64) -> Self {
-        Self(Fraction::from(BigInt::from(value)))
+        Self(Fraction::new(value, 1))
     }
 }
 
-/// What passes the door to the algebra, which has exact numbers of its own.
+/// The door to the algebra, which shares this representation.
 #[cfg(feature = "symbolica")]
 impl Rational {
-    /// The quotient of two integers by their decimal digits, the first with its sign; `None`
-    /// for what is no integer and where the second is 0.
-    pub(crate) fn from_digits(numerator: &str, denominator: &str) -> Option<Self> {
-        let numerator: BigInt = numerator.parse().ok()?;
-        let denominator: BigInt = denominator.parse().ok()?;
-        (!denominator.is_zero()).then(|| Self(Fraction::new(numerator, denominator)))
+    /// The number as the algebra's own type.
+    pub(crate) fn as_inner(&self) -> &Fraction {
+        &self.0
+    }
+
+    /// The number from the algebra's own type.
+    pub(crate) fn from_inner(inner: Fraction) -> Self {
+        Self(inner)
     }
 
     /// The number as a small integer, if it is one.

@@ -26,9 +26,10 @@ cp -r page target/page
 cargo run --quiet --package bindings --target-dir target/host -- \
     "target/$target/release/branched_pendulum_web.wasm" target/page/wasm
 du --apparent-size --bytes --all target/page | sort -n
-size="$(find target/page -type f -exec cat {} + | wc -c)"
-echo "all of the page: $size bytes"
-if [ "$size" -ge 600000 ]; then
-    echo "it must stay below 600000" >&2
+all="$(find target/page -type f -exec cat {} + | wc -c)"
+sent="$(find target/page -type f -exec gzip -9 --to-stdout {} \; | wc -c)"
+echo "all of the page: $all bytes, $sent as a server sends them that compresses by gzip"
+if [ "$sent" -ge 600000 ]; then
+    echo "the latter must stay below 600000" >&2
     exit 1
 fi

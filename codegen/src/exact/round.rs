@@ -1,28 +1,28 @@
 //! The one rounding: an exact quotient to the nearest `f64`.
 
-use num_bigint::BigUint;
-use num_traits::{ToPrimitive as _, Zero as _};
+use super::integers::Integer;
 
 /// The `f64` nearest to `numerator / denominator`, both non-negative, ties to
 /// even.
-pub(super) fn magnitude_to_f64(numerator: &BigUint, denominator: &BigUint) -> f64 {
+pub(super) fn magnitude_to_f64(numerator: &Integer, denominator: &Integer) -> f64 {
     if numerator.is_zero() {
         return 0.0;
     }
     // Scale by a power of two so that the integer quotient has 66 or 67 bits:
     // more than a mantissa, less than a machine word. What is cut off matters
     // only in being zero or not.
-    let shift = 66 - numerator.bits() as i64 + denominator.bits() as i64;
-    let by = shift.unsigned_abs();
-    let (numerator, denominator) = if shift >= 0 {
-        (numerator << by, denominator.clone())
+    let shift = 66 - numerator.significant_bits() as i64 + denominator.significant_bits() as i64;
+    // Multiplied, because shifts in numerica 3.0.0 drop what leaves the word.
+    let scale = Integer::from(2).pow(shift.unsigned_abs());
+    let (quotient, rest) = if shift >= 0 {
+        (numerator * &scale).quot_rem(denominator)
     } else {
-        (numerator.clone(), denominator << by)
+        numerator.quot_rem(&(denominator * &scale))
     };
-    let Some(quotient) = (&numerator / &denominator).to_u128() else {
+    let Ok(quotient) = quotient.to_string().parse::<u128>() else {
         return f64::NAN;
     };
-    round_to_f64(quotient, !(numerator % denominator).is_zero(), -shift)
+    round_to_f64(quotient, !rest.is_zero(), -shift)
 }
 
 /// Rounds `(quotient + r) 2^exponent` to the nearest `f64`, ties to even, where

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use num_bigint::BigInt;
-use num_traits::{One as _, Signed as _, Zero as _};
+use super::integers::Integer;
 
 use super::{ExactError, Fraction, Rational};
 
@@ -39,14 +38,13 @@ impl Rational {
         if mantissa.len() as u64 > Self::MAX_BITS / 4 {
             return Err(ExactError::TooLong);
         }
-        let mantissa: BigInt = mantissa.parse().map_err(|_| ExactError::Malformed)?;
-        // Both are thousands at most.
-        let power = exponent - fraction.len() as i32;
-        let scale = BigInt::from(10).pow(power.unsigned_abs());
+        let mantissa: Integer = mantissa.parse().map_err(|_| ExactError::Malformed)?;
+        let power = i64::from(exponent) - fraction.len() as i64;
+        let scale = Integer::from(10).pow(power.unsigned_abs());
         let (numerator, denominator) = if power < 0 {
             (mantissa, scale)
         } else {
-            (mantissa * scale, BigInt::one())
+            (mantissa * scale, Integer::one())
         };
         let value = Self(Fraction::new(numerator, denominator));
         Ok(if negative { -value } else { value })
@@ -55,10 +53,11 @@ impl Rational {
     /// The terminating decimal expansion, where there is one of at most
     /// [`DECIMAL_DIGITS`] digits.
     fn terminating_decimal(&self) -> Option<String> {
-        let mut ten = BigInt::one();
+        let mut ten = Integer::one();
         for places in 0..=DECIMAL_DIGITS {
-            if (&ten % self.0.denom()).is_zero() {
-                let digits = (self.0.numer().abs() * &ten / self.0.denom()).to_string();
+            let (quotient, rest) = ten.quot_rem(self.0.denominator_ref());
+            if rest.is_zero() {
+                let digits = (self.0.numerator_ref().abs() * quotient).to_string();
                 if digits.len() > DECIMAL_DIGITS {
                     return None;
                 }
@@ -71,7 +70,7 @@ impl Rational {
                     format!("{sign}{whole}.{fraction}")
                 });
             }
-            ten *= 10;
+            ten *= Integer::from(10);
         }
         None
     }
@@ -108,7 +107,7 @@ impl fmt::Display for Rational {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.terminating_decimal() {
             Some(decimal) => f.write_str(&decimal),
-            None => write!(f, "{}/{}", self.0.numer(), self.0.denom()),
+            None => write!(f, "{}/{}", self.0.numerator_ref(), self.0.denominator_ref()),
         }
     }
 }

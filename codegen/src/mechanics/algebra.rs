@@ -13,9 +13,6 @@ use crate::exact::Rational;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
-
-use numerica::domains::integer::Integer;
-use numerica::domains::rational::Rational as Fraction;
 use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
 use symbolica::coefficient::Coefficient;
 use symbolica::id::Replacement;
@@ -145,9 +142,7 @@ impl Formula {
 
     /// An exact number.
     pub fn number(value: &Rational) -> Self {
-        let [numerator, denominator] =
-            [value.numerator_text(), value.denominator_text()].map(|digits| integer_of(&digits));
-        Self(Atom::num(Fraction::new(numerator, denominator)))
+        Self(Atom::num(value.as_inner().clone()))
     }
 
     /// A symbol.
@@ -330,23 +325,12 @@ fn integer(view: AtomView<'_>) -> i32 {
     }
 }
 
-/// An integer of the algebra by its decimal digits.
-fn integer_of(digits: &str) -> Integer {
-    match digits.parse() {
-        Ok(integer) => integer,
-        Err(_) => unreachable!("the algebra does not read the integer {digits}"),
-    }
-}
-
 fn rational(view: AtomView<'_>) -> Rational {
     if let AtomView::Num(number) = view
         && let Coefficient::Complex(value) = number.get_coeff_view().to_owned()
         && value.is_real()
     {
-        let digits = [value.re.numerator_ref(), value.re.denominator_ref()].map(Integer::to_string);
-        if let Some(number) = Rational::from_digits(&digits[0], &digits[1]) {
-            return number;
-        }
+        return Rational::from_inner(value.re);
     }
     unreachable!("the algebra returned a number that is not rational: {view}")
 }

@@ -10,7 +10,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: bindings FILE FOLDER".into());
     };
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(file).web(true)?.typescript(false);
+    bindgen
+        .input_path(file)
+        .web(true)?
+        .typescript(false)
+        .omit_default_module_path(false)
+        .remove_name_section(true)
+        .remove_producers_section(true);
     bindgen.generate(folder)?;
     Ok(())
 }
