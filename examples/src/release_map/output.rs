@@ -7,7 +7,7 @@ use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::{Arguments, Scene};
-use super::map::Map;
+use super::map::{Map, RATIOS};
 use super::normal_modes::NormalMode;
 use super::tongues::{Resonance, Tongue, span};
 use crate::critical_angle::scan::PAPER;
@@ -107,7 +107,8 @@ pub fn ratios(job: &Job, map: &Map) -> Result<(), Failure> {
     let panel = Panel::new(energy).series(Series::shaded(&x, &y, &rates));
     let threshold = 1.0 - THRESHOLD.to_radians().cos();
     let panel = of_the_paper(panel, 1.0, &[0.0, 1.0], &[threshold]);
-    let x = Axis::log("mass of the children over that of the paper's");
+    let [low, high] = RATIOS;
+    let x = Axis::log("mass of the children over that of the paper's").range(low, high);
     let title = "Growth rate of the antiphase mode, released with vertical children";
     draw(job, "ratio-energy", Chart::new(title, x).panel(panel))
 }
