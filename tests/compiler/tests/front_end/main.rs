@@ -2,7 +2,6 @@
 //! is wrong on the way.
 
 mod errors;
-mod exact;
 mod fuzz;
 mod rules;
 mod scenes;

@@ -1,8 +1,13 @@
 //! Exact numbers and their one rounding.
 
 use branched_pendulum_codegen::exact::{ExactError, Rational};
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-use branched_pendulum_compiler_tests::random::Random;
+/// A random whole number below a limit.
+fn below(random: &mut SplitMix64, limit: usize) -> usize {
+    (random.next_u64() % limit as u64) as usize
+}
 
 fn decimal(text: &str) -> Rational {
     Rational::parse_decimal(text).unwrap_or_else(|error| panic!("{text}: {error}"))
@@ -127,9 +132,9 @@ fn large_numbers_come_back_to_small_ones() {
 
 #[test]
 fn order_is_that_of_the_numbers() {
-    let mut random = Random::new(3);
+    let mut random = SplitMix64::seed_from_u64(3);
     for _ in 0..1000 {
-        let mut part = || random.below(41) as i64 - 20;
+        let mut part = || below(&mut random, 41) as i64 - 20;
         let (a, b, c, d) = (part(), part(), part(), part());
         let (b, d) = (b.abs() + 1, d.abs() + 1);
         let left = Rational::from_ratio(a, b).expect("b > 0");
@@ -160,14 +165,14 @@ fn text_is_decimal_where_that_is_exact_and_short() {
 
 #[test]
 fn rounding_agrees_with_the_standard_library_on_decimals() {
-    let mut random = Random::new(1);
+    let mut random = SplitMix64::seed_from_u64(1);
     for _ in 0..20_000 {
-        let digits: String = (0..1 + random.below(40))
-            .map(|_| char::from(b'0' + random.below(10) as u8))
+        let digits: String = (0..1 + below(&mut random, 40))
+            .map(|_| char::from(b'0' + below(&mut random, 10) as u8))
             .collect();
-        let point = random.below(digits.len() + 1);
-        let exponent = random.below(720) as i32 - 370;
-        let sign = random.pick(&["", "-"]);
+        let point = below(&mut random, digits.len() + 1);
+        let exponent = below(&mut random, 720) as i32 - 370;
+        let sign = ["", "-"][below(&mut random, 2)];
         let text = format!(
             "{sign}0{}.{}e{exponent}",
             &digits[..point],
@@ -183,11 +188,11 @@ fn rounding_agrees_with_the_standard_library_on_decimals() {
 
 #[test]
 fn rounding_gives_the_nearest_of_all() {
-    let mut random = Random::new(2);
+    let mut random = SplitMix64::seed_from_u64(2);
     for _ in 0..5_000 {
         let mut part = || {
-            let small = Rational::from((random.bits() >> random.below(60)) as i64 | 1);
-            &small * &power_of_two(random.below(1000) as i32 - 500)
+            let small = Rational::from((random.next_u64() >> below(&mut random, 60)) as i64 | 1);
+            &small * &power_of_two(below(&mut random, 1000) as i32 - 500)
         };
         let value = divided(&part(), &part());
         let found = value.to_f64();
@@ -209,7 +214,7 @@ fn rounding_gives_the_nearest_of_all() {
 
 #[test]
 fn halves_go_to_the_even_neighbour() {
-    let mut random = Random::new(4);
+    let mut random = SplitMix64::seed_from_u64(4);
     let least = f64::from_bits(1);
     let edges = [
         0.0,
@@ -223,7 +228,7 @@ fn halves_go_to_the_even_neighbour() {
         2.0_f64.powi(53),
     ];
     let drawn = (0..2_000)
-        .map(|_| f64::from_bits(random.bits() >> 1))
+        .map(|_| f64::from_bits(random.next_u64() >> 1))
         .filter(|x| *x < f64::MAX);
     for lower in edges.into_iter().chain(drawn.collect::<Vec<_>>()) {
         let upper = lower.next_up();
