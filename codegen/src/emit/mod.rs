@@ -152,21 +152,11 @@ impl Emission<'_> {
                 }
             }
         }
-        for id in stored.clone() {
-            self.named_behind(id, &mut stored);
-        }
+        let setup = &self.program.setup;
+        let is_named = |op: &ConstantOp| matches!(op, ConstantOp::Named(..));
+        let behind = setup.behind(stored.iter().copied(), |constant| !is_named(&constant.op));
+        stored.extend(behind.into_iter().filter(|&id| is_named(&setup.get(id).op)));
         stored.into_iter().collect()
-    }
-
-    fn named_behind(&self, id: ConstantId, stored: &mut BTreeSet<ConstantId>) {
-        let definition = self.program.setup.get(id);
-        if let ConstantOp::Named(..) = definition.op {
-            stored.insert(id);
-            return;
-        }
-        for operand in definition.op.operands() {
-            self.named_behind(operand, stored);
-        }
     }
 
     /// The field of a stored constant. A parameter that code reads as it is has

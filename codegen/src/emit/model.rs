@@ -4,11 +4,11 @@ use super::Emission;
 use super::doc_text::doc_lines;
 use super::quantities::{enclosed, product, sum};
 use super::tokens::{Binding, number_tokens};
-use crate::program::{ConstantId, ConstantOp};
+use crate::program::{ConstantDefinition, ConstantId, ConstantOp};
 use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Traits that the model derives where its author does not.
 const DERIVED: [&str; 4] = ["Clone", "Copy", "Debug", "PartialEq"];
@@ -88,16 +88,58 @@ impl Emission<'_> {
 
     /// `let` lines for all stored constants, and the names of their fields.
     fn constant_lines(&self) -> (Vec<TokenStream>, Vec<Ident>) {
-        let mut known = BTreeMap::new();
-        let (mut lines, mut fields) = (Vec::new(), Vec::new());
-        for id in self.stored_constants() {
-            let field = self.field(id);
-            let (value, _) = self.constant_value(id, &known);
-            lines.push(quote!(let #field = #value;));
-            fields.push(field.clone());
-            known.insert(id, field);
+        let stored = self.stored_constants();
+        let fields: BTreeMap<ConstantId, Ident> =
+            stored.iter().map(|&id| (id, self.field(id))).collect();
+        let mut formed = self.shared_constants(&stored);
+        formed.extend(stored);
+        let (lines, _) = self.formed_lines(formed, |id| fields.get(&id).cloned());
+        (lines, fields.into_values().collect())
+    }
+
+    /// Sums and products that several of the stored constants, or one in several places,
+    /// are formed of: written out everywhere, code would grow as a power of their depth.
+    fn shared_constants(&self, stored: &[ConstantId]) -> BTreeSet<ConstantId> {
+        let setup = &self.program.setup;
+        let is_formed = |definition: &ConstantDefinition| definition.exact.is_none();
+        let mut readers: BTreeMap<ConstantId, usize> = BTreeMap::new();
+        for id in setup.behind(stored.iter().copied(), is_formed) {
+            let definition = setup.get(id);
+            if is_formed(definition) {
+                for (operand, times) in definition.op.readings() {
+                    *readers.entry(operand).or_default() += times;
+                }
+            }
         }
-        (lines, fields)
+        let is_shared = |&(id, count): &(ConstantId, usize)| {
+            let definition = setup.get(id);
+            let arithmetic = matches!(
+                definition.op,
+                ConstantOp::Product(..) | ConstantOp::Add(..) | ConstantOp::Sub(..)
+            );
+            count > 1 && arithmetic && is_formed(definition)
+        };
+        let shared = readers.into_iter().filter(is_shared);
+        shared.map(|(id, _)| id).collect()
+    }
+
+    /// `let` lines for constants, operands first, with the names they have there: those by
+    /// `field`, or their own.
+    pub(super) fn formed_lines(
+        &self,
+        formed: BTreeSet<ConstantId>,
+        field: impl Fn(ConstantId) -> Option<Ident>,
+    ) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
+        let mut known = BTreeMap::new();
+        let mut lines = Vec::new();
+        for id in formed {
+            let own = || format_ident!("{}", self.program.setup.get(id).name);
+            let name = field(id).unwrap_or_else(own);
+            let (value, _) = self.constant_value(id, &known);
+            lines.push(quote!(let #name = #value;));
+            known.insert(id, name);
+        }
+        (lines, known)
     }
 
     pub(super) fn constant_value(

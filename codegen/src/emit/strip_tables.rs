@@ -9,7 +9,7 @@ use crate::program::{ConstantId, ConstantOp, LoopTree, Op, StripConstants, Value
 use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Columns of bodies, d along and e across the link.
 const BODIES: [&str; 12] = [
@@ -134,23 +134,12 @@ impl Emission<'_> {
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
         let setup = &self.program.setup;
-        let mut formed = BTreeSet::new();
-        while let Some(id) = wanted.pop() {
+        let mut formed = setup.behind(wanted, |definition| definition.exact.is_none());
+        formed.retain(|&id| {
             let definition = setup.get(id);
-            let simple = matches!(definition.op, ConstantOp::Parameter(_));
-            if definition.exact.is_none() && !simple && formed.insert(id) {
-                wanted.extend(definition.op.operands());
-            }
-        }
-        let mut known = BTreeMap::new();
-        let mut lines = Vec::new();
-        for id in formed {
-            let name = format_ident!("{}", setup.get(id).name);
-            let (value, _) = self.constant_value(id, &known);
-            lines.push(quote!(let #name = #value;));
-            known.insert(id, name);
-        }
-        (lines, known)
+            definition.exact.is_none() && !matches!(definition.op, ConstantOp::Parameter(_))
+        });
+        self.formed_lines(formed, |_| None)
     }
 
     fn root_constants(&self) -> Vec<ConstantId> {

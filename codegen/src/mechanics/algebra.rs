@@ -181,13 +181,13 @@ impl Formula {
 
     /// Products multiplied out.
     pub fn expand(&self) -> Self {
-        spend_on(most_terms(self.0.as_view()), self, TERM_READ);
+        spend_on(Expansion::of(self.0.as_view()).work(), self, TERM_READ);
         Self(self.0.expand())
     }
 
     /// Over one common denominator, numerator and denominator coprime.
     pub fn together(&self) -> Self {
-        spend_on(most_terms(self.0.as_view()), self, TERM_READ);
+        spend_on(Expansion::of(self.0.as_view()).work(), self, TERM_READ);
         Self(self.0.together())
     }
 
@@ -262,6 +262,8 @@ const CALL: u64 = 3;
 const BYTES: u64 = 16;
 /// Bytes of a formula that is multiplied out.
 const TERM_READ: u64 = 1;
+/// Square of the machine words of a number that takes as long as one term more.
+const LONG_NUMBER: u64 = 2;
 
 /// Counts an operation on a formula.
 fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
@@ -269,19 +271,58 @@ fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
     spend(terms.saturating_add(size / bytes));
 }
 
-/// Number of terms of a formula multiplied out, before like terms are collected.
-fn most_terms(view: AtomView<'_>) -> u64 {
-    match view {
-        AtomView::Num(_) | AtomView::Var(_) | AtomView::Fun(_) => 1,
-        AtomView::Add(sum) => sum.iter().map(most_terms).fold(0, u64::saturating_add),
-        AtomView::Mul(product) => product.iter().map(most_terms).fold(1, u64::saturating_mul),
-        AtomView::Pow(power) => {
-            let (terms, exponent) = (most_terms(power.get_base()), integer(power.get_exp()));
-            // A multinomial coefficient; negative powers stay as they are.
-            (0..u64::from(exponent.max(0).unsigned_abs())).fold(1_u64, |count, chosen| {
-                count.saturating_mul(terms.saturating_add(chosen)) / (chosen + 1)
-            })
+/// Size of a formula multiplied out, before like terms are collected.
+struct Expansion {
+    terms: u64,
+    /// Most machine words of the number in a term.
+    words: u64,
+}
+
+impl Expansion {
+    fn of(view: AtomView<'_>) -> Self {
+        match view {
+            AtomView::Num(_) => Self {
+                terms: 1,
+                words: view.get_byte_size() as u64 / 8,
+            },
+            AtomView::Var(_) | AtomView::Fun(_) => Self { terms: 1, words: 0 },
+            AtomView::Add(sum) => {
+                let empty = Self { terms: 0, words: 0 };
+                sum.iter().map(Self::of).fold(empty, |sum, part| Self {
+                    terms: sum.terms.saturating_add(part.terms),
+                    words: sum.words.max(part.words),
+                })
+            }
+            AtomView::Mul(product) => {
+                let one = Self { terms: 1, words: 0 };
+                product
+                    .iter()
+                    .map(Self::of)
+                    .fold(one, |product, part| Self {
+                        terms: product.terms.saturating_mul(part.terms),
+                        words: product.words.saturating_add(part.words),
+                    })
+            }
+            AtomView::Pow(power) => {
+                let (base, exponent) = (Self::of(power.get_base()), integer(power.get_exp()));
+                let positive = u64::from(exponent.max(0).unsigned_abs());
+                Self {
+                    // A multinomial coefficient; negative powers stay as they are.
+                    terms: (0..positive).fold(1, |count: u64, chosen| {
+                        count.saturating_mul(base.terms.saturating_add(chosen)) / (chosen + 1)
+                    }),
+                    words: base.words.saturating_mul(exponent.unsigned_abs().into()),
+                }
+            }
         }
+    }
+
+    /// Work in terms: products and common divisors of long numbers take the square of
+    /// their length.
+    fn work(&self) -> u64 {
+        let squared = self.words.saturating_mul(self.words);
+        let long = self.terms.saturating_mul(squared) / LONG_NUMBER;
+        self.terms.saturating_add(long)
     }
 }
 

@@ -5,7 +5,7 @@
 use super::constant_names;
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Index of a constant in [`Setup`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,12 +35,20 @@ pub enum ConstantOp {
 
 impl ConstantOp {
     /// The constants it is formed of.
-    pub fn operands(&self) -> Vec<ConstantId> {
+    pub fn operands(&self) -> impl Iterator<Item = ConstantId> {
+        self.readings().into_iter().map(|(id, _)| id)
+    }
+
+    /// The constants that it reads, and how often each.
+    pub fn readings(&self) -> Vec<(ConstantId, usize)> {
         match self {
             Self::Number(_) | Self::Parameter(_) => Vec::new(),
-            Self::Named(_, a) | Self::Called(a) => vec![*a],
-            Self::Product(_, powers) => powers.iter().map(|(id, _)| *id).collect(),
-            Self::Add(a, b) | Self::Sub(a, b) => vec![*a, *b],
+            Self::Named(_, a) | Self::Called(a) => vec![(*a, 1)],
+            Self::Product(_, powers) => powers
+                .iter()
+                .map(|&(id, power)| (id, power.unsigned_abs() as usize))
+                .collect(),
+            Self::Add(a, b) | Self::Sub(a, b) => vec![(*a, 1), (*b, 1)],
         }
     }
 }
@@ -69,6 +77,24 @@ pub struct Setup {
 const LONGEST_NAME: usize = 72;
 
 impl Setup {
+    /// The constants that `outputs` are formed of, these included, in the order of their
+    /// definitions; what is behind a constant counts where `enters` it.
+    pub fn behind(
+        &self,
+        outputs: impl IntoIterator<Item = ConstantId>,
+        enters: impl Fn(&ConstantDefinition) -> bool,
+    ) -> BTreeSet<ConstantId> {
+        let mut behind = BTreeSet::new();
+        let mut waiting: Vec<ConstantId> = outputs.into_iter().collect();
+        while let Some(id) = waiting.pop() {
+            let definition = self.get(id);
+            if behind.insert(id) && enters(definition) {
+                waiting.extend(definition.op.operands());
+            }
+        }
+        behind
+    }
+
     /// The definition of a constant.
     pub fn get(&self, id: ConstantId) -> &ConstantDefinition {
         &self.definitions[id.0 as usize]

@@ -46,7 +46,7 @@ mod transverse;
 mod verify;
 
 pub use choice::{SolveChoice, cost};
-pub use constants::{ConstantId, ConstantOp, Setup};
+pub use constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::Entry;
 pub use fuse::FusedSum;

@@ -65,39 +65,33 @@ impl Program {
     /// The name of a constant, or the number, that some entry point needs and
     /// that no `f64` can hold: rounded, it would be infinite, or zero without being zero.
     pub fn unrepresentable_constant(&self) -> Option<&str> {
-        let mut values = self
+        let values = self
             .entries
             .iter()
             .flat_map(|entry| self.needed(&entry.outputs));
-        let in_entries = values.find_map(|value| match self.definition(value).op {
-            super::Op::Constant(id) => self.unrepresentable_in(id),
-            super::Op::Number(ref number) => {
-                is_unrepresentable(number).then_some("a number of an observable")
+        let mut constants = Vec::new();
+        for value in values {
+            match self.definition(value).op {
+                super::Op::Constant(id) => constants.push(id),
+                super::Op::Number(ref number) if is_unrepresentable(number) => {
+                    return Some("a number of an observable");
+                }
+                _ => {}
             }
-            _ => None,
-        });
+        }
         let strips = self.strips.iter().flat_map(|strips| &strips.strips);
-        let mut rows = strips.flat_map(super::StripConstants::all_constants);
-        in_entries.or_else(|| rows.find_map(|id| self.unrepresentable_in(id)))
-    }
-
-    fn unrepresentable_in(&self, id: super::ConstantId) -> Option<&str> {
-        let definition = self.setup.get(id);
-        if let Some(exact) = &definition.exact
-            && is_unrepresentable(exact)
-        {
-            return Some(&definition.name);
-        }
-        if let ConstantOp::Number(number) | ConstantOp::Product(number, _) = &definition.op
-            && is_unrepresentable(number)
-        {
-            return Some(&definition.name);
-        }
+        constants.extend(strips.flat_map(super::StripConstants::all_constants));
         // The model stores the named constants behind a product too.
-        let operands = definition.op.operands();
-        operands
-            .into_iter()
-            .find_map(|operand| self.unrepresentable_in(operand))
+        let mut stored = self.setup.behind(constants, |_| true).into_iter();
+        stored.find_map(|id| {
+            let definition = self.setup.get(id);
+            let factor = match &definition.op {
+                ConstantOp::Number(number) | ConstantOp::Product(number, _) => Some(number),
+                _ => None,
+            };
+            let mut numbers = definition.exact.iter().chain(factor);
+            numbers.any(is_unrepresentable).then_some(&*definition.name)
+        })
     }
 
     /// Checks that definitions are in order, that entry points receive what

@@ -1,9 +1,10 @@
-//! The probe of an observable's part: is it zero whatever its variables are? It
-//! is tried at a few points, in numbers, since the algebra comes later and may
-//! not divide by zero.
+//! The probe of a value: is it zero whatever its variables and parameters are? It is
+//! tried at a few points in numbers, since the algebra comes later and may not divide
+//! by zero.
 
 use super::Quantity;
 use super::observables::{Function, Observed};
+use crate::exact::Rational;
 
 /// Points to try. A value that is not identically zero vanishes at all of them
 /// only if someone looked for that.
@@ -22,15 +23,53 @@ impl Probe {
         let size = value.abs();
         Self { value, size }
     }
+
+    fn sum(parts: impl Iterator<Item = Self>) -> Self {
+        parts.fold(Self::leaf(0.0), |sum, part| Self {
+            value: sum.value + part.value,
+            size: sum.size.max(part.size),
+        })
+    }
+
+    fn product(parts: impl Iterator<Item = Self>) -> Self {
+        parts.fold(Self::leaf(1.0), |product, part| Self {
+            value: product.value * part.value,
+            size: product.size * part.size,
+        })
+    }
+
+    fn divided_by(self, below: Self) -> Self {
+        Self {
+            value: self.value / below.value,
+            size: self.size / below.value.abs(),
+        }
+    }
+
+    fn power(self, exponent: i32) -> Self {
+        let value = self.value.powi(exponent);
+        let size = match exponent < 0 {
+            true => value.abs(),
+            false => self.size.powi(exponent),
+        };
+        Self { value, size }
+    }
+
+    fn negative(self) -> Self {
+        Self {
+            value: -self.value,
+            ..self
+        }
+    }
+
+    fn is_zero(self) -> bool {
+        self.value.abs() <= 1e-13 * self.size
+    }
 }
 
 impl Observed {
     /// Returns true if the value vanishes at all points, within rounding.
     pub(super) fn is_zero(&self) -> bool {
-        POINTS.iter().all(|&point| {
-            let Probe { value, size } = self.probe(point);
-            value.abs() <= 1e-13 * size
-        })
+        POINTS.iter().all(|&point| self.probe(point).is_zero())
     }
 
     /// Returns true if the value is too large for an `f64` at all points.
@@ -41,51 +80,20 @@ impl Observed {
     }
 
     fn probe(&self, point: u64) -> Probe {
+        let at = |part: &Self| part.probe(point);
         match self {
-            Self::Known(quantity) => Probe::leaf(quantity_at(quantity, point)),
+            Self::Known(quantity) => quantity.probe(point),
             Self::Variable(variable) => Probe::leaf(number(&variable.name, point)),
             Self::Constant(name) => Probe::leaf(number(name, point)),
             Self::KineticEnergy => Probe::leaf(number("kinetic_energy", point)),
             Self::PotentialEnergy => Probe::leaf(number("potential_energy", point)),
-            Self::Sum(parts) => {
-                let parts = parts.iter().map(|part| part.probe(point));
-                parts.fold(Probe::leaf(0.0), |sum, part| Probe {
-                    value: sum.value + part.value,
-                    size: sum.size.max(part.size),
-                })
-            }
-            Self::Product(parts) => {
-                let parts = parts.iter().map(|part| part.probe(point));
-                parts.fold(Probe::leaf(1.0), |product, part| Probe {
-                    value: product.value * part.value,
-                    size: product.size * part.size,
-                })
-            }
-            Self::Quotient(above, below) => {
-                let (above, below) = (above.probe(point), below.probe(point));
-                Probe {
-                    value: above.value / below.value,
-                    size: above.size / below.value.abs(),
-                }
-            }
-            Self::Power(base, exponent) => {
-                let base = base.probe(point);
-                let value = base.value.powi(*exponent);
-                let size = match *exponent < 0 {
-                    true => value.abs(),
-                    false => base.size.powi(*exponent),
-                };
-                Probe { value, size }
-            }
-            Self::Negative(inner) => {
-                let Probe { value, size } = inner.probe(point);
-                Probe {
-                    value: -value,
-                    size,
-                }
-            }
+            Self::Sum(parts) => Probe::sum(parts.iter().map(at)),
+            Self::Product(parts) => Probe::product(parts.iter().map(at)),
+            Self::Quotient(above, below) => at(above).divided_by(at(below)),
+            Self::Power(base, exponent) => at(base).power(*exponent),
+            Self::Negative(inner) => at(inner).negative(),
             Self::Call(function, inner) => {
-                let Probe { value, size } = inner.probe(point);
+                let Probe { value, size } = at(inner);
                 match function {
                     Function::Sin => Probe {
                         value: value.sin(),
@@ -103,16 +111,47 @@ impl Observed {
     }
 }
 
-fn quantity_at(quantity: &Quantity, point: u64) -> f64 {
-    let at = |quantity: &Quantity| quantity_at(quantity, point);
-    match quantity {
-        Quantity::Exact(number) => number.to_f64(),
-        Quantity::Parameter(id) => number(&format!("parameter {}", id.0), point),
-        Quantity::Sum(parts) => parts.iter().map(at).sum(),
-        Quantity::Product(parts) => parts.iter().map(at).product(),
-        Quantity::Quotient(above, below) => at(above) / at(below),
-        Quantity::Power(base, exponent) => at(base).powi(*exponent),
-        Quantity::Negative(inner) => -at(inner),
+impl Quantity {
+    /// Returns true if the value is 0 whatever its parameters are: within rounding at
+    /// all points, and exactly at one more.
+    pub(super) fn vanishes(&self) -> bool {
+        POINTS.iter().all(|&point| self.probe(point).is_zero())
+            && self.exact_probe().is_some_and(|value| value.is_zero())
+    }
+
+    fn probe(&self, point: u64) -> Probe {
+        let at = |part: &Self| part.probe(point);
+        match self {
+            Self::Exact(number) => Probe::leaf(number.to_f64()),
+            Self::Parameter(id) => Probe::leaf(number(&format!("parameter {}", id.0), point)),
+            Self::Sum(parts) => Probe::sum(parts.iter().map(at)),
+            Self::Product(parts) => Probe::product(parts.iter().map(at)),
+            Self::Quotient(above, below) => at(above).divided_by(at(below)),
+            Self::Power(base, exponent) => at(base).power(*exponent),
+            Self::Negative(inner) => at(inner).negative(),
+        }
+    }
+
+    /// The value for one choice of the parameters, of twenty bits and more each; None
+    /// where it has none, or one with too many digits.
+    fn exact_probe(&self) -> Option<Rational> {
+        let at = |part: &Self| part.exact_probe();
+        match self {
+            Self::Exact(number) => Some(number.clone()),
+            Self::Parameter(id) => {
+                let value = number(&format!("parameter {}", id.0), 0);
+                Some(Rational::from((value * f64::from(1 << 21)) as i64))
+            }
+            Self::Sum(parts) => parts
+                .iter()
+                .try_fold(Rational::zero(), |sum, part| Some(sum + at(part)?)),
+            Self::Product(parts) => parts
+                .iter()
+                .try_fold(Rational::one(), |product, part| Some(product * at(part)?)),
+            Self::Quotient(above, below) => at(above)?.checked_div(&at(below)?),
+            Self::Power(base, exponent) => at(base)?.checked_pow(*exponent).ok(),
+            Self::Negative(inner) => Some(-at(inner)?),
+        }
     }
 }
 

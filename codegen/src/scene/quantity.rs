@@ -7,8 +7,8 @@ use crate::exact::{ExactError, Rational};
 ///
 /// The functions that build one fold: an expression of literals only is always
 /// [`Quantity::Exact`]; a sum or product holds at most one exact member, which
-/// comes first; nothing is multiplied by 0 or 1 or has 0 added; nothing is
-/// divided by an exact number. Members keep the order in which they were
+/// comes first; nothing is multiplied by 0 or 1 or has 0 added; a sum that is 0
+/// for all parameters is 0; nothing is divided by an exact number. Members keep the order in which they were
 /// written.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Quantity {
@@ -47,7 +47,7 @@ impl Quantity {
         }
     }
 
-    /// Returns true if the value is known to be 0.
+    /// Returns true if the value is 0 whatever the parameters are.
     pub fn is_zero(&self) -> bool {
         self.exact().is_some_and(Rational::is_zero)
     }
@@ -73,7 +73,10 @@ impl Quantity {
         if !constant.is_zero() {
             rest.insert(0, Self::Exact(constant));
         }
-        Self::collected(rest, Self::zero, Self::Sum)
+        match Self::collected(rest, Self::zero, Self::Sum) {
+            sum @ Self::Sum(_) if sum.vanishes() => Self::zero(),
+            sum => sum,
+        }
     }
 
     /// The product of `factors`.
