@@ -47,6 +47,7 @@ mod expression;
 mod item;
 mod list;
 mod parse;
+mod properties;
 mod requests;
 mod source;
 mod text;

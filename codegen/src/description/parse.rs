@@ -3,19 +3,20 @@
 //! A mistake costs the list member it stands in: reading goes on after the next
 //! comma of the same list, so that one missing `=` does not hide what follows.
 
-use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, Span, TokenStream};
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
-use super::expression::{EACH_WHOLE, whole_number};
+use super::expression::whole_number;
 use super::item::{MAX_NESTING, deepest, parse_item};
 use super::list::{
     List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
 };
+use super::properties;
 use super::requests::{observable, request};
 use super::{
     Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
-    PrescribedClause, Property, Reductions, Request, StructItem, Value,
+    PrescribedClause, Property, Reductions, Request, StructItem,
 };
 use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
@@ -180,7 +181,7 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
             Delimiter::Parenthesis,
             "`(` and what drives the tree",
         )?;
-        let parts = list(parts, report, property);
+        let parts = list(parts, report, properties::property);
         return Ok(Member::Drive(DriveClause {
             name,
             parts: parts.members,
@@ -246,7 +247,7 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
         return Ok(Member::Crate(name, path));
     }
     if name == "gravity" {
-        return property_value(name, input).map(Member::Gravity);
+        return properties::property_value(name, input).map(Member::Gravity);
     }
     if name == "solve" {
         take::<Token![=]>(input, "`=`")?;
@@ -278,9 +279,9 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node
     )?;
     let mut damaged = false;
     let properties = list(properties, report, |input, report| {
-        let members = members(input, report)?;
-        damaged |= members.damaged;
-        Ok(members.members)
+        let one = properties::properties(input, report)?;
+        damaged |= one.damaged;
+        Ok(one.members)
     });
     damaged |= properties.damaged;
     brackets(input, "children", "[ ]")?;
@@ -307,99 +308,4 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node
         children: children.members,
         copies,
     })
-}
-
-/// A property of a link, or those in the parentheses of a law of friction.
-fn members(input: ParseStream<'_>, report: &mut Faults) -> Result<List<Property>, ListFault> {
-    let name = identifier(input, "a property, as in `mass = 0.1`")?;
-    let is_law = ["friction", "drag"].iter().any(|law| name == law);
-    if is_law && input.peek(token::Paren) {
-        let laws = group(input, Delimiter::Parenthesis, "`(` and its laws")?;
-        let mut laws = list(laws, report, property);
-        for property in &mut laws.members {
-            property.within = Some(name.clone());
-        }
-        return Ok(laws);
-    }
-    Ok(List {
-        members: vec![property_value(name, input)?],
-        damaged: false,
-    })
-}
-
-fn property(input: ParseStream<'_>, _: &mut Faults) -> Result<Property, ListFault> {
-    let name = identifier(input, "a property, as in `mass = 0.1`")?;
-    property_value(name, input)
-}
-
-/// A property, after its name.
-fn property_value(name: Ident, input: ParseStream<'_>) -> Result<Property, ListFault> {
-    colon(&name, input)?;
-    take::<Token![=]>(input, "`=` and a value")?;
-    let value = match each(input) {
-        Some((span, values)) => Value::Each {
-            values: parse_all(values, |input| {
-                let mut values = vec![point(input)?];
-                while !input.is_empty() {
-                    take::<Token![,]>(input, "`,`")?;
-                    if !input.is_empty() {
-                        values.push(point(input)?);
-                    }
-                }
-                Ok(values)
-            })?,
-            span,
-        },
-        None => point(input)?,
-    };
-    if matches!(value, Value::Each { .. }) && !input.is_empty() && !input.peek(Token![,]) {
-        return Err(expected(input, EACH_WHOLE));
-    }
-    Ok(Property {
-        within: None,
-        name,
-        value,
-    })
-}
-
-/// A single value or a pair.
-fn point(input: ParseStream<'_>) -> Result<Value, ListFault> {
-    match pair(input) {
-        Some(pair) => parse_all(pair, |input| {
-            let along = Expression::parse(input)?;
-            take::<Token![,]>(input, "`,`")?;
-            let lateral = Expression::parse(input)?;
-            Ok(Value::Pair(along, lateral))
-        }),
-        None => Expression::parse(input).map(Value::Single),
-    }
-}
-
-/// Takes `each` and its parentheses: the place of the word, and the tokens in them.
-fn each(input: ParseStream<'_>) -> Option<(Span, (TokenStream, Span))> {
-    input
-        .step(|cursor| match cursor.ident() {
-            Some((word, rest)) if word == "each" => match rest.group(Delimiter::Parenthesis) {
-                Some((inside, span, rest)) => {
-                    let tokens = (inside.token_stream(), span.close());
-                    Ok(((word.span(), tokens), rest))
-                }
-                None => Err(cursor.error("")),
-            },
-            _ => Err(cursor.error("")),
-        })
-        .ok()
-}
-
-/// Takes parentheses with a comma in them.
-fn pair(input: ParseStream<'_>) -> Option<(TokenStream, Span)> {
-    let is_comma = |token: TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ',');
-    input
-        .step(|cursor| match cursor.group(Delimiter::Parenthesis) {
-            Some((inside, span, rest)) if inside.token_stream().into_iter().any(is_comma) => {
-                Ok(((inside.token_stream(), span.close()), rest))
-            }
-            _ => Err(cursor.error("")),
-        })
-        .ok()
 }
