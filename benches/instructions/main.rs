@@ -1,65 +1,251 @@
-//! Evaluates a scene so often that an instruction counter can tell what once costs:
-//! `instructions SCENE KIND STATES`. `run.sh` writes `scenes.rs` and counts.
+//! `benches/instructions/run.sh`: instructions of what the speed of simulations stands on,
+//! counted by valgrind. They repeat to the instruction where a clock does not, so that a
+//! change of few per cent shows on a busy machine.
+//!
+//! valgrind stands in for a processor that has AVX2 where the machine has it, and never
+//! AVX-512: what is dispatched on the machine's features runs the code for AVX2, whose
+//! registers hold half of what those of AVX-512 do. A division counts as a product does,
+//! and waiting counts nothing; time is measured by `cargo bench` and the program
+//! `evaluation-speed`.
 
-mod scenes;
+#![expect(missing_docs, reason = "of what gungraun's macros define")]
 
-use branched_pendulum::batch::Batch;
-use branched_pendulum::Cast;
 use std::hint::black_box;
-use std::process::ExitCode;
 
-/// States of one batch.
-const STATES: usize = 64;
+use branched_pendulum::Cast;
+use branched_pendulum::batch::Batch;
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::Workspace;
+use branched_pendulum_trees::PendulumTree;
+use gungraun::prelude::*;
 
-/// Evaluates the accelerations so many times.
-type Run = fn(&str, usize) -> bool;
+/// The paper's pendulum.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    emit(energies, symmetric, taylor, transfer(exact)),
+)]
+struct BranchedDouble;
 
-fn run<const N: usize, P: Cast<f64>>(model: P, kind: &str, times: usize) -> bool {
-    let angle = |link: usize, state: usize| (link * 7 + state) as f64 % 6.0 - 3.0;
+/// Full binary trees of rods.
+macro_rules! trees {
+    ($($name:ident: $generations:literal generations, $solve:ident, $code:ident;)*) => {
+        $(#[branched_pendulum(
+            gravity = 9.80665,
+            solve = $solve,
+            rod: generations(count = $generations, branching = 2, shape = rod, mass = 0.12,
+                length = 0.3, mass_ratio = 0.5, length_ratio = 0.7, code = $code),
+            emit(energies),
+        )]
+        struct $name;)*
+    };
+}
+
+trees! {
+    Factorized7: 3 generations, factorization, unrolled;
+    Recursive7: 3 generations, recursion, unrolled;
+    Factorized15: 4 generations, factorization, unrolled;
+    Recursive15: 4 generations, recursion, unrolled;
+    Factorized31: 5 generations, factorization, unrolled;
+    Recursive31: 5 generations, recursion, unrolled;
+    Factorized127: 7 generations, factorization, unrolled;
+    Recursive127: 7 generations, recursion, unrolled;
+    Loops127: 7 generations, recursion, loops;
+    Loops1023: 10 generations, recursion, loops;
+}
+
+/// Passes of one count: what it shows is divided by them.
+const PASSES: usize = 64;
+
+/// What is counted: [`PASSES`] evaluations, states or steps.
+type Passes = Box<dyn FnMut()>;
+
+/// Has gone through once: the processor's features are asked for, memory is laid out.
+fn warm(mut passes: impl FnMut() + 'static) -> Passes {
+    passes();
+    Box::new(passes)
+}
+
+/// Angle of a link in a state.
+fn angle(link: usize, state: usize) -> f64 {
+    ((7 * link + state) % 64) as f64 / 11.0 - 3.0
+}
+
+/// Angles and angular velocities of states.
+fn states(links: usize) -> Vec<[Vec<f64>; 2]> {
+    let of =
+        |state| [1.0, 2.0].map(|scale| (0..links).map(|link| scale * angle(link, state)).collect());
+    (0..PASSES).map(of).collect()
+}
+
+/// Accelerations of states one by one.
+fn one_by_one<M: Pendulum<f64> + 'static>(model: M) -> Passes {
+    let (states, mut alpha) = (states(M::LINKS), vec![0.0; M::LINKS]);
+    let mut workspace = Workspace::new();
+    warm(move || {
+        for [theta, omega] in black_box(&states) {
+            model.accelerations_with(&mut workspace, 0.0, theta, omega, &mut alpha);
+            black_box(&mut alpha);
+        }
+    })
+}
+
+/// Those of a tree that is described while the program runs.
+fn run_time_tree(text: &str) -> Passes {
+    let tree = PendulumTree::parse(text).expect("a tree");
+    let (states, mut alpha) = (states(tree.links()), vec![0.0; tree.links()]);
+    let mut workspace = Workspace::new();
+    warm(move || {
+        for [theta, omega] in black_box(&states) {
+            tree.accelerations_with(&mut workspace, 0.0, theta, omega, &mut alpha);
+            black_box(&mut alpha);
+        }
+    })
+}
+
+/// The paper's pendulum and the rods, described while the program runs.
+const PAPER: &str = "gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ]";
+const RODS: &str = "gravity = 9.80665,
+    rod: generations(count = 7, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7)";
+
+/// Accelerations of states in lanes.
+fn in_lanes<M: Cast<f64> + 'static>(model: M) -> Passes {
     let columns = |scale: f64| -> Vec<Vec<f64>> {
-        let column = |link| (0..STATES).map(|state| scale * angle(link, state)).collect();
-        (0..N).map(column).collect()
+        let column = |link| {
+            (0..PASSES)
+                .map(|state| scale * angle(link, state))
+                .collect()
+        };
+        (0..M::LINKS).map(column).collect()
     };
-    match kind {
-        "one" => {
-            let theta: [f64; N] = std::array::from_fn(|link| angle(link, 0));
-            let omega = theta.map(|angle| 2.0 * angle);
-            let mut alpha = [0.0; N];
-            for _ in 0..times {
-                model.accelerations_into(0.0, black_box(&theta), black_box(&omega), &mut alpha);
-                black_box(&alpha);
-            }
-            true
-        }
-        "batch" => {
-            let (theta, omega) = (columns(1.0), columns(2.0));
-            let mut alpha = columns(0.0);
-            (0..times / STATES).all(|_| {
-                let (theta, omega) = (black_box(&theta), black_box(&omega));
-                Batch::new(&model).accelerations(0.0, theta, omega, black_box(&mut alpha)).is_ok()
-            })
-        }
-        // What the standard library takes for the same angles.
-        "sines" => {
-            let theta: [f64; N] = std::array::from_fn(|link| angle(link, 0));
-            for _ in 0..times {
-                let theta = black_box(&theta);
-                black_box(theta.map(f64::sin_cos));
-            }
-            true
-        }
-        _ => false,
-    }
+    let (theta, omega, mut alpha) = (columns(1.0), columns(2.0), columns(0.0));
+    warm(move || {
+        let (theta, omega) = (black_box(&theta), black_box(&omega));
+        let done = Batch::new(&model).accelerations(0.0, theta, omega, black_box(&mut alpha));
+        done.expect("columns of one length");
+    })
 }
 
-fn main() -> ExitCode {
-    let words: Vec<String> = std::env::args().collect();
-    let [_, scene, kind, times] = words.as_slice() else {
-        return ExitCode::FAILURE;
-    };
-    let found = scenes::SCENES.iter().find(|(name, _)| name == scene);
-    match (found, times.parse()) {
-        (Some((_, run)), Ok(times)) if run(kind, times) => ExitCode::SUCCESS,
-        _ => ExitCode::FAILURE,
-    }
+/// Kinetic and potential energy.
+fn both_energies<M: Energy<f64> + 'static>(model: M) -> Passes {
+    let (states, mut workspace) = (states(M::LINKS), Workspace::new());
+    warm(move || {
+        for [theta, omega] in black_box(&states) {
+            black_box(model.kinetic_energy_with(&mut workspace, theta, omega));
+            black_box(model.potential_energy_with(&mut workspace, theta));
+        }
+    })
 }
+
+/// Sine and cosine by the standard library.
+fn sines() -> Passes {
+    let angles: Vec<f64> = (0..PASSES).map(|state| angle(0, state)).collect();
+    warm(move || {
+        for angle in black_box(&angles) {
+            black_box(angle.sin_cos());
+        }
+    })
+}
+
+/// W of the paper's pendulum, exact, from velocities.
+fn exact_transfer() -> Passes {
+    let model = BranchedDouble::new();
+    let state = |state| [1.0, 2.0].map(|scale| [0, 1, 2].map(|link| scale * angle(link, state)));
+    let states: Vec<[[f64; 3]; 2]> = (0..PASSES).map(state).collect();
+    warm(move || {
+        for [coordinates, rates] in black_box(&states) {
+            black_box(model.transfer_exact_from_rates(coordinates, rates));
+        }
+    })
+}
+
+/// Steps of the paper's pendulum at a tolerance of 1e-9.
+fn steps_of<M>(method: &M) -> Passes
+where
+    M: Integrator<f64, AbsoluteAngles<BranchedDouble>> + 'static,
+{
+    let start = State::at_rest(0.0, &[0.8, 1e-3, -1e-3]);
+    let stepper = method.start(AbsoluteAngles(BranchedDouble::new()), &start);
+    let mut stepper = stepper.expect("a start that is a number");
+    warm(move || {
+        for _ in 0..PASSES {
+            black_box(stepper.step().expect("steps of this motion"));
+        }
+    })
+}
+
+fn tolerance() -> Options<f64> {
+    Options::with_tolerance(1e-9)
+}
+
+#[library_benchmark]
+#[bench::paper(one_by_one(BranchedDouble::new()))]
+#[bench::factorized_7(one_by_one(Factorized7::new()))]
+#[bench::recursive_7(one_by_one(Recursive7::new()))]
+#[bench::factorized_15(one_by_one(Factorized15::new()))]
+#[bench::recursive_15(one_by_one(Recursive15::new()))]
+#[bench::factorized_31(one_by_one(Factorized31::new()))]
+#[bench::recursive_31(one_by_one(Recursive31::new()))]
+#[bench::factorized_127(one_by_one(Factorized127::new()))]
+#[bench::recursive_127(one_by_one(Recursive127::new()))]
+#[bench::loops_127(one_by_one(Loops127::new()))]
+#[bench::loops_1023(one_by_one(Loops1023::new()))]
+#[bench::run_time_paper(run_time_tree(PAPER))]
+#[bench::run_time_127(run_time_tree(RODS))]
+fn accelerations(mut passes: Passes) -> Passes {
+    passes();
+    passes
+}
+
+#[library_benchmark]
+#[bench::paper(in_lanes(BranchedDouble::new()))]
+#[bench::factorized_7(in_lanes(Factorized7::new()))]
+#[bench::recursive_7(in_lanes(Recursive7::new()))]
+#[bench::factorized_15(in_lanes(Factorized15::new()))]
+#[bench::recursive_15(in_lanes(Recursive15::new()))]
+#[bench::factorized_31(in_lanes(Factorized31::new()))]
+#[bench::recursive_31(in_lanes(Recursive31::new()))]
+#[bench::recursive_127(in_lanes(Recursive127::new()))]
+#[bench::loops_127(in_lanes(Loops127::new()))]
+#[bench::loops_1023(in_lanes(Loops1023::new()))]
+fn batch(mut passes: Passes) -> Passes {
+    passes();
+    passes
+}
+
+#[library_benchmark]
+#[bench::paper(both_energies(BranchedDouble::new()))]
+#[bench::recursive_7(both_energies(Recursive7::new()))]
+#[bench::recursive_15(both_energies(Recursive15::new()))]
+#[bench::recursive_31(both_energies(Recursive31::new()))]
+#[bench::recursive_127(both_energies(Recursive127::new()))]
+#[bench::loops_127(both_energies(Loops127::new()))]
+#[bench::loops_1023(both_energies(Loops1023::new()))]
+fn energies(mut passes: Passes) -> Passes {
+    passes();
+    passes
+}
+
+#[library_benchmark]
+#[bench::sine_and_cosine_of_the_system(sines())]
+#[bench::exact_transfer(exact_transfer())]
+#[bench::step_of_dop853(steps_of(&Dop853::new(tolerance())))]
+#[bench::step_of_verner98(steps_of(&Verner98::new(tolerance())))]
+#[bench::step_of_taylor(steps_of(&Taylor::new(tolerance())))]
+fn others(mut passes: Passes) -> Passes {
+    passes();
+    passes
+}
+
+library_benchmark_group!(
+    name = counts,
+    benchmarks = [accelerations, batch, energies, others]
+);
+
+main!(library_benchmark_groups = counts);

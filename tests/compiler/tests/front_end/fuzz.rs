@@ -2,6 +2,7 @@
 
 mod expansion;
 mod grammar;
+mod smaller;
 mod verdict;
 mod words;
 

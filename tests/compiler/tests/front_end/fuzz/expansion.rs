@@ -7,6 +7,7 @@ use std::time::Duration;
 use proc_macro2::{TokenStream, TokenTree};
 
 use super::grammar::description;
+use super::smaller::smaller;
 use super::verdict::{Verdict, judge, peak_memory, processor_time};
 use super::{alone, flattened, mutated};
 use branched_pendulum_compiler_tests::random::Random;
@@ -37,6 +38,21 @@ fn watch(present: Present) {
             }
         }
     });
+}
+
+/// Faults whose descriptions are made as short as can be, which takes some thousand
+/// expansions each.
+const SHORTENED: usize = 10;
+
+/// What a description has broken, and the part of it that breaks the same.
+fn shortened(attribute: &TokenStream, item: &TokenStream, what: &str, present: &Present) -> String {
+    let rest = smaller(attribute.clone(), &mut |rest| {
+        if let Ok(mut present) = present.lock() {
+            *present = (processor_time(), rest.to_string());
+        }
+        matches!(judge(&rest, item), Verdict::Broken(other) if other == what)
+    });
+    format!("{what}: #[branched_pendulum({rest})] {item}")
 }
 
 /// Looks at `count` descriptions; gives those that broke something, with what.
@@ -80,6 +96,13 @@ fn broken(seed: u64, count: usize) -> Vec<String> {
             Verdict::Broken(what) => {
                 let fault = format!("{index}: {what}: {shown}");
                 eprintln!("{fault}");
+                // Of a fault that many have, few are looked at.
+                let fault = match faults.len() {
+                    0..SHORTENED => {
+                        format!("{index}: {}", shortened(&attribute, &item, &what, &present))
+                    }
+                    _ => fault,
+                };
                 faults.push(fault);
             }
         }
