@@ -234,8 +234,10 @@ impl<T: Scalar> PendulumTree<T> {
         self.accelerate(workspace, acting, [theta, omega], alpha);
     }
 
-    // Compiled once for a tree under torques and one without.
-    #[inline(never)]
+    // With its caller, so that what is given goes through memory once; where code has to be
+    // small it is compiled once for a tree under torques and one without.
+    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
     fn accelerate(
         &self,
         workspace: &mut Workspace<T>,
