@@ -119,10 +119,7 @@ fn refuse(description: &Description, report: Faults) -> (Faults, TokenStream) {
         let item = &description.item.tokens;
         return (report, quote!(#errors #item));
     }
-    let runtime = description.crate_path.as_ref().map_or_else(
-        || emit::runtime_path(&scene::CratePath::default()),
-        |path| quote!(#path),
-    );
+    let runtime = emit::runtime_path(&description.crate_path.clone().unwrap_or_default());
     let stub = emit::stub(description, &runtime);
     (report, quote!(#errors #stub))
 }

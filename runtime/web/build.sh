@@ -11,11 +11,14 @@ if [ -d "$(rustc --print sysroot)/lib/rustlib/$target" ]; then
     cargo build --release --target "$target"
 elif [ -x /usr/bin/rustc ] && [ -d /usr/lib/rustlib/src/rust/library ]; then
     # Debian's packages rustc-web, cargo-web and rust-web-src have no such standard library
-    # either, but its source; the linker is that of the other compiler.
+    # either, but its source, which is built small: without the texts of panics, which end
+    # the program with no word. The linker is that of the other compiler.
     echo "for $target with a standard library built from Debian's source"
     linker="$(find "$(rustc --print sysroot)/lib/rustlib" -name rust-lld | head -n 1)"
     RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER="$linker" \
-        /usr/bin/cargo build -Z build-std=std,panic_abort --release --target "$target"
+        /usr/bin/cargo build --release --target "$target" \
+        -Z build-std=std,panic_abort -Z build-std-features=optimize_for_size \
+        -Z panic-immediate-abort --config 'profile.release.panic="immediate-abort"'
 else
     echo "$target is not installed: rustup target add $target" >&2
     exit 1
@@ -31,5 +34,11 @@ sent="$(find target/page -type f -exec gzip -9 --to-stdout {} \; | wc -c)"
 echo "all of the page: $all bytes, $sent as a server sends them that compresses by gzip"
 if [ "$sent" -ge 600000 ]; then
     echo "the latter must stay below 600000" >&2
+    exit 1
+fi
+# The aim is 600000 for the former too, which it does not reach: see README.md.
+most=900000
+if [ "$all" -ge "$most" ]; then
+    echo "the former must not grow beyond $most" >&2
     exit 1
 fi

@@ -195,7 +195,7 @@ impl Expression {
         if input.peek(token::Paren) {
             return parse_all(parenthesised(input)?, Self::parse);
         }
-        if input.peek(syn::Lit) {
+        if is_literal(input) {
             let value = number(input)?;
             // A name with a value of its own is the next property.
             if let Some(unit) = next_name(input)
@@ -319,9 +319,15 @@ fn shortened(text: String) -> String {
     }
 }
 
+/// Returns true if a literal comes next. `true` is one, and refused: a name it is not either.
+fn is_literal(input: ParseStream<'_>) -> bool {
+    let next = input.cursor();
+    let is_bool = |(word, _): (Ident, _)| word == "true" || word == "false";
+    next.literal().is_some() || next.ident().is_some_and(is_bool)
+}
+
 /// The text of a literal.
 pub(super) fn literal(input: ParseStream<'_>, what: &'static str) -> Result<String, ListFault> {
-    // Takes `true` too, which is a literal to syn and a name to the compiler.
     input
         .parse::<Literal>()
         .map(|literal| literal.to_string())

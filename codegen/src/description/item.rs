@@ -1,9 +1,9 @@
 //! The struct that an attribute stands on, and how deep tokens may nest.
 
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
-use quote::quote;
+use quote::{ToTokens, quote};
 
-use super::StructItem;
+use super::{OuterAttribute, StructItem};
 use crate::report::{Faults, SyntaxMessage, TreeMessage};
 
 /// Deepest nesting of brackets and parentheses. A chain of more links is what
@@ -37,7 +37,7 @@ impl StructItem {
         let ident = Ident::new(name, Span::call_site());
         Self {
             attrs: Vec::new(),
-            vis: syn::Visibility::Inherited,
+            vis: TokenStream::new(),
             tokens: quote!(struct #ident;),
             ident,
         }
@@ -46,6 +46,26 @@ impl StructItem {
     /// Returns true if the struct is called as a type that the code of a model names.
     pub fn is_reserved(&self) -> bool {
         RESERVED_TYPES.iter().any(|name| self.ident == name)
+    }
+}
+
+impl OuterAttribute {
+    fn of(attribute: &syn::Attribute) -> Self {
+        Self {
+            name: attribute.path().get_ident().cloned(),
+            tokens: attribute.to_token_stream(),
+        }
+    }
+
+    /// Returns true if that is its name.
+    pub fn is(&self, name: &str) -> bool {
+        self.name.as_ref().is_some_and(|own| own == name)
+    }
+}
+
+impl ToTokens for OuterAttribute {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        self.tokens.to_tokens(tokens);
     }
 }
 
@@ -73,8 +93,8 @@ pub(super) fn parse_item(tokens: TokenStream, report: &mut Faults) -> Option<Str
         report.error(item.ident.span(), SyntaxMessage::StructGenerics { name });
     }
     let item = StructItem {
-        attrs: item.attrs,
-        vis: item.vis,
+        attrs: item.attrs.iter().map(OuterAttribute::of).collect(),
+        vis: item.vis.to_token_stream(),
         ident: item.ident,
         tokens,
     };

@@ -27,29 +27,74 @@ impl<T> Default for List<T> {
 /// Reads members with commas between them, and after a mistake goes on behind
 /// the next comma.
 pub(super) fn list<T>(
+    tokens: (TokenStream, Span),
+    report: &mut Faults,
+    member: impl FnMut(ParseStream<'_>, &mut Faults) -> Result<T, ListFault>,
+) -> List<T> {
+    let mut reader = MemberReader {
+        members: Vec::new(),
+        member,
+    };
+    let damaged = read_members(tokens, report, &mut reader);
+    List {
+        members: reader.members,
+        damaged,
+    }
+}
+
+/// Members of one type.
+struct MemberReader<T, F> {
+    members: Vec<T>,
+    member: F,
+}
+
+/// Reads members of a type that only it knows: the way through a list is compiled once.
+trait ReadMembers {
+    fn read(&mut self, input: ParseStream<'_>, report: &mut Faults) -> Result<(), ListFault>;
+
+    /// Takes back what was read last.
+    fn drop_last(&mut self);
+}
+
+impl<T, F> ReadMembers for MemberReader<T, F>
+where
+    F: FnMut(ParseStream<'_>, &mut Faults) -> Result<T, ListFault>,
+{
+    fn read(&mut self, input: ParseStream<'_>, report: &mut Faults) -> Result<(), ListFault> {
+        self.members.push((self.member)(input, report)?);
+        Ok(())
+    }
+
+    fn drop_last(&mut self) {
+        self.members.pop();
+    }
+}
+
+/// Returns true if a member could not be read.
+fn read_members(
     (tokens, end): (TokenStream, Span),
     report: &mut Faults,
-    mut member: impl FnMut(ParseStream<'_>, &mut Faults) -> Result<T, ListFault>,
-) -> List<T> {
-    let mut found = List::default();
+    reader: &mut dyn ReadMembers,
+) -> bool {
+    let mut damaged = false;
     let read = |input: ParseStream<'_>| {
         while !input.is_empty() {
-            let outcome = member(input, report).and_then(|member| {
+            let outcome = reader.read(input, report).and_then(|()| {
                 if input.is_empty() || input.peek(Token![,]) {
-                    Ok(member)
-                } else if let Some(before) = next_name(input) {
-                    let message = SyntaxMessage::MissingComma { before };
-                    Err(Diagnostic::new(input.span(), message).into())
-                } else {
-                    Err(expected(input, "`,`"))
+                    return Ok(());
+                }
+                reader.drop_last();
+                match next_name(input) {
+                    Some(before) => {
+                        let message = SyntaxMessage::MissingComma { before };
+                        Err(Diagnostic::new(input.span(), message).into())
+                    }
+                    None => Err(expected(input, "`,`")),
                 }
             });
-            match outcome {
-                Ok(member) => found.members.push(member),
-                Err(fault) => {
-                    found.damaged = true;
-                    report.push(fault.placed(end));
-                }
+            if let Err(fault) = outcome {
+                damaged = true;
+                report.push(fault.placed(end));
             }
             while !input.is_empty() && !input.peek(Token![,]) {
                 input.parse::<TokenTree>()?;
@@ -61,22 +106,36 @@ pub(super) fn list<T>(
         Ok(())
     };
     if let Err(error) = read.parse2(tokens) {
-        found.damaged = true;
+        damaged = true;
         report.error(error.span(), SyntaxMessage::Expected { what: "`,`" });
     }
-    found
+    damaged
 }
 
 /// Parses all of `tokens`, which end at `end`.
 pub(super) fn parse_all<T>(
-    (tokens, end): (TokenStream, Span),
+    tokens: (TokenStream, Span),
     parse: impl FnOnce(ParseStream<'_>) -> Result<T, ListFault>,
 ) -> Result<T, ListFault> {
+    let (mut parse, mut value) = (Some(parse), None);
+    let end = tokens.1;
+    read_all(tokens, &mut |input| {
+        value = parse.take().map(|parse| parse(input)).transpose()?;
+        Ok(())
+    })?;
+    value.ok_or_else(|| ListFault::AtEnd("a value").placed(end).into())
+}
+
+/// [`parse_all`] for values of a type that only `parse` knows.
+fn read_all(
+    (tokens, end): (TokenStream, Span),
+    parse: &mut dyn FnMut(ParseStream<'_>) -> Result<(), ListFault>,
+) -> Result<(), ListFault> {
     let mut outcome = None;
     let read = |input: ParseStream<'_>| {
-        let parsed = parse(input).and_then(|value| {
+        let parsed = parse(input).and_then(|()| {
             if input.is_empty() {
-                Ok(value)
+                Ok(())
             } else {
                 Err(expected(input, "an operator or `)`"))
             }

@@ -67,7 +67,7 @@ pub struct Description {
     /// The struct.
     pub item: StructItem,
     /// The value of `crate = ...`.
-    pub crate_path: Option<syn::Path>,
+    pub crate_path: Option<CratePath>,
     /// `gravity = ...`, m/s².
     pub gravity: Option<Property>,
     /// `solve = ...`: the two names.
@@ -158,17 +158,45 @@ impl Description {
     }
 }
 
+/// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
+/// what `crate = ...` says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CratePath {
+    /// True if the path starts with `::`.
+    pub global: bool,
+    /// The names between the `::`, as written.
+    pub segments: Vec<String>,
+}
+
+impl Default for CratePath {
+    fn default() -> Self {
+        Self {
+            global: true,
+            segments: vec!["branched_pendulum".to_owned()],
+        }
+    }
+}
+
 /// The struct under the attribute: what survives of it in the expansion.
 #[derive(Debug, Clone)]
 pub struct StructItem {
     /// Its other attributes, doc comments included.
-    pub attrs: Vec<syn::Attribute>,
+    pub attrs: Vec<OuterAttribute>,
     /// Its visibility.
-    pub vis: syn::Visibility,
+    pub vis: TokenStream,
     /// Its name.
     pub ident: Ident,
     /// The item as it was given, to be repeated where nothing else can be
     /// emitted.
+    pub tokens: TokenStream,
+}
+
+/// An attribute of the struct: repeated, and not understood.
+#[derive(Debug, Clone)]
+pub struct OuterAttribute {
+    /// Its name, where that is one word.
+    pub name: Option<Ident>,
+    /// All of it.
     pub tokens: TokenStream,
 }
 

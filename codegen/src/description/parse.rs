@@ -15,8 +15,8 @@ use super::list::{
 use super::properties;
 use super::requests::{observable, request};
 use super::{
-    Description, DriveClause, Expression, LockedClause, Node, ObservableClause, ParameterClause,
-    PrescribedClause, Property, Reductions, Request, StructItem,
+    CratePath, Description, DriveClause, Expression, LockedClause, Node, ObservableClause,
+    ParameterClause, PrescribedClause, Property, Reductions, Request, StructItem,
 };
 use crate::report::{Diagnostic, Faults, SyntaxMessage};
 
@@ -134,7 +134,7 @@ fn once<T>(place: &mut Option<T>, value: T, name: &Ident, report: &mut Faults) {
 
 /// A member of the attribute.
 enum Member {
-    Crate(Ident, syn::Path),
+    Crate(Ident, CratePath),
     Gravity(Property),
     Solve(Ident, Ident),
     Code(Ident, Ident),
@@ -242,9 +242,7 @@ fn declares(input: ParseStream<'_>) -> bool {
 fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> {
     if name == "crate" {
         take::<Token![=]>(input, "`=`")?;
-        let path = syn::Path::parse_mod_style(input)
-            .map_err(|_| expected(input, "the path of a crate, as in `::branched_pendulum`"))?;
-        return Ok(Member::Crate(name, path));
+        return path(input).map(|path| Member::Crate(name, path));
     }
     if name == "gravity" {
         return properties::property_value(name, input).map(Member::Gravity);
@@ -261,6 +259,31 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
     }
     let message = SyntaxMessage::unknown_entry(name.to_string());
     Err(Diagnostic::new(name.span(), message).into())
+}
+
+/// Names with `::` between them, and perhaps before.
+fn path(input: ParseStream<'_>) -> Result<CratePath, ListFault> {
+    const WHAT: &str = "the path of a crate, as in `::branched_pendulum`";
+    let segment = || {
+        let is_path_word = input.peek(Token![crate])
+            || input.peek(Token![self])
+            || input.peek(Token![Self])
+            || input.peek(Token![super]);
+        match is_path_word || input.peek(syn::Ident) {
+            true => Ok(identifier(input, WHAT)?.to_string()),
+            false => Err(expected(input, WHAT)),
+        }
+    };
+    let global = input.peek(Token![::]);
+    if global {
+        take::<Token![::]>(input, WHAT)?;
+    }
+    let mut segments = vec![segment()?];
+    while input.peek(Token![::]) {
+        take::<Token![::]>(input, WHAT)?;
+        segments.push(segment()?);
+    }
+    Ok(CratePath { global, segments })
 }
 
 /// A link, after its name.

@@ -2,18 +2,16 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use quote::ToTokens as _;
-
 use super::{
-    Description, Expression, ExpressionKind, LockedClause, Node, ObservableClause, Property,
-    Reductions, Request, RequestForm, Value,
+    CratePath, Description, Expression, ExpressionKind, LockedClause, Node, ObservableClause,
+    Property, Reductions, Request, RequestForm, Value,
 };
 
 impl Display for Description {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "description of {}", self.item.ident)?;
         if let Some(path) = &self.crate_path {
-            writeln!(f, "crate = {}", path.to_token_stream())?;
+            writeln!(f, "crate = {path}")?;
         }
         if let Some(gravity) = &self.gravity {
             writeln!(f, "{gravity}")?;
@@ -86,6 +84,13 @@ fn separated<T: Display>(members: &[T], f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{comma}{member}")?;
     }
     Ok(())
+}
+
+impl Display for CratePath {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let start = if self.global { "::" } else { "" };
+        write!(f, "{start}{}", self.segments.join("::"))
+    }
 }
 
 impl Display for Property {

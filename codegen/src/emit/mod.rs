@@ -193,7 +193,7 @@ fn other_scalar(model: &Ident) -> Ident {
 }
 
 /// The tokens of `::branched_pendulum` or of what `crate = …` says.
-pub fn runtime_path(path: &crate::scene::CratePath) -> TokenStream {
+pub fn runtime_path(path: &crate::description::CratePath) -> TokenStream {
     let mut segments = path
         .segments
         .iter()

@@ -17,7 +17,7 @@ impl Emission<'_> {
     pub(super) fn model(&self) -> TokenStream {
         let (attrs, vis, name) = (&self.item.attrs, &self.item.vis, &self.item.ident);
         let mut docs = self.model_docs();
-        if attrs.iter().any(|written| written.path().is_ident("doc")) {
+        if attrs.iter().any(|written| written.is("doc")) {
             docs.insert(0, String::new());
         }
         let docs = doc_lines(&docs);
@@ -51,7 +51,7 @@ impl Emission<'_> {
             .item
             .attrs
             .iter()
-            .filter(|attribute| attribute.path().is_ident("derive"))
+            .filter(|attribute| attribute.is("derive"))
             .map(|attribute| quote!(#attribute).to_string())
             .collect();
         let words: Vec<&str> = written

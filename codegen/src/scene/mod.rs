@@ -60,6 +60,7 @@ pub use sectors::{SectorVariables, sectors};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
+use crate::description::CratePath;
 use crate::exact::Rational;
 
 /// Index of a link in [`Scene::links`].
@@ -115,16 +116,6 @@ pub struct Scene {
     pub layout: Layout,
 }
 
-/// Path of the runtime crate in the user's crate: `::branched_pendulum`, or
-/// what `crate = ...` says.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CratePath {
-    /// True if the path starts with `::`.
-    pub global: bool,
-    /// The names between the `::`, as written.
-    pub segments: Vec<String>,
-}
-
 impl Scene {
     /// Returns true if the code is loops, over generations or links.
     pub fn in_loops(&self) -> bool {
@@ -136,15 +127,6 @@ impl Scene {
         let beside = |offset: &Offset| !offset.lateral.is_zero();
         let mut links = self.links.iter();
         links.any(|link| beside(&link.com) || beside(&link.pivot))
-    }
-}
-
-impl Default for CratePath {
-    fn default() -> Self {
-        Self {
-            global: true,
-            segments: vec!["branched_pendulum".to_owned()],
-        }
     }
 }
 

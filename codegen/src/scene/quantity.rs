@@ -54,6 +54,10 @@ impl Quantity {
 
     /// The sum of `members`.
     pub fn sum(members: impl IntoIterator<Item = Self>) -> Self {
+        Self::sum_of(members.into_iter().collect())
+    }
+
+    fn sum_of(members: Vec<Self>) -> Self {
         let mut constant = Rational::zero();
         let mut rest = Vec::new();
         for member in members {
@@ -81,6 +85,10 @@ impl Quantity {
 
     /// The product of `factors`.
     pub fn product(factors: impl IntoIterator<Item = Self>) -> Self {
+        Self::product_of(factors.into_iter().collect())
+    }
+
+    fn product_of(factors: Vec<Self>) -> Self {
         let mut constant = Rational::one();
         let mut rest = Vec::new();
         for factor in factors {

@@ -12,7 +12,7 @@ use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
 use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
-use super::{CratePath, Quantity, Scene, Sign, Solve};
+use super::{Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::Ident;
@@ -103,7 +103,7 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
-        crate_path: crate_path(description),
+        crate_path: description.crate_path.clone().unwrap_or_default(),
         // Where there is none, that is reported.
         gravity: gravity.unwrap_or_else(Quantity::zero),
         links: expansion.links,
@@ -197,21 +197,6 @@ fn check_roots(description: &Description, report: &mut Faults) {
                 report.error(other.name.span(), TreeMessage::SecondRoot { first });
             }
         }
-    }
-}
-
-/// The path of the runtime crate.
-fn crate_path(description: &Description) -> CratePath {
-    match &description.crate_path {
-        None => CratePath::default(),
-        Some(path) => CratePath {
-            global: path.leading_colon.is_some(),
-            segments: path
-                .segments
-                .iter()
-                .map(|segment| segment.ident.to_string())
-                .collect(),
-        },
     }
 }
 

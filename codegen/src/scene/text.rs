@@ -3,9 +3,8 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, CratePath, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit,
-    Parameter, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
-    WholeOrder,
+    BudgetRequest, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit, Parameter,
+    Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode, WholeOrder,
 };
 
 impl Display for Scene {
@@ -179,13 +178,6 @@ impl Scene {
             .map(|link| self.links.get(link).map_or("?", |link| link.name.as_str()))
             .collect();
         names.join(", ")
-    }
-}
-
-impl Display for CratePath {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let start = if self.global { "::" } else { "" };
-        write!(f, "{start}{}", self.segments.join("::"))
     }
 }
 

@@ -180,6 +180,7 @@ impl<T, O: Ode<T>> Ode<T> for RatesOnly<O> {
 }
 
 impl<T: Scalar, O: Ode<T>> TaylorOde<T> for RatesOnly<O> {
+    #[inline(always)]
     fn has_series(&self) -> bool {
         false
     }

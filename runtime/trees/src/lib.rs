@@ -21,14 +21,21 @@ mod forms;
 mod numbers;
 mod ode;
 mod positions;
+#[cfg(feature = "strips")]
 mod prescribed;
 mod rows;
 mod scales;
 mod text;
 mod tree;
+#[cfg(feature = "strips")]
+mod ways;
+#[cfg(not(feature = "strips"))]
+#[path = "ways_by_link.rs"]
+mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
 pub use ode::TreeUnderTorques;
+#[cfg(feature = "strips")]
 pub use prescribed::PrescribedTree;
 pub use tree::PendulumTree;

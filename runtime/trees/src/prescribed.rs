@@ -8,6 +8,7 @@ use branched_pendulum::system::{
     on_course,
 };
 use branched_pendulum::tree::Tree;
+use branched_pendulum_codegen::scene::Scene;
 
 use crate::equations::HeldEquations;
 use crate::forms::on_single_link;
@@ -23,13 +24,15 @@ pub(crate) struct HeldLinks<T> {
 impl<T: Scalar> HeldLinks<T> {
     /// None without sets of links.
     pub(crate) fn of(
-        sets: Vec<Vec<usize>>,
+        scene: &Scene,
         parents: &[u32],
         gravity: T,
         rows: impl FnOnce() -> Vec<T>,
     ) -> Option<Self> {
-        (!sets.is_empty()).then(|| Self {
-            sets: sets.into(),
+        let sets = scene.prescribed.iter();
+        let sets = sets.map(|set| set.links.iter().map(|link| link.0).collect());
+        (!scene.prescribed.is_empty()).then(|| Self {
+            sets: sets.collect(),
             tree: Tree::with_parents(parents, &rows(), [T::from_f64(0.0), gravity]),
         })
     }

@@ -194,10 +194,12 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
 }
 
 /// Numbers of a row of [`Form::Rough`].
+#[cfg(feature = "strips")]
 const ROUGH: usize = 19;
 
 /// Returns the constants of the equations of links that may be held, a row for each link:
 /// those of [`Form::Rough`] without b/J of links without children.
+#[cfg(feature = "strips")]
 pub(crate) fn held(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
     let rough = Form::Rough.rows(links, carries);
     let (rows, _) = rough.as_chunks::<ROUGH>();

@@ -13,6 +13,7 @@ use crate::drive::Courses;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
+#[cfg(feature = "strips")]
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
 use crate::scales::ByRule;
@@ -66,6 +67,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) properties: PropertyTable<T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) rule: Option<ByRule<T>>,
+    #[cfg(feature = "strips")]
     pub(crate) held: Option<HeldLinks<T>>,
 }
 
@@ -119,9 +121,8 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(&links, drive.is_some());
         let rows = in_numbers(&form.rows(&links, &carries));
         let rule = ByRule::of(&links, &carries, gravity);
-        let sets = scene.prescribed.iter();
-        let sets = sets.map(|set| set.links.iter().map(|link| link.0).collect());
-        let held = HeldLinks::of(sets.collect(), &parents, above, || {
+        #[cfg(feature = "strips")]
+        let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(&links, &carries))
         });
         let equations = Equations::new(form, &parents, rows, above);
@@ -141,6 +142,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links))),
             drive: drive.map(|drive| Courses::of(drive, &parameters)),
             rule,
+            #[cfg(feature = "strips")]
             held,
         })
     }
@@ -191,6 +193,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: self.properties.cast(&convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
             rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
+            #[cfg(feature = "strips")]
             held: self.held.as_ref().map(|held| held.cast(&convert)),
         }
     }
@@ -214,9 +217,7 @@ impl<T: Scalar> PendulumTree<T> {
         omega: &[T],
         alpha: &mut [T],
     ) {
-        let acting = self.acting(time, None);
-        let given = [theta, omega];
-        self.equations.accelerate(workspace, acting, given, alpha);
+        self.accelerate(workspace, self.acting(time, None), [theta, omega], alpha);
     }
 
     /// Writes the angular accelerations under torques (N m) from outside on the links,
@@ -230,7 +231,20 @@ impl<T: Scalar> PendulumTree<T> {
         alpha: &mut [T],
     ) {
         let acting = self.acting(time, Some(torques));
-        let given = [theta, omega];
+        self.accelerate(workspace, acting, [theta, omega], alpha);
+    }
+
+    // With its caller, so that what is given goes through memory once; where code has to be
+    // small it is compiled once for a tree under torques and one without.
+    #[cfg_attr(target_family = "wasm", inline(never))]
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    fn accelerate(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
         self.equations.accelerate(workspace, acting, given, alpha);
     }
 

@@ -8,8 +8,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name.
+    #[wasm_bindgen(readonly)]
     pub name: String,
     /// Its use in words, with the unit behind the last comma.
+    #[wasm_bindgen(readonly)]
     pub meaning: String,
 }
 

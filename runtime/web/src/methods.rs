@@ -11,10 +11,13 @@ const STEP_LIMIT: u64 = 20_000;
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodChoice {
     /// The name by which [`Pendulum::set_method`](crate::Pendulum::set_method) knows it.
+    #[wasm_bindgen(readonly)]
     pub name: String,
     /// The name for readers.
+    #[wasm_bindgen(readonly)]
     pub title: String,
     /// True if it takes a tolerance; it takes the length of its steps (s) otherwise.
+    #[wasm_bindgen(readonly)]
     pub adaptive: bool,
 }
 

@@ -33,10 +33,13 @@ pub struct Pendulum {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
     /// Energies by Parseval, J; their sum is the energy of the tree.
+    #[wasm_bindgen(readonly)]
     pub energies: Vec<f64>,
     /// Power that each scale receives from the others, W.
+    #[wasm_bindgen(readonly)]
     pub received: Vec<f64>,
     /// Power of friction, drag, drive and the hand on each scale, W.
+    #[wasm_bindgen(readonly)]
     pub powers: Vec<f64>,
 }
 

@@ -15,6 +15,10 @@ use crate::integrate::options::{Options, Tolerance};
 use crate::scalar::two_sum;
 use crate::scalar::{Real, Scalar};
 
+/// Stages go through a loop: code that a page loads has to be small, and other things take
+/// the time there.
+const SMALL: bool = cfg!(target_family = "wasm");
+
 /// Stages of the pair that has most.
 pub(super) const MOST_STAGES: usize = 21;
 
@@ -100,7 +104,7 @@ macro_rules! make_stages {
     };
     ($self:ident, $system:ident, $span:ident, $first:expr, $last:expr; $($stage:literal)+) => {
         $(if const { $first <= $stage && $stage <= $last } {
-            $self.make_stage::<M, S, $stage>($system, $span)?;
+            $self.make_stage::<M, S>($stage, const { table_entry::<M>($stage) }, $system, $span)?;
         })+
     };
 }
@@ -151,7 +155,13 @@ impl<W: Scalar> StepStages<W> {
         system: &mut S,
         span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
-        make_stages!(self, system, span, 2, M::STAGES);
+        if SMALL {
+            for stage in 2..=M::STAGES {
+                self.make_stage::<M, S>(stage, table_entry::<M>(stage), system, span)?;
+            }
+        } else {
+            make_stages!(self, system, span, 2, M::STAGES);
+        }
         self.finish::<M, S>(system, span.step);
         Ok(())
     }
@@ -163,26 +173,33 @@ impl<W: Scalar> StepStages<W> {
         system: &mut S,
         span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
-        make_stages!(self, system, span, M::STAGES + 2, M::NODES.len());
+        if SMALL {
+            for stage in M::STAGES + 2..=M::NODES.len() {
+                self.make_stage::<M, S>(stage, table_entry::<M>(stage), system, span)?;
+            }
+        } else {
+            make_stages!(self, system, span, M::STAGES + 2, M::NODES.len());
+        }
         Ok(())
     }
 
-    /// Evaluates the rates of stage `STAGE` at y + h (sum of row).
+    /// Evaluates the rates of a stage at y + h (sum of row).
     #[inline(always)]
-    fn make_stage<M: EmbeddedPair, S: RightHandSide<W>, const STAGE: usize>(
+    fn make_stage<M: EmbeddedPair, S: RightHandSide<W>>(
         &mut self,
+        number: usize,
+        (row, node): (&'static [(usize, f64)], f64),
         system: &mut S,
         span: StepSpan<W>,
     ) -> Result<(), S::Failure> {
-        let (row, node) = const { table_entry::<M>(STAGE) };
         let n = system.dimension();
-        let (before, rates) = self.rates.split_at_mut((STAGE - 1) * n);
+        let (before, rates) = self.rates.split_at_mut((number - 1) * n);
         let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
         let terms = terms(row, before, n);
         for i in 0..n {
             stage[i] = span.step.mul_add(sum(row, &terms, i), start[i]);
         }
-        system.evaluate(STAGE, span.node(node), stage, &mut rates[..n])
+        system.evaluate(number, span.node(node), stage, &mut rates[..n])
     }
 
     /// The state at the end of the step: y + h (sum of row).

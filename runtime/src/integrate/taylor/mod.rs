@@ -162,6 +162,8 @@ fn smallest<T: Real>(options: &Options<T>) -> T {
 impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
     type Steps = TaylorSteps<T>;
 
+    // Where a system has no series, nothing of the steps is compiled.
+    #[inline(always)]
     fn steps(&self, ode: &O, start: &State<T>) -> Result<TaylorSteps<T>, InputError<T>> {
         self.options.validate(start.values.len())?;
         self.check_options()?;

@@ -20,6 +20,11 @@ pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
 
 #[inline(always)]
 pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
+    // Registers of a target without vector instructions would be arrays: more code, and no
+    // faster.
+    #[cfg(all(target_family = "wasm", not(target_feature = "simd128")))]
+    return kernel.run::<T>();
+    #[cfg(not(all(target_family = "wasm", not(target_feature = "simd128"))))]
     kernel.run::<T::Build>()
 }
 

@@ -9,6 +9,7 @@
 mod by_rule;
 #[rustfmt::skip]
 mod general;
+#[cfg(feature = "strips")]
 #[rustfmt::skip]
 mod held;
 #[rustfmt::skip]
@@ -18,6 +19,7 @@ mod straight;
 
 pub(crate) use by_rule::ByRuleEquations;
 pub(crate) use general::GeneralEquations;
+#[cfg(feature = "strips")]
 pub(crate) use held::HeldEquations;
 pub(crate) use rough::RoughEquations;
 pub(crate) use straight::StraightEquations;

@@ -1,6 +1,7 @@
 //! Writes the JavaScript module of a compiled WebAssembly file: `bindings FILE FOLDER`.
 
 use std::error::Error;
+use std::fs;
 
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -18,5 +19,27 @@ fn main() -> Result<(), Box<dyn Error>> {
         .remove_name_section(true)
         .remove_producers_section(true);
     bindgen.generate(folder)?;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "js") {
+            fs::write(&path, without_comments(&fs::read_to_string(&path)?))?;
+        }
+    }
     Ok(())
+}
+
+/// Leaves out lines that are comments alone: nobody reads them in a browser.
+fn without_comments(module: &str) -> String {
+    let mut is_inside = false;
+    let mut kept = String::with_capacity(module.len());
+    for line in module.lines() {
+        let text = line.trim();
+        let begins = text.starts_with("/*");
+        if !(is_inside || begins || text.starts_with("//")) {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+        is_inside = (is_inside || begins) && !text.ends_with("*/");
+    }
+    kept
 }
