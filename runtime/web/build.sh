@@ -28,17 +28,14 @@ rm -rf target/page
 cp -r page target/page
 cargo run --quiet --package bindings --target-dir target/host -- \
     "target/$target/release/branched_pendulum_web.wasm" target/page/wasm
+# Packed: page/start.js unpacks it. No name ending that a server takes for an encoding.
+gzip -9 --no-name --to-stdout target/page/wasm/branched_pendulum_web_bg.wasm \
+    > target/page/wasm/branched_pendulum_web.packed
+rm target/page/wasm/branched_pendulum_web_bg.wasm
 du --apparent-size --bytes --all target/page | sort -n
 all="$(find target/page -type f -exec cat {} + | wc -c)"
-sent="$(find target/page -type f -exec gzip -9 --to-stdout {} \; | wc -c)"
-echo "all of the page: $all bytes, $sent as a server sends them that compresses by gzip"
-if [ "$sent" -ge 600000 ]; then
-    echo "the latter must stay below 600000" >&2
-    exit 1
-fi
-# The aim is 600000 for the former too, which it does not reach: see README.md.
-most=900000
-if [ "$all" -ge "$most" ]; then
-    echo "the former must not grow beyond $most" >&2
+echo "all of the page: $all bytes"
+if [ "$all" -ge 600000 ]; then
+    echo "they must stay below 600000" >&2
     exit 1
 fi

@@ -1,9 +1,10 @@
 // The page: WebAssembly computes, this draws and listens.
 
-import start, { Pendulum, with_branch, without_branch } from "./wasm/branched_pendulum_web.js";
+import { Pendulum, with_branch, without_branch } from "./wasm/branched_pendulum_web.js";
 import { AccuracyPanel } from "./accuracy.js";
 import { EnergyPanel } from "./energy.js";
 import { ReleaseMapPanel } from "./release-map.js";
+import { start } from "./start.js";
 import { TreePanel } from "./tree.js";
 import { examples } from "./examples.js";
 import { View } from "./view.js";

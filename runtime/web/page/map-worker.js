@@ -1,7 +1,8 @@
 // Growth rates over the plane of releases: coarse first, then finer, and begun anew whenever a
 // message asks for another tree.
 
-import start, { Pendulum } from "./wasm/branched_pendulum_web.js";
+import { start } from "./start.js";
+import { Pendulum } from "./wasm/branched_pendulum_web.js";
 
 /** Distances of the points of each pass, in those of the last one. */
 const STRIDES = [8, 4, 2, 1];

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .input_path(file)
         .web(true)?
         .typescript(false)
-        .omit_default_module_path(false)
+        .omit_default_module_path(true)
         .remove_name_section(true)
         .remove_producers_section(true);
     bindgen.generate(folder)?;
