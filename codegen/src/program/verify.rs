@@ -81,9 +81,10 @@ impl Program {
         }
         let strips = self.strips.iter().flat_map(|strips| &strips.strips);
         constants.extend(strips.flat_map(super::StripConstants::all_constants));
-        // The model stores the named constants behind a product too.
-        let mut stored = self.setup.behind(constants, |_| true).into_iter();
-        stored.find_map(|id| {
+        // The model stores the named constants behind a product too. Whole ones come before
+        // their parts: names say more.
+        let stored = self.setup.behind(constants, |_| true);
+        stored.into_iter().rev().find_map(|id| {
             let definition = self.setup.get(id);
             let factor = match &definition.op {
                 ConstantOp::Number(number) | ConstantOp::Product(number, _) => Some(number),
