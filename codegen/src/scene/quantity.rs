@@ -8,8 +8,8 @@ use crate::exact::{ExactError, Rational};
 /// The functions that build one fold: an expression of literals only is always
 /// [`Quantity::Exact`]; a sum or product holds at most one exact member, which
 /// comes first; nothing is multiplied by 0 or 1 or has 0 added; a sum that is 0
-/// for all parameters is 0; nothing is divided by an exact number. Members keep the order in which they were
-/// written.
+/// for all parameters is 0; nothing is divided by an exact number. Members keep
+/// the order in which they were written.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// A number.
@@ -57,6 +57,7 @@ impl Quantity {
         Self::sum_of(members.into_iter().collect())
     }
 
+    /// Compiled once, whatever the iterator.
     fn sum_of(members: Vec<Self>) -> Self {
         let mut constant = Rational::zero();
         let mut rest = Vec::new();
@@ -88,6 +89,7 @@ impl Quantity {
         Self::product_of(factors.into_iter().collect())
     }
 
+    /// Compiled once, whatever the iterator.
     fn product_of(factors: Vec<Self>) -> Self {
         let mut constant = Rational::one();
         let mut rest = Vec::new();
