@@ -38,9 +38,9 @@ pub struct Estimate<const N: usize> {
     /// Correlation of successive innovations in standard deviations, the largest; NaN where
     /// nothing is foretold.
     pub whiteness: f64,
-    /// Dampings that the equations of motion lack, 1/s, in the order of the coordinates; none
-    /// where none are sought.
-    pub dampings: Vec<f64>,
+    /// Friction that the equations of motion lack, N m s, pivot by pivot; none where none is
+    /// sought.
+    pub frictions: Vec<f64>,
     /// The likeliest motion.
     pub motion: Vec<Motion<N>>,
 }
@@ -146,21 +146,24 @@ impl<const N: usize> Measured<'_, N> {
             motion.iter().map(|[_, rates]| *rates).collect()
         });
         let mut numbers = normal();
-        let (energies, _) = bands(count, || self.energies(&told((found.draw)(&mut numbers))));
+        let (energies, _) = bands(count, || {
+            self.energies(&told((found.draw)(&mut numbers)), &found.frictions)
+        });
         Estimate {
             rates,
             energies,
             noise: found.noise,
             whiteness: found.whiteness,
-            dampings: found.dampings.clone(),
+            frictions: found.frictions.clone(),
             motion: told(found.mean.clone()),
         }
     }
 
-    /// The quantities of one motion.
-    fn energies(&self, motion: &[Motion<N>]) -> Vec<[f64; quantity::COUNT]> {
+    /// The quantities of one motion, with the friction that was found.
+    fn energies(&self, motion: &[Motion<N>], friction: &[f64]) -> Vec<[f64; quantity::COUNT]> {
         let energies: Vec<f64> = motion.iter().map(|m| self.subject.energy(m)).collect();
-        let powers: Vec<_> = motion.iter().map(|m| self.subject.powers(m)).collect();
+        let powers = motion.iter().map(|m| self.subject.powers(m, friction));
+        let powers: Vec<_> = powers.collect();
         let whole: Vec<f64> = powers.iter().map(|powers| powers.whole).collect();
         let flowed = running_integral(self.record.times, &whole);
         let start = energies.first().copied().unwrap_or(0.0);

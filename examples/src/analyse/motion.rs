@@ -32,8 +32,8 @@ pub struct Smoothed<const N: usize> {
     /// Correlation of successive innovations, in standard deviations, the largest; NaN where
     /// nothing is foretold.
     pub whiteness: f64,
-    /// Dampings that the equations lack, 1/s, pattern by pattern; none where none are sought.
-    pub dampings: Vec<f64>,
+    /// Friction that the equations lack, N m s, pivot by pivot; none where none is sought.
+    pub frictions: Vec<f64>,
 }
 
 /// Smooths each coordinate by itself.
@@ -55,7 +55,7 @@ pub fn one_by_one<const N: usize>(
         mean: times.map(|time| parted(series.mean(time))).collect(),
         noise: noise.unwrap_or(f64::NAN),
         whiteness: series.whiteness(),
-        dampings: Vec::new(),
+        frictions: Vec::new(),
         draw: Box::new(move |normal| series.draw(normal).into_iter().map(parted).collect()),
     })
 }
@@ -67,6 +67,7 @@ pub fn one_by_one<const N: usize>(
 pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
     smoother: &ModelSmoother<N>,
     system: &L,
+    mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
     record: Record<'_, N>,
     guess: &[Motion<N>],
 ) -> Result<Smoothed<N>, SmoothingError> {
@@ -78,15 +79,21 @@ pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
     };
     let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
     let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-    let motion: SmoothedMotion<D> =
-        smoother.smooth(&method, system, record.times, record.angles, &guess)?;
+    let motion: SmoothedMotion<D> = smoother.smooth(
+        &method,
+        system,
+        mass_matrix,
+        record.times,
+        record.angles,
+        &guess,
+    )?;
     Ok(Smoothed {
         mean: (0..record.times.len())
             .map(|index| parted(&motion.mean(index)))
             .collect(),
         noise: motion.noise(),
         whiteness: motion.whiteness(),
-        dampings: motion.dampings().to_vec(),
+        frictions: motion.frictions().to_vec(),
         draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
     })
 }

@@ -159,15 +159,15 @@ pub fn report<const N: usize>(
         _ => "  errors are those of the noise: what polynomials do not follow is not in them"
             .to_owned(),
     });
-    let dampings = names.coordinates.iter().zip(&estimate.dampings);
-    let dampings = dampings.filter(|(_, damping)| **damping != 0.0);
-    let dampings: Vec<String> = dampings
-        .map(|(name, damping)| format!("{damping:.3} /s of {name}"))
+    let frictions = names.pivots.iter().zip(&estimate.frictions);
+    let frictions = frictions.filter(|(_, friction)| **friction != 0.0);
+    let frictions: Vec<String> = frictions
+        .map(|(pivot, friction)| format!("{friction:.3e} N m s in {pivot}"))
         .collect();
-    if !dampings.is_empty() {
+    if !frictions.is_empty() {
         line(format!(
-            "  the equations lack a damping of {}",
-            dampings.join(", ")
+            "  the equations lack friction of {}",
+            frictions.join(", ")
         ));
     }
     if let Some(error) = power_error(source, estimate) {

@@ -7,8 +7,8 @@ use branched_pendulum::scalar::Dual;
 use branched_pendulum::{Cast, Parametric};
 
 use super::motion::{Motion, Record, Smoothed, by_equations};
-use crate::branched_double::Apparatus;
 use crate::branched_double::apparatus::EXACT;
+use crate::branched_double::{Apparatus, Friction};
 use crate::identify::scene::Chain;
 
 /// Names of what is told about a pendulum.
@@ -28,6 +28,8 @@ pub struct Names<const N: usize> {
     pub energy: &'static str,
     /// The power that is told.
     pub power: &'static str,
+    /// Pivots whose friction the equations may lack.
+    pub pivots: &'static [&'static str],
 }
 
 /// Power at a state, W.
@@ -53,8 +55,9 @@ pub trait Subject<const N: usize> {
     /// The energy that is told, J.
     fn energy(&self, motion: &Motion<N>) -> f64;
 
-    /// Its powers.
-    fn powers(&self, motion: &Motion<N>) -> Powers;
+    /// Its powers, with friction in the pivots that is told beside the pendulum's own: a
+    /// coefficient (N m s) for each, or none.
+    fn powers(&self, motion: &Motion<N>, friction: &[f64]) -> Powers;
 
     /// Smooths by the equations of motion, beginning from a motion of the links.
     ///
@@ -77,6 +80,7 @@ impl Subject<3> for Apparatus {
             energy_words: "Energy of the antiphase mode",
             energy: "H_d",
             power: "W",
+            pivots: &["the root's pivot", "the children's pivots"],
         }
     }
 
@@ -92,16 +96,23 @@ impl Subject<3> for Apparatus {
         self.antiphase_energy(coordinates, rates)
     }
 
-    fn powers(&self, [coordinates, rates]: &Motion<3>) -> Powers {
+    fn powers(&self, [coordinates, rates]: &Motion<3>, friction: &[f64]) -> Powers {
         let flow = self.flow(coordinates, rates);
+        let lost = match *friction {
+            [root, children] => {
+                let friction = Friction { root, children };
+                friction.antiphase_power(coordinates, rates)
+            }
+            _ => 0.0,
+        };
         Powers {
             told: flow.transfer[EXACT].total(),
-            whole: flow.antiphase_rate(EXACT),
+            whole: flow.antiphase_rate(EXACT) + lost,
         }
     }
 
     /// Forces that the model lacks act on the parent, on the children together and against each
-    /// other: friction on the last is far smaller. A damping may be among them, in each.
+    /// other.
     fn by_model(
         &self,
         record: Record<'_, 3>,
@@ -109,17 +120,21 @@ impl Subject<3> for Apparatus {
     ) -> Result<Smoothed<3>, SmoothingError> {
         let smoother = ModelSmoother {
             disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
-            damping: true,
+            frictions: vec![
+                vec![[1.0, 0.0, 0.0]],
+                vec![[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+            ],
             ..ModelSmoother::default()
         };
+        let mass = |theta: &[f64; 3]| self.ideal().mass_matrix(theta);
         match self.damped() {
             Some(model) => {
                 let system = linearised(AbsoluteAngles(model));
-                by_equations::<3, 6, _>(&smoother, &system, record, guess)
+                by_equations::<3, 6, _>(&smoother, &system, mass, record, guess)
             }
             None => {
                 let system = linearised(AbsoluteAngles(self.ideal()));
-                by_equations::<3, 6, _>(&smoother, &system, record, guess)
+                by_equations::<3, 6, _>(&smoother, &system, mass, record, guess)
             }
         }
     }
@@ -153,6 +168,7 @@ impl Subject<2> for TwoLinks {
             energy_words: "Energy of the chain",
             energy: "H",
             power: "P",
+            pivots: &["the upper pivot", "the lower pivot"],
         }
     }
 
@@ -170,7 +186,7 @@ impl Subject<2> for TwoLinks {
 
     /// Friction is all that changes the energy: its power is the derivative of the energy
     /// along the motion, whatever the law.
-    fn powers(&self, [angles, rates]: &Motion<2>) -> Powers {
+    fn powers(&self, [angles, rates]: &Motion<2>, friction: &[f64]) -> Powers {
         let accelerations = self.model.accelerations(angles, rates);
         let along = |values: &[f64; 2], rates: &[f64; 2]| {
             std::array::from_fn(|link| Dual {
@@ -180,7 +196,13 @@ impl Subject<2> for TwoLinks {
         };
         let (theta, omega) = (along(angles, rates), along(rates, &accelerations));
         let energy = self.dual.kinetic_energy(&theta, &omega) + self.dual.potential_energy(&theta);
-        let [whole] = energy.tangents;
+        let [own] = energy.tangents;
+        let relative = [rates[0], rates[1] - rates[0]];
+        let lost = friction
+            .iter()
+            .zip(relative)
+            .map(|(c, rate)| c * rate * rate);
+        let whole = own - lost.sum::<f64>();
         Powers { told: whole, whole }
     }
 
@@ -192,9 +214,10 @@ impl Subject<2> for TwoLinks {
         let system = linearised(AbsoluteAngles(&self.model));
         let smoother = ModelSmoother {
             disturbances: vec![[1.0, 0.0], [0.0, 1.0]],
-            damping: true,
+            frictions: vec![vec![[1.0, 0.0]], vec![[-1.0, 1.0]]],
             ..ModelSmoother::default()
         };
-        by_equations::<2, 4, _>(&smoother, &system, record, guess)
+        let mass = |theta: &[f64; 2]| self.model.mass_matrix(theta);
+        by_equations::<2, 4, _>(&smoother, &system, mass, record, guess)
     }
 }

@@ -13,7 +13,7 @@ use branched_pendulum::{Cast, Parametric};
             friction(viscous = viscous_2, coulomb = coulomb_2, width = 0.05),
             drag(quadratic = quadratic_2, width = 0.05))
     ],
-    emit(energies),
+    emit(energies, modes),
 )]
 pub struct Chain;
 

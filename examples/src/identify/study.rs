@@ -233,7 +233,7 @@ impl<'a, M: Described> Study<'a, M> {
         let smooth = one_by_one(record, |times, angles| {
             KinematicSmoother::default().smooth(times, angles)
         })?;
-        // What is lacking acts on each link by itself.
+        // What is lacking accelerates each link by itself.
         let mut links = [[0.0; N]; N];
         (0..N).for_each(|link| links[link][link] = 1.0);
         let system = linearised(AbsoluteAngles(&tree));
@@ -241,7 +241,7 @@ impl<'a, M: Described> Study<'a, M> {
             disturbances: links.to_vec(),
             ..ModelSmoother::default()
         };
-        let exact = by_equations::<N, D, _>(&smoother, &system, record, &smooth.mean)?;
+        let exact = by_equations::<N, D, _>(&smoother, &system, |_| links, record, &smooth.mean)?;
         let fitted = self
             .identification(outcome.law)
             .predict(&outcome.fit, times)?;

@@ -51,6 +51,11 @@ impl Model for AbsoluteAngles<Paper> {
         }
     }
 
+    fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
+        let rows = |theta: &[f64; LINKS]| self.0.mass_matrix(theta).map(Vec::from).to_vec();
+        theta.try_into().map(rows).unwrap_or_default()
+    }
+
     fn link_parents(&self) -> Vec<Option<usize>> {
         vec![None, Some(0), Some(0)]
     }

@@ -6,7 +6,7 @@ use branched_pendulum::analysis::growth::{
     BetweenCopies, Grown, Growth, GrowthError, pairs_of_links,
 };
 use branched_pendulum::analysis::variational::{
-    Linearised, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
+    Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
 use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
@@ -29,6 +29,9 @@ pub(crate) trait Model:
 
     /// The energy (J) of a state: angles, angular velocities.
     fn state_energy(&self, state: &[f64]) -> f64;
+
+    /// The mass matrix (kg m²) at angles, a row for each link.
+    fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>>;
 
     /// The link that each hangs from; of the root none.
     fn link_parents(&self) -> Vec<Option<usize>>;
@@ -106,12 +109,12 @@ pub(crate) trait Motions: Send + Sync {
 
     fn smoothed_coordinates(&self) -> Coordinates;
 
-    /// Smooths measured angles by the equations of motion, and by dampings that they lack
-    /// where these are looked for, beginning from states near the true ones.
+    /// Smooths measured angles by the equations of motion, and by friction that they lack
+    /// where this is looked for, beginning from states near the true ones.
     fn smooth(
         &self,
         noise: Option<f64>,
-        damping: bool,
+        friction: bool,
         times: &[f64],
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
@@ -119,11 +122,10 @@ pub(crate) trait Motions: Send + Sync {
 }
 
 /// A smoothing by equations of motion that is asked for.
-struct ModelSmoothing<'a> {
+struct ModelSmoothing<'a, M> {
+    model: &'a M,
     noise: Option<f64>,
-    damping: bool,
-    /// Patterns of the accelerations that the equations lack: those of single coordinates.
-    patterns: &'a Coordinates,
+    friction: bool,
     times: &'a [f64],
     angles: &'a [Vec<Option<f64>>],
     guess: &'a [f64],
@@ -132,24 +134,42 @@ struct ModelSmoothing<'a> {
 /// Most links of a pendulum whose equations smooth angles.
 const MOST_SMOOTHED: usize = 4;
 
-impl ModelSmoothing<'_> {
-    fn estimate<const N: usize, const D: usize>(
-        &self,
-        system: &impl Linearised<f64>,
-    ) -> Result<Estimate, SmoothingError> {
+impl<M: Model> ModelSmoothing<'_, M> {
+    fn estimate<const N: usize, const D: usize>(&self) -> Result<Estimate, SmoothingError> {
         let array = |row: &Vec<Option<f64>>| std::array::from_fn(|link| row[link]);
         let angles: Vec<[Option<f64>; N]> = self.angles.iter().map(array).collect();
         let (guess, _) = self.guess.as_chunks::<D>();
-        let links = &self.patterns.links;
-        let pattern = |coordinate: usize| std::array::from_fn(|link| links[link][coordinate]);
+        // Forces on a single coordinate, and in the pivot of a single link.
+        let coordinates = self.model.smoothed_coordinates().of_links;
+        let pattern = |row: &Vec<f64>| std::array::from_fn(|link| row[link]);
+        let parents = self.model.link_parents();
+        let joint = |(own, parent): (usize, &Option<usize>)| {
+            let weight = |link: usize| match link {
+                link if link == own => 1.0,
+                link if Some(link) == *parent => -1.0,
+                _ => 0.0,
+            };
+            vec![std::array::from_fn(weight)]
+        };
         let smoother = ModelSmoother {
             noise: self.noise,
-            damping: self.damping,
-            disturbances: (0..N).map(pattern).collect(),
+            disturbances: coordinates.iter().map(pattern).collect(),
+            frictions: match self.friction {
+                true => parents.iter().enumerate().map(joint).collect(),
+                false => Vec::new(),
+            },
             ..ModelSmoother::<N>::default()
         };
         let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-        let motion = smoother.smooth::<D, _, _>(&method, system, self.times, &angles, guess)?;
+        let system = linearised(self.model.clone());
+        let mass = |theta: &[f64; N]| {
+            let rows = self.model.mass_rows(theta);
+            let entry = |row: usize, column: usize| rows.get(row)?.get(column).copied();
+            std::array::from_fn(|row| {
+                std::array::from_fn(|column| entry(row, column).unwrap_or(f64::NAN))
+            })
+        };
+        let motion = smoother.smooth(&method, &system, mass, self.times, &angles, guess)?;
         let rows = |of: &dyn Fn(usize) -> [f64; D]| (0..self.times.len()).flat_map(of).collect();
         Ok(Estimate {
             states: [
@@ -159,7 +179,7 @@ impl ModelSmoothing<'_> {
             accelerations: None,
             noise: vec![motion.noise(); N],
             whiteness: motion.whiteness(),
-            dampings: motion.dampings().to_vec(),
+            frictions: motion.frictions().to_vec(),
             draw: Box::new(move |normal| motion.draw(normal).into_flattened()),
         })
     }
@@ -276,26 +296,25 @@ impl<M: Model> Motions for M {
     fn smooth(
         &self,
         noise: Option<f64>,
-        damping: bool,
+        friction: bool,
         times: &[f64],
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
     ) -> Result<Estimate, SmoothingError> {
-        let system = &linearised(self.clone());
         let task = ModelSmoothing {
+            model: self,
             noise,
-            damping,
-            patterns: &Model::smoothed_coordinates(self),
+            friction,
             times,
             angles,
             guess,
         };
         let links = Ode::<f64>::dimension(self) / 2;
         match links {
-            1 => task.estimate::<1, 2>(system),
-            2 => task.estimate::<2, 4>(system),
-            3 => task.estimate::<3, 6>(system),
-            MOST_SMOOTHED => task.estimate::<4, 8>(system),
+            1 => task.estimate::<1, 2>(),
+            2 => task.estimate::<2, 4>(),
+            3 => task.estimate::<3, 6>(),
+            MOST_SMOOTHED => task.estimate::<4, 8>(),
             _ => Err(SmoothingError::Dimension {
                 dimension: 2 * links,
                 state: 2 * MOST_SMOOTHED,

@@ -311,10 +311,10 @@ impl Pendulum {
     /// "kinematic" knows that the motion is smooth and no more; "polynomials" fits one near each
     /// time, a cross-check; "equations" knows the equations of motion, of pendulums of up to
     /// four links, and finds out how much they lack: errors are far smaller where they hold.
-    /// With `damping` they also find friction that they lack, where the data show some. Noise
+    /// With `friction` they also find friction that they lack, where the data show some. Noise
     /// is found from the data, unless `noise` (rad) is given. A compiled model is smoothed in
     /// its symmetric coordinates. Other threads of Python run meanwhile.
-    #[pyo3(signature = (t, theta, method = "kinematic", noise = None, damping = false))]
+    #[pyo3(signature = (t, theta, method = "kinematic", noise = None, friction = false))]
     fn smooth(
         &self,
         py: Python<'_>,
@@ -322,7 +322,7 @@ impl Pendulum {
         theta: AnyShape<'_>,
         method: &str,
         noise: Option<f64>,
-        damping: bool,
+        friction: bool,
     ) -> PyResult<SmoothedMotion> {
         let (times, angles) = (t.as_array().to_vec(), rows("theta", &theta)?);
         let names = self.motions.names();
@@ -333,8 +333,8 @@ impl Pendulum {
             return Err(PyValueError::new_err(text));
         }
         let by_equations = method == "equations";
-        if damping && !by_equations {
-            let text = format!("damping = True needs method = \"equations\", not {method:?}");
+        if friction && !by_equations {
+            let text = format!("friction = True needs method = \"equations\", not {method:?}");
             return Err(PyValueError::new_err(text));
         }
         let first = if by_equations { "kinematic" } else { method };
@@ -346,7 +346,7 @@ impl Pendulum {
         let estimate = py.detach(|| {
             let estimate = smoother.estimate(&times, &angles, motions.smoothed_coordinates())?;
             match by_equations {
-                true => motions.smooth(noise, damping, &times, &angles, &estimate.states[0]),
+                true => motions.smooth(noise, friction, &times, &angles, &estimate.states[0]),
                 false => Ok(estimate),
             }
         });

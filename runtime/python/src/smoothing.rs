@@ -26,8 +26,8 @@ pub(crate) struct Estimate {
     /// Standard deviation of the data of each coordinate that was smoothed.
     pub(crate) noise: Vec<f64>,
     pub(crate) whiteness: f64,
-    /// Those that equations of motion lack, 1/s.
-    pub(crate) dampings: Vec<f64>,
+    /// Those that equations of motion lack, N m s.
+    pub(crate) frictions: Vec<f64>,
     pub(crate) draw: Box<Draw>,
 }
 
@@ -155,7 +155,7 @@ impl Smoother {
             accelerations: Some(accelerations),
             noise: all.iter().map(Smoothed::noise).collect(),
             whiteness: smoothed.whiteness(),
-            dampings: Vec::new(),
+            frictions: Vec::new(),
             draw: Box::new(move |normal| {
                 let drawn = smoothed.draw(normal);
                 drawn
@@ -218,10 +218,10 @@ pub(crate) struct SmoothedMotion {
     /// what the smoother takes it for, and errors are larger than told. NaN of polynomials.
     #[pyo3(get)]
     whiteness: f64,
-    /// Dampings (1/s) that the equations of motion lack, one for each coordinate that is
-    /// smoothed, 0 where the data ask for none; empty unless they were looked for.
+    /// Friction (N m s) that the equations of motion lack, in the pivot of each link, 0 where
+    /// the data ask for none; empty unless it was looked for.
     #[pyo3(get)]
-    dampings: Py<PyArray1<f64>>,
+    frictions: Py<PyArray1<f64>>,
     names: Vec<String>,
     draw: Box<Draw>,
 }
@@ -250,7 +250,7 @@ impl SmoothedMotion {
             acceleration_error,
             noise: estimate.noise.into_pyarray(py).unbind(),
             whiteness: estimate.whiteness,
-            dampings: estimate.dampings.into_pyarray(py).unbind(),
+            frictions: estimate.frictions.into_pyarray(py).unbind(),
             names,
             draw: estimate.draw,
         })

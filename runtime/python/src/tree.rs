@@ -30,6 +30,10 @@ impl Model for PendulumTree {
         self.names().to_vec()
     }
 
+    fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
+        self.mass_matrix(theta)
+    }
+
     fn link_parents(&self) -> Vec<Option<usize>> {
         let links = 0..self.links();
         links

@@ -128,8 +128,7 @@ def test_transfer_from_a_film(model, film, method, worst):
     assert np.all(np.abs(mean) < 5 * error + of_the_rule)
 
 
-def test_damping_that_the_equations_lack():
-    """That of the mean of the children, on which the friction of both pivots acts."""
+def test_friction_that_the_equations_lack():
     friction = PAPER.replace("joint = 0.27", "joint = 0.27, friction = 3e-4")
     friction = friction.replace("inertia = 0.516e-3", "inertia = 0.516e-3, friction = 3e-4")
     assert friction.count("friction") == 2
@@ -138,15 +137,15 @@ def test_damping_that_the_equations_lack():
     noise = np.random.default_rng(1).normal(0, 1e-3, film.y[:, :3].shape)
     ideal = bp.models.BranchedDouble()
     plain, found = (
-        ideal.smooth(t, film.y[:, :3] + noise, method="equations", damping=damping)
-        for damping in (False, True)
+        ideal.smooth(t, film.y[:, :3] + noise, method="equations", friction=friction)
+        for friction in (False, True)
     )
-    assert plain.dampings.shape == (0,) and found.dampings.shape == (3,)
-    assert found.dampings.max() > 0 and found.dampings.min() >= 0
+    assert plain.frictions.shape == (0,) and found.frictions.shape == (3,)
+    np.testing.assert_allclose(found.frictions, 3e-4, rtol=0.05)
     size = [relative(motion.y - film.y, film.y) for motion in (plain, found)]
     assert size[1] < 0.8 * size[0]
     with pytest.raises(ValueError, match='needs method = "equations", not "kinematic"'):
-        ideal.smooth(t, film.y[:, :3], damping=True)
+        ideal.smooth(t, film.y[:, :3], friction=True)
 
 
 def test_draws_are_those_of_the_estimate(model, film):

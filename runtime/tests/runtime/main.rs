@@ -6,13 +6,14 @@
 mod accuracy;
 mod animation;
 mod continuation;
-mod damping;
+
 mod ensemble;
 mod events;
 mod failures;
 mod gauss;
 mod hostile;
 #[cfg(feature = "spectra")]
+mod lacking_friction;
 mod lines;
 mod modes;
 mod normal;

@@ -328,7 +328,14 @@ fn equations_of_motion_help_where_they_hold() {
         let smooth = |friction: f64| {
             let smoother = ModelSmoother::default();
             smoother
-                .smooth(&method, &equations(friction), &times, &data, &guess)
+                .smooth(
+                    &method,
+                    &equations(friction),
+                    |_| [[1.0]],
+                    &times,
+                    &data,
+                    &guess,
+                )
                 .unwrap()
         };
         let right = smooth(0.0);
@@ -358,7 +365,9 @@ fn equations_of_motion_help_where_they_hold() {
     assert!((0.85..=0.995).contains(&part), "{part}");
 
     let data = vec![[Some(0.1)]; 300];
+    let unit_mass = |_: &[f64; 1]| [[1.0]];
+    let guess = [[0.0; 4]; 300];
     let error =
-        ModelSmoother::default().smooth(&method, &equations(0.0), &times, &data, &[[0.0; 4]; 300]);
+        ModelSmoother::default().smooth(&method, &equations(0.0), unit_mass, &times, &data, &guess);
     assert!(matches!(error, Err(SmoothingError::Dimension { .. })));
 }

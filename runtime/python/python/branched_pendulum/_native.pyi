@@ -117,7 +117,7 @@ class Pendulum:
         theta: ArrayLike,
         method: Literal["kinematic", "polynomials", "equations"] = "kinematic",
         noise: float | None = None,
-        damping: bool = False,
+        friction: bool = False,
     ) -> SmoothedMotion: ...
 
 @final
@@ -239,7 +239,7 @@ class SmoothedMotion:
     @property
     def whiteness(self) -> float: ...
     @property
-    def dampings(self) -> _Array: ...
+    def frictions(self) -> _Array: ...
     def draws(self, count: int = 200, seed: int = 0) -> _Array: ...
     def estimate(
         self, function: Callable[[_Array], ArrayLike], count: int = 200, seed: int = 0

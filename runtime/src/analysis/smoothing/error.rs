@@ -45,7 +45,19 @@ pub enum SmoothingError {
     },
     /// The model's motion leaves the data, or cannot be integrated.
     Diverged,
-    /// A noise, a jerk or an acceleration that is not finite and positive, a degree or a
+    /// The mass matrix of a motion is not positive definite.
+    Mass {
+        /// Index of the time.
+        index: usize,
+    },
+    /// More kinds of friction than angles.
+    Frictions {
+        /// Their number.
+        frictions: usize,
+        /// Number of angles.
+        angles: usize,
+    },
+    /// A noise, a jerk or a density that is not finite and positive, a degree or a
     /// window of polynomials that is not possible.
     Option {
         /// Its name.
@@ -79,6 +91,14 @@ impl fmt::Display for SmoothingError {
                  them measured; a state is the measured angles and their rates"
             ),
             Self::Diverged => write!(f, "the motion of the model does not stay near the data"),
+            Self::Mass { index } => write!(
+                f,
+                "the mass matrix at time {index} is not positive definite"
+            ),
+            Self::Frictions { frictions, angles } => write!(
+                f,
+                "{frictions} kinds of friction for {angles} angles: at most one for each"
+            ),
             Self::Option {
                 name: name @ ("degree" | "window"),
                 value,

@@ -4,36 +4,40 @@ use nalgebra::{SMatrix, SVector};
 
 use super::error::{SmoothingError, check_option, check_times, usual_interval};
 use super::likelihood::climb;
-use super::model_filter::{DampedMotion, Filtered, ModelFilter, SmoothingSolution};
+use super::model_filter::{BrakedMotion, Filtered, ModelFilter, SmoothingSolution, inverse_mass};
 use super::series::{Scale, SmoothedMotion};
 use crate::analysis::variational::{Linearised, Variational};
 use crate::integrate::Integrator;
 
 /// A smoother that knows the equations of motion: between times the state follows them but
-/// for white angular accelerations of a spectral density q, which stand for all that the
+/// for white generalized forces of a spectral density q, which stand for all that the
 /// model lacks. Gauss–Newton iteration of a Kalman smoother about the motion's own
 /// linearisation (physics §16; B. M. Bell, *The iterated Kalman smoother as a Gauss–Newton
 /// method*, SIAM J. Optim. 4 (1994)).
 ///
 /// With the likeliest q, errors are as small as the model is good: with the right model
 /// those of the best single trajectory, with a wrong one no worse than without any. What a
-/// model lacks seldom acts on all angles alike: friction on the motion in phase is far larger
+/// model lacks seldom acts on all links alike: friction on the motion in phase is far larger
 /// than on a small difference of identical branches. [`disturbances`](Self::disturbances)
 /// tell such patterns apart, and each has a density of its own.
 ///
-/// White accelerations stand for anything, and know nothing of friction: that its force is
-/// opposite to the velocity all the time. Where equations lack friction, or have too much,
-/// [`damping`](Self::damping) finds what is missing in a number for each pattern.
+/// White forces stand for anything, and know nothing of friction: that it is
+/// opposite to the velocity all the time. [`frictions`](Self::frictions) finds what the
+/// equations lack of it, or have too much, as a coefficient for each joint.
 ///
 /// # Examples
 ///
-/// Patterns of a parent with two identical children:
+/// A parent with two identical children, and friction in all pivots, equal in the children's:
 ///
 /// ```
 /// use branched_pendulum::analysis::ModelSmoother;
 ///
 /// let smoother = ModelSmoother {
 ///     disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
+///     frictions: vec![
+///         vec![[1.0, 0.0, 0.0]],
+///         vec![[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+///     ],
 ///     ..ModelSmoother::default()
 /// };
 /// # assert_eq!(smoother.disturbances.len(), 3);
@@ -43,16 +47,17 @@ pub struct ModelSmoother<const N: usize> {
     /// Standard deviation σ of measured angles, rad; without it the one of largest
     /// likelihood.
     pub noise: Option<f64>,
-    /// Spectral density q of the angular accelerations, rad²/s³; without it the one of
+    /// Spectral density q of the generalized forces, (N m)² s; without it the one of
     /// largest likelihood.
-    pub acceleration: Option<f64>,
-    /// Patterns of the angular accelerations, each with the likeliest density of its own;
-    /// without any all angles are disturbed independently with one density.
+    pub density: Option<f64>,
+    /// Patterns of the generalized forces on the links, each with the likeliest density of
+    /// its own; without any all links are disturbed independently with one density.
     pub disturbances: Vec<[f64; N]>,
-    /// True finds for each of the first `N` patterns a damping γ that the equations lack, an
-    /// acceleration −γ times the part of the angular velocities in the pattern, where the
-    /// likelihood gains more by it than one more number does by itself (Schwarz's criterion).
-    pub damping: bool,
+    /// Viscous friction that the equations may lack, at most `N` kinds: of each kind the
+    /// relative angles p·θ on which it acts, one for each joint, with torques −c Σ p (p·ω).
+    /// Its coefficient c (N m s) is found where the likelihood gains more by it than one more
+    /// number does by itself (Schwarz's criterion), and zero otherwise.
+    pub frictions: Vec<Vec<[f64; N]>>,
 }
 
 /// Change of the angles, in deviations of the data, below which they end.
@@ -79,7 +84,9 @@ impl<const N: usize> ModelSmoother<N> {
     /// Estimates angles and angular velocities at all times, where data are missing too.
     ///
     /// `system` is that of the angles followed by their rates, `D` numbers in all, of which
-    /// the first `N = D/2` are measured; `method` integrates from time to time; `guess` is
+    /// the first `N = D/2` are measured; `mass_matrix` gives the rows of the mass matrix
+    /// (kg m²) at angles, by which forces accelerate: where it is the unit matrix, disturbances
+    /// and friction are accelerations; `method` integrates from time to time; `guess` is
     /// a motion near the true one, as a [`KinematicSmoother`](super::KinematicSmoother)
     /// gives it. The cost is that of D deviations over the record for each iteration, of
     /// which there are some 5 for each of some 15 values of q.
@@ -92,6 +99,7 @@ impl<const N: usize> ModelSmoother<N> {
         &self,
         method: &M,
         system: &L,
+        mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
         times: &[f64],
         data: &[[Option<f64>; N]],
         guess: &[[f64; D]],
@@ -101,25 +109,32 @@ impl<const N: usize> ModelSmoother<N> {
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
         self.check(system.dimension(), times, data, guess)?;
+        let unit = usual_interval(times);
+        let mut kinds = self.kinds();
+        let size = self.size_of_accelerations(&kinds, &mass_matrix, guess)?;
+        for kind in &mut kinds {
+            *kind /= size;
+        }
         let problem = ModelFilter {
             method,
             system,
+            mass_matrix,
             times,
             data,
-            unit: usual_interval(times),
+            unit,
             noise: self.noise,
-            acceleration: self.acceleration,
-            kinds: self.kinds(),
-            dampings: self.dampings(),
+            density: self.density.map(|density| density * size),
+            kinds,
+            frictions: self.torques_of_friction(),
         };
-        let cube = problem.unit.powi(3);
-        let ratio = match (self.noise, self.acceleration) {
+        let cube = unit.powi(3);
+        let ratio = match (problem.noise, problem.density) {
             (Some(noise), Some(q)) => Some(q * cube / (noise * noise)),
             _ => None,
         };
-        let start = DampedMotion {
+        let start = BrakedMotion {
             states: guess.to_vec(),
-            dampings: SVector::zeros(),
+            frictions: SVector::zeros(),
         };
         let solution = match ratio {
             Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
@@ -137,13 +152,13 @@ impl<const N: usize> ModelSmoother<N> {
             noise,
             densities: logs
                 .iter()
-                .map(|log| log.exp() * noise * noise / cube)
+                .map(|log| log.exp() * noise * noise / (cube * size))
                 .collect(),
             factors: SVector::repeat(1.0),
         };
-        let dampings = constants.values.iter().take(problem.dampings.len());
+        let frictions = constants.values.iter().take(problem.frictions.len());
         let motion = SmoothedMotion::new(times, &steps, innovations, scale);
-        Ok(motion.with_dampings(dampings.copied().collect(), |back| {
+        Ok(motion.with_frictions(frictions.copied().collect(), |back| {
             constants.errors(back, &effects)
         }))
     }
@@ -178,11 +193,17 @@ impl<const N: usize> ModelSmoother<N> {
                 return Err(SmoothingError::Datum { index, value });
             }
         }
+        if self.frictions.len() > N {
+            return Err(SmoothingError::Frictions {
+                frictions: self.frictions.len(),
+                angles: N,
+            });
+        }
         check_option("noise", self.noise)?;
-        check_option("acceleration", self.acceleration)
+        check_option("density", self.density)
     }
 
-    /// Covariances of the accelerations that have a density of their own.
+    /// Covariances of the forces that have a density of their own.
     fn kinds(&self) -> Vec<SMatrix<f64, N, N>> {
         if self.disturbances.is_empty() {
             return vec![SMatrix::identity()];
@@ -193,36 +214,49 @@ impl<const N: usize> ModelSmoother<N> {
             .collect()
     }
 
-    /// Projections of the angular velocities on the patterns that may have a damping.
-    fn dampings(&self) -> Vec<SMatrix<f64, N, N>> {
-        if !self.damping {
-            return Vec::new();
+    /// Density of the accelerations by forces of these covariances, a mean over the links and
+    /// the motion: by which densities of forces are told as such of accelerations. One where
+    /// there are no forces.
+    fn size_of_accelerations<const D: usize>(
+        &self,
+        kinds: &[SMatrix<f64, N, N>],
+        mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
+        motion: &[[f64; D]],
+    ) -> Result<f64, SmoothingError> {
+        let mut sum = 0.0;
+        for (index, state) in motion.iter().enumerate() {
+            let angles = SVector::from_fn(|row, _| state[row]);
+            let answer = inverse_mass(&mass_matrix, &angles, index)?;
+            let traces = kinds
+                .iter()
+                .map(|kind| (answer * kind * answer.transpose()).trace());
+            sum += traces.sum::<f64>();
         }
-        let patterns: Vec<SVector<f64, N>> = match self.disturbances.is_empty() {
-            true => {
-                let angles = SMatrix::<f64, N, N>::identity();
-                angles
-                    .column_iter()
-                    .map(|angle| angle.into_owned())
-                    .collect()
-            }
-            false => self.disturbances.iter().map(|p| (*p).into()).collect(),
-        };
-        let projection = |pattern: &SVector<f64, N>| {
-            let square = pattern.norm_squared().max(f64::MIN_POSITIVE);
-            pattern * pattern.transpose() / square
-        };
-        patterns.iter().take(N).map(projection).collect()
+        let mean = sum / (motion.len() * kinds.len() * N) as f64;
+        Ok(if mean > 0.0 { mean } else { 1.0 })
     }
 
-    fn likeliest<const D: usize, L, M>(
+    /// Torques of each kind of friction by angular velocities, for a coefficient of one, with
+    /// the sign of the friction.
+    fn torques_of_friction(&self) -> Vec<SMatrix<f64, N, N>> {
+        let kinds = self.frictions.iter();
+        kinds
+            .map(|joints| {
+                let joints = joints.iter().map(|joint| SVector::from(*joint));
+                joints.map(|joint| joint * joint.transpose()).sum()
+            })
+            .collect()
+    }
+
+    fn likeliest<const D: usize, L, M, A>(
         &self,
-        problem: &ModelFilter<'_, N, L, M>,
-        start: DampedMotion<D, N>,
+        problem: &ModelFilter<'_, N, L, M, A>,
+        start: BrakedMotion<D, N>,
     ) -> Result<SmoothingSolution<D, N>, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
+        A: Fn(&[f64; N]) -> [[f64; N]; N],
     {
         let of = |solution: &SmoothingSolution<D, N>| {
             problem.likelihood(&solution.logs, &solution.filtered.innovations)
@@ -246,7 +280,7 @@ impl<const N: usize> ModelSmoother<N> {
             }
         }
         // A density that is given is that of all patterns.
-        if self.acceleration.is_none() {
+        if self.density.is_none() {
             best.logs = vec![best.logs[0]; problem.kinds.len()];
         }
         for search in 1..=SEARCHES {

@@ -13,7 +13,7 @@ pub struct SmoothedMotion<const D: usize> {
     times: Vec<f64>,
     noise: f64,
     densities: Vec<f64>,
-    dampings: Vec<f64>,
+    frictions: Vec<f64>,
     means: Vec<[f64; D]>,
     deviations: Vec<[f64; D]>,
     spread: Spread<D>,
@@ -89,7 +89,7 @@ impl<const D: usize> SmoothedMotion<D> {
             times: times.to_vec(),
             noise,
             densities,
-            dampings: Vec::new(),
+            frictions: Vec::new(),
             means: means.collect(),
             deviations: deviations.collect(),
             spread: Spread::Steps {
@@ -106,15 +106,15 @@ impl<const D: usize> SmoothedMotion<D> {
         }
     }
 
-    /// The motion with dampings that were found with it. Their errors come to those of the
+    /// The motion with frictions that were found with it. Their errors come to those of the
     /// states: each is independent, and a series tells what one deviation of it does at each
     /// time, for data of a standard deviation of 1.
-    pub(super) fn with_dampings(
+    pub(super) fn with_frictions(
         mut self,
-        dampings: Vec<f64>,
+        frictions: Vec<f64>,
         errors: impl FnOnce(&[Back<D>]) -> Vec<Vec<SVector<f64, D>>>,
     ) -> Self {
-        self.dampings = dampings;
+        self.frictions = frictions;
         let Spread::Steps {
             back,
             factors,
@@ -153,7 +153,7 @@ impl<const D: usize> SmoothedMotion<D> {
             times: times.to_vec(),
             noise,
             densities: Vec::new(),
-            dampings: Vec::new(),
+            frictions: Vec::new(),
             means: rows.iter().map(|row| row.sum(data).into()).collect(),
             deviations: rows.iter().map(|row| deviation(row).into()).collect(),
             spread: Spread::Sums {
@@ -177,17 +177,17 @@ impl<const D: usize> SmoothedMotion<D> {
 
     /// Spectral densities of what disturbs the motion: the jerk of a
     /// [`KinematicSmoother`](super::KinematicSmoother) in the data's unit squared over s⁵,
-    /// the angular accelerations of a [`ModelSmoother`](super::ModelSmoother) in rad²/s³, one
+    /// the generalized forces of a [`ModelSmoother`](super::ModelSmoother) in (N m)² s, one
     /// for each of its patterns; none for [`LocalPolynomials`](super::LocalPolynomials).
     pub fn densities(&self) -> &[f64] {
         &self.densities
     }
 
-    /// Dampings (1/s) that the equations of motion lack, one for each pattern of a
-    /// [`ModelSmoother`](super::ModelSmoother) that looks for them: zero where the data do not
-    /// ask for one.
-    pub fn dampings(&self) -> &[f64] {
-        &self.dampings
+    /// Coefficients (N m s) of the friction that the equations of motion lack, one for each
+    /// kind that a [`ModelSmoother`](super::ModelSmoother) looks for: zero where the data do
+    /// not ask for one.
+    pub fn frictions(&self) -> &[f64] {
+        &self.frictions
     }
 
     /// Returns the components at a time, NaN beyond the last.

@@ -1,4 +1,4 @@
-//! Dampings that equations of motion lack, found by a smoother.
+//! Friction that equations of motion lack, found by a smoother.
 
 use branched_pendulum::analysis::variational::WithDerivative;
 use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothedMotion};
@@ -6,6 +6,11 @@ use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
 use branched_pendulum::system::{OdeFn, State};
 
 use super::normal::Normal;
+
+/// Forces per unit of inertia.
+fn unit_mass(_: &[f64; 1]) -> [[f64; 1]; 1] {
+    [[1.0]]
+}
 
 /// 10 s of a pendulum with this friction (1/s), 30 times a second, seen with 2 mrad of noise.
 struct Swing {
@@ -29,7 +34,7 @@ impl Swing {
     }
 
     /// Smooths by equations without friction.
-    fn smoothed(&self, seed: u64, damping: bool) -> SmoothedMotion<2> {
+    fn smoothed(&self, seed: u64, with_friction: bool) -> SmoothedMotion<2> {
         let ideal = WithDerivative::new(
             OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
                 rates[0] = y[1];
@@ -51,12 +56,15 @@ impl Swing {
         let guess: Vec<[f64; 2]> = guess.collect();
         let data: Vec<[Option<f64>; 1]> = angles.iter().map(|angle| [*angle]).collect();
         let smoother = ModelSmoother {
-            damping,
+            frictions: match with_friction {
+                true => vec![vec![[1.0]]],
+                false => Vec::new(),
+            },
             ..ModelSmoother::default()
         };
         let method = Rk4::new(0.005);
         smoother
-            .smooth(&method, &ideal, &self.times, &data, &guess)
+            .smooth(&method, &ideal, unit_mass, &self.times, &data, &guess)
             .unwrap()
     }
 
@@ -76,20 +84,20 @@ impl Swing {
 }
 
 #[test]
-fn a_damping_that_equations_lack_is_found_with_its_bars() {
+fn friction_that_equations_lack_is_found_with_its_bars() {
     let swing = Swing::new(0.05);
     let (mut inside, mut gain) = (0, 0.0);
     for seed in 1..=24 {
         let motion = swing.smoothed(seed, true);
-        let [damping] = motion.dampings() else {
-            panic!("one pattern, one damping");
+        let [friction] = motion.frictions() else {
+            panic!("one pivot, one friction");
         };
-        assert!((damping / 0.05 - 1.0).abs() < 0.05, "{damping}");
+        assert!((friction / 0.05 - 1.0).abs() < 0.05, "{friction}");
         let (scaled, error) = swing.errors(&motion);
         inside += scaled.iter().filter(|error| error.abs() < 1.96).count();
         if seed <= 3 {
             let white = swing.smoothed(seed, false);
-            assert!(white.dampings().is_empty());
+            assert!(white.frictions().is_empty());
             gain += swing.errors(&white).1 / error / 3.0;
         }
     }
@@ -102,8 +110,8 @@ fn a_damping_that_equations_lack_is_found_with_its_bars() {
 #[test]
 fn right_equations_are_left_as_they_are() {
     let swing = Swing::new(0.0);
-    let [plain, damped] = [false, true].map(|damping| swing.smoothed(5, damping));
-    assert_eq!(damped.dampings(), [0.0]);
+    let [plain, damped] = [false, true].map(|friction| swing.smoothed(5, friction));
+    assert_eq!(damped.frictions(), [0.0]);
     for index in 0..swing.times.len() {
         assert_eq!(plain.mean(index), damped.mean(index));
         assert_eq!(plain.deviation(index), damped.deviation(index));
@@ -111,7 +119,7 @@ fn right_equations_are_left_as_they_are() {
 }
 
 #[test]
-fn draws_have_the_errors_of_the_damping() {
+fn draws_have_the_errors_of_the_friction() {
     let motion = Swing::new(0.05).smoothed(3, true);
     let mut normal = Normal(17);
     let draws: Vec<_> = (0..2000).map(|_| motion.draw(|| normal.next())).collect();
