@@ -1,66 +1,16 @@
 //! Links of a tree in loops as bodies: energies with lateral offsets, momentum and
 //! powers of driven trees.
 
-use alloc::sync::Arc;
+mod terms;
+
 use alloc::vec::Vec;
 
+use super::shape::Shape;
 use super::sum::Sum;
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};
 use crate::system::Workspace;
-use crate::system::cast::put;
-
-/// Parents of the links.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// The parent of each link, before it; the root's own is 0.
-    Parents(&'static [u32]),
-    /// Parents likewise, of a tree that is not known before the program runs.
-    Shared(Arc<[u32]>),
-    /// Copies of each generation under each link of the one before, 1 for the
-    /// root; links stand as in a [`Tree`](super::Tree).
-    Generations(&'static [usize]),
-}
-
-impl Shape {
-    pub(super) fn links(&self) -> usize {
-        match self {
-            Self::Parents(parents) => parents.len(),
-            Self::Shared(parents) => parents.len(),
-            Self::Generations(copies) => super::links(copies),
-        }
-    }
-
-    /// Goes from the root to the leaves: the link, its parent but for the root,
-    /// and the number of its row.
-    #[inline(always)]
-    pub(super) fn each(&self, mut visit: impl FnMut(usize, Option<usize>, usize)) {
-        let mut listed = |parents: &[u32]| {
-            for (link, &parent) in parents.iter().enumerate() {
-                visit(link, (link > 0).then_some(parent as usize), link);
-            }
-        };
-        match self {
-            Self::Parents(parents) => listed(parents),
-            Self::Shared(parents) => listed(parents),
-            Self::Generations(copies) => {
-                // Where the generation before starts, and how many links it has.
-                let (mut above, mut count) = (0, 1);
-                let mut start = 0;
-                for (generation, &copies) in copies.iter().enumerate() {
-                    for copy in 0..copies {
-                        for i in 0..count {
-                            let parent = (generation > 0).then_some(above + i);
-                            visit(start + copy * count + i, parent, generation);
-                        }
-                    }
-                    (above, count) = (start, count * copies);
-                    start += count;
-                }
-            }
-        }
-    }
-}
+use terms::{LinkTerms, TurnedLink, sums};
 
 /// Numbers of a body.
 const ROW: usize = 12;
@@ -71,8 +21,9 @@ const LAW: usize = 5;
 /// The links of a tree in loops as bodies. Emitted models hold them where there is
 /// a drive or a lateral offset, and energies are asked for.
 ///
-/// All functions take O(links), with memory that the caller keeps: up to four numbers
-/// for each link.
+/// All functions take O(links), with memory that the caller keeps: up to six numbers
+/// for each link. In numbers that do not fuse, values have the same
+/// bits on every machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies<T> {
     shape: Shape,
@@ -135,7 +86,8 @@ impl<T: Scalar> Bodies<T> {
     /// links.
     #[must_use]
     pub fn kinetic_energy(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
-        compiled::<KineticEnergy, T>()(self, workspace, theta, omega)
+        let [energy] = compiled::<KineticEnergy, T>()(self, workspace, theta, omega);
+        energy
     }
 
     /// Linear momentum Σ m (V + **W** ω), kg m/s, to the side in which positive
@@ -187,7 +139,8 @@ impl<T: Scalar> Bodies<T> {
     /// slice of another length than there are links.
     #[must_use]
     pub fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
-        compiled::<PotentialEnergy, T>()(self, workspace, theta)
+        let [energy] = compiled::<PotentialEnergy, T>()(self, workspace, theta, theta);
+        energy
     }
 
     /// Returns a row, if there is one.
@@ -204,149 +157,29 @@ impl<T: Scalar> Bodies<T> {
         rows.get(number)
     }
 
-    fn sum_of_kinetic_energies(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> T {
-        let mut sum = Sum::new();
-        let tell = |row: &[T; ROW], [x, y]: [T; 2], [turn_x, turn_y]: [T; 2], rate| {
-            let &[half_mass, _, _, half_inertia, ..] = row;
-            let own = half_mass * (x * x + y * y) + half_inertia * rate * rate;
-            sum.add(own + (x * turn_x + y * turn_y));
-        };
-        let whole = self.moving(workspace, theta, omega, tell);
-        Self::or_nan(whole, sum.total())
-    }
-
-    fn sum_of_momenta(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> [T; 2] {
-        let (mut sum_x, mut sum_y) = (Sum::new(), Sum::new());
-        let tell = |row: &[T; ROW], [x, y]: [T; 2], [turn_x, turn_y]: [T; 2], _| {
-            let mass = row[0] + row[0];
-            sum_x.add(mass * x + turn_x);
-            sum_y.add(mass * y + turn_y);
-        };
-        let whole = self.moving(workspace, theta, omega, tell);
-        [sum_x, sum_y].map(|sum| Self::or_nan(whole, sum.total()))
-    }
-
     fn sum_of_friction_powers(&self, omega: &[T]) -> T {
         let mut sum = Sum::new();
         let whole = omega.len() == self.shape.links();
         if whole {
-            self.shape.each(|link, parent, row| {
-                if let Some(&[.., friction, drag]) = self.row(row) {
-                    let rate = at(omega, link);
-                    let relative = match parent {
-                        Some(parent) => rate - at(omega, parent),
+            for strip in self.shape.strips() {
+                let (Some(&[.., friction, drag]), law) = (self.row(strip.row), self.law(strip.row))
+                else {
+                    continue;
+                };
+                for index in 0..strip.count {
+                    let rate = at(omega, strip.link + index);
+                    let relative = match strip.parent {
+                        Some(parent) => rate - at(omega, parent + index),
                         None => rate,
                     };
                     sum.add(friction * relative * relative + drag * rate * rate);
-                    if let Some(law) = self.law(row) {
+                    if let Some(law) = law {
                         sum.add(braking_power(law, relative, rate));
                     }
                 }
-            });
+            }
         }
         Self::or_nan(whole, -sum.total())
-    }
-
-    fn sum_of_potential_energies(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
-        let links = self.shape.links();
-        if theta.len() != links {
-            return T::from_f64(f64::NAN);
-        }
-        let (one, zero) = (T::from_f64(1.0), T::from_f64(0.0));
-        let mut sum = Sum::new();
-        let (heights, others) = workspace.numbers(3 * links).split_at_mut(links);
-        let (rises, shifts) = others.split_at_mut(links);
-        self.shape.each(|link, parent, number| {
-            let Some(row) = self.row(number) else {
-                return;
-            };
-            let &[
-                _,
-                _,
-                _,
-                _,
-                along,
-                across,
-                weight,
-                gravity,
-                lateral,
-                spring,
-                ..,
-            ] = row;
-            let angle = at(theta, link);
-            let (height, joint_angle) = match parent {
-                Some(parent) => {
-                    let rise = along * at(rises, parent);
-                    (
-                        at(heights, parent) + rise + across * at(shifts, parent),
-                        angle - at(theta, parent),
-                    )
-                }
-                None => (zero, angle),
-            };
-            let (shift, cosine) = angle.sin_cos();
-            let rise = one - cosine;
-            let own = gravity * rise + lateral * shift;
-            let strain = match self.rests.get(number) {
-                Some(&rest) => joint_angle - rest,
-                None => joint_angle,
-            };
-            sum.add(weight * height + own + spring * strain * strain);
-            put(heights, link, height);
-            put(rises, link, rise);
-            put(shifts, link, shift);
-        });
-        sum.total()
-    }
-
-    /// Tells of every link: its row, the velocity of its pivot, m **W** ω, ω. False
-    /// for slices of another length than there are links.
-    #[inline(always)]
-    fn moving(
-        &self,
-        workspace: &mut Workspace<T>,
-        theta: &[T],
-        omega: &[T],
-        mut tell: impl FnMut(&[T; ROW], [T; 2], [T; 2], T),
-    ) -> bool {
-        let links = self.shape.links();
-        if [theta.len(), omega.len()] != [links; 2] {
-            return false;
-        }
-        let zero = T::from_f64(0.0);
-        // Velocities of pivots, and ω v.
-        let (pivots, slopes) = workspace.numbers(4 * links).split_at_mut(2 * links);
-        let (pivots_x, pivots_y) = pivots.split_at_mut(links);
-        let (slopes_x, slopes_y) = slopes.split_at_mut(links);
-        self.shape.each(|link, parent, row| {
-            let Some(row) = self.row(row) else {
-                return;
-            };
-            let &[_, moment, lateral, _, along, across, ..] = row;
-            let [x, y] = match parent {
-                Some(parent) => {
-                    let (x, y) = (at(slopes_x, parent), at(slopes_y, parent));
-                    [
-                        at(pivots_x, parent) + (along * x - across * y),
-                        at(pivots_y, parent) + (along * y + across * x),
-                    ]
-                }
-                None => [zero, zero],
-            };
-            let (sine, cosine) = at(theta, link).sin_cos();
-            let rate = at(omega, link);
-            let (slope_x, slope_y) = (rate * cosine, rate * sine);
-            let own = [
-                moment * slope_x - lateral * slope_y,
-                moment * slope_y + lateral * slope_x,
-            ];
-            tell(row, [x, y], own, rate);
-            put(pivots_x, link, x);
-            put(pivots_y, link, y);
-            put(slopes_x, link, slope_x);
-            put(slopes_y, link, slope_y);
-        });
-        true
     }
 
     fn or_nan(whole: bool, value: T) -> T {
@@ -357,23 +190,96 @@ impl<T: Scalar> Bodies<T> {
     }
 }
 
-compiled_once! {
-    KineticEnergy<T> = Bodies::sum_of_kinetic_energies:
-        fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> T
+/// Kinetic energy of links of a given angular velocity; known of a pivot is its velocity.
+struct KineticTerm;
+
+impl LinkTerms<2, 1> for KineticTerm {
+    #[inline(always)]
+    fn pivot<V: Scalar>(child: &[V; ROW], parent: TurnedLink<V, 2>) -> [V; 2] {
+        let &[_, _, _, _, along, across, ..] = child;
+        let ([x, y], [slope_x, slope_y]) = (parent.pivot, slopes(&parent));
+        [
+            x + (along * slope_x - across * slope_y),
+            y + (along * slope_y + across * slope_x),
+        ]
+    }
+
+    #[inline(always)]
+    fn terms<V: Scalar>(row: &[V; ROW], link: TurnedLink<V, 2>, _: V) -> [V; 1] {
+        let &[half_mass, _, _, half_inertia, ..] = row;
+        let ([x, y], [turn_x, turn_y]) = (link.pivot, turns(row, &link));
+        let own = half_mass * (x * x + y * y) + half_inertia * link.given * link.given;
+        [own + (x * turn_x + y * turn_y)]
+    }
+}
+
+/// Momentum of links of a given angular velocity, likewise.
+struct MomentumTerms;
+
+impl LinkTerms<2, 2> for MomentumTerms {
+    #[inline(always)]
+    fn pivot<V: Scalar>(child: &[V; ROW], parent: TurnedLink<V, 2>) -> [V; 2] {
+        KineticTerm::pivot(child, parent)
+    }
+
+    #[inline(always)]
+    fn terms<V: Scalar>(row: &[V; ROW], link: TurnedLink<V, 2>, _: V) -> [V; 2] {
+        let mass = row[0] + row[0];
+        let ([x, y], [turn_x, turn_y]) = (link.pivot, turns(row, &link));
+        [mass * x + turn_x, mass * y + turn_y]
+    }
+}
+
+/// ω v.
+#[inline(always)]
+fn slopes<V: Scalar>(link: &TurnedLink<V, 2>) -> [V; 2] {
+    [link.given * link.cosine, link.given * link.sine]
+}
+
+/// m **W** ω.
+#[inline(always)]
+fn turns<V: Scalar>(row: &[V; ROW], link: &TurnedLink<V, 2>) -> [V; 2] {
+    let (&[_, moment, lateral, ..], [x, y]) = (row, slopes(link));
+    [moment * x - lateral * y, moment * y + lateral * x]
+}
+
+/// Potential energy of links of a given angle; known of a pivot is its height.
+struct PotentialTerm;
+
+impl LinkTerms<1, 1> for PotentialTerm {
+    #[inline(always)]
+    fn pivot<V: Scalar>(child: &[V; ROW], parent: TurnedLink<V, 1>) -> [V; 1] {
+        let &[_, _, _, _, along, across, ..] = child;
+        let ([height], rise) = (parent.pivot, V::from_f64(1.0) - parent.cosine);
+        [height + along * rise + across * parent.sine]
+    }
+
+    #[inline(always)]
+    fn terms<V: Scalar>(row: &[V; ROW], link: TurnedLink<V, 1>, strain: V) -> [V; 1] {
+        let &[_, _, _, _, _, _, weight, gravity, lateral, spring, ..] = row;
+        let ([height], rise) = (link.pivot, V::from_f64(1.0) - link.cosine);
+        let own = gravity * rise + lateral * link.sine;
+        [weight * height + own + spring * strain * strain]
+    }
 }
 
 compiled_once! {
-    Momentum<T> = Bodies::sum_of_momenta:
+    KineticEnergy<T> = sums::<KineticTerm, _, 2, 1>:
+        fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> [T; 1]
+}
+
+compiled_once! {
+    Momentum<T> = sums::<MomentumTerms, _, 2, 2>:
         fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> [T; 2]
 }
 
 compiled_once! {
-    FrictionPower<T> = Bodies::sum_of_friction_powers: fn(&Bodies<T>, &[T]) -> T
+    PotentialEnergy<T> = sums::<PotentialTerm, _, 1, 1>:
+        fn(&Bodies<T>, &mut Workspace<T>, &[T], &[T]) -> [T; 1]
 }
 
 compiled_once! {
-    PotentialEnergy<T> = Bodies::sum_of_potential_energies:
-        fn(&Bodies<T>, &mut Workspace<T>, &[T]) -> T
+    FrictionPower<T> = Bodies::sum_of_friction_powers: fn(&Bodies<T>, &[T]) -> T
 }
 
 /// Power that friction of a link takes by these laws, at the rate relative to the parent

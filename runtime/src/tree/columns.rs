@@ -5,6 +5,7 @@
 use core::marker::PhantomData;
 
 use super::equations::Row;
+use crate::scalar::Scalar;
 use crate::simd::Simd;
 
 /// Numbers of a slice as `N` columns, or some rows of these.
@@ -93,6 +94,16 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         // Of rows, the numbers of several links do not stand side by side.
         let side_by_side = V::LANES == 1 || self.row == 1;
         side_by_side && V::LANES <= self.rows && at <= self.rows - V::LANES
+    }
+
+    /// Returns the vectors at `at`; none where they would cross the end.
+    #[inline(always)]
+    pub(super) fn load<V: Simd<T>>(self, at: usize) -> Option<[V; N]> {
+        if !self.has::<V>(at) {
+            return None;
+        }
+        // SAFETY: as in `store`; what is read there is copied at once.
+        Some(unsafe { read(self.start.add(at * self.row), self.stride) })
     }
 
     /// Writes the vectors at `at` of the first `M` columns; none where they would
@@ -206,4 +217,19 @@ unsafe fn write<T, V: Simd<T>, A: Row<V>>(vectors: &A, start: *mut T, stride: us
         unsafe { vectors.as_ref()[i].write(start.add(i * stride)) };
         i += 1;
     }
+}
+
+/// The numbers from a place where there are enough; NaN elsewhere.
+#[inline(always)]
+pub(super) fn load<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
+    match V::load(numbers.get(place..).unwrap_or_default()) {
+        Some(row) => row,
+        None => V::from_f64(f64::NAN),
+    }
+}
+
+/// The numbers from a place on, and zeros behind the end.
+#[inline(always)]
+pub(super) fn load_front<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
+    V::load_front(numbers.get(place..).unwrap_or_default())
 }

@@ -45,6 +45,7 @@ mod prefetch;
 mod properties;
 mod root;
 mod scales;
+mod shape;
 mod shared;
 mod skeleton;
 mod small;
@@ -59,11 +60,12 @@ use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
 pub use crate::system::LinkName;
-pub use bodies::{Bodies, Shape};
+pub use bodies::Bodies;
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;
 pub use scales::{MOST_GENERATIONS, ScaleEquations, ScaleTree};
+pub use shape::Shape;
 pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};

@@ -1,7 +1,7 @@
 //! Sines, cosines and joint motions that equations read, formed before the recursion.
 
 use super::block::{Generation, SubtreeBlock};
-use super::columns::Columns;
+use super::columns::{Columns, load_front};
 use super::prefetch::prefetch;
 use super::shared::Shared;
 use super::sweep::Sweep;
@@ -95,7 +95,7 @@ impl<'a, T: Scalar> Given<'a, T> {
     #[inline(always)]
     fn store<V: Simd<T>>(&self, place: usize) -> Option<()> {
         let value = match self.values {
-            Some(values) => at(values, place),
+            Some(values) => load_front(values, place),
             None => V::from_f64(0.0),
         };
         self.column.store::<V, 1>(place, &[value])
@@ -112,12 +112,12 @@ impl<T: Scalar> Span<'_, T> {
         let mut index = 0;
         while index < count {
             let places = [index.min(last), (index + V::LANES).min(last)];
-            let angles: [V; 2] = [at(self.theta, places[0]), at(self.theta, places[1])];
+            let angles: [V; 2] = places.map(|place| load_front(self.theta, place));
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..2 {
                 sincos.store(places[i], &[sines[i], cosines[i]])?;
                 if let Some(velocities) = self.velocities {
-                    velocities.store::<V, 1>(places[i], &[at(self.omega, places[i])])?;
+                    velocities.store::<V, 1>(places[i], &[load_front(self.omega, places[i])])?;
                 }
                 if let Some(torques) = &self.torques {
                     torques.store::<V>(places[i])?;
@@ -138,11 +138,6 @@ impl<T: Scalar> Span<'_, T> {
         }
         Some(())
     }
-}
-
-#[inline(always)]
-fn at<T: Scalar, V: Simd<T>>(numbers: &[T], index: usize) -> V {
-    V::load_front(numbers.get(index..).unwrap_or_default())
 }
 
 /// Forms joint angles and rates of a block; `parents` has the place of each link's

@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::bodies::Shape;
+use super::shape::Shape;
 use crate::scalar::Scalar;
 use crate::system::positions::COLUMNS;
 use crate::system::{LinkPoint, LinkProperties};
@@ -143,11 +143,12 @@ impl<T: Scalar> PropertyTable<T> {
     /// The links from the root to the leaves.
     fn visited(&self) -> Vec<Visited<T>> {
         let mut visited = Vec::with_capacity(self.shape.links());
-        self.shape.each(|link, parent, row| {
-            if let Some(row) = self.row(row) {
-                visited.push((link, parent, LinkProperties::from_row(parent, row)));
+        for strip in self.shape.strips() {
+            if let Some(row) = self.row(strip.row) {
+                let visit = |(link, parent)| (link, parent, LinkProperties::from_row(parent, row));
+                visited.extend(strip.each().map(visit));
             }
-        });
+        }
         visited
     }
 }

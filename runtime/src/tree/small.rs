@@ -184,7 +184,8 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
             equations: PhantomData,
         };
         let above = RootDrive::above(tree.root, *self.drive).map(V::splat);
-        // SAFETY: the tree has a row for each link, and slices and room are as long.
+        // SAFETY: the tree has a row for each link, the slices fit it, and in the room there
+        // are `width` numbers for each.
         unsafe {
             links.sines::<V>(states.theta);
             links.up::<V>();
@@ -209,9 +210,13 @@ struct LinkByLink<'a, E, T> {
     equations: PhantomData<E>,
 }
 
-// Of all functions: every cell has the numbers of all links, and a parent is one of them.
+// Of all functions: each column of cells has the numbers of all links, as its name says, and
+// nothing else refers to them now. The number of a parent is that of a link.
 impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     /// Forms the sines and cosines. The last angles may be those before once more.
+    ///
+    /// # Safety
+    /// The cells are those of the tree, whose angles these are.
     #[inline(always)]
     unsafe fn sines<V: Simd<T>>(&self, theta: &[T]) {
         let last = theta.len().saturating_sub(1);
@@ -234,7 +239,8 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..STEP {
                 let link = (first + i).min(last);
-                // SAFETY: the caller's.
+                // SAFETY: there is a link, or the loop would not be entered, and `link` is at
+                // most the last one.
                 unsafe { self.sincos.write(link, &[sines[i], cosines[i]]) };
             }
             start += STEP;
@@ -242,17 +248,20 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     }
 
     /// From the last link to the root: responses, added to the sums of the parents.
+    ///
+    /// # Safety
+    /// The cells are those of the tree; sines and cosines have been formed.
     #[inline(always)]
     unsafe fn up<V: Simd<T>>(&self) {
         for (link, &place) in self.links.iter().enumerate().rev() {
-            // SAFETY: the caller's.
+            // SAFETY: `link` counts the links, and the parent of each is one.
             let (constants, motion) =
                 unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
             let response = if place.carries {
-                // SAFETY: the caller's.
+                // SAFETY: each link has places for sums.
                 let sums: E::Sums<V> = unsafe { self.shared.read(link) };
                 let (response, elimination) = E::inner(&constants, motion, sums);
-                // SAFETY: the caller's.
+                // SAFETY: each link has places for an elimination, which no other shares.
                 unsafe { self.elimination.write(link, &elimination) };
                 response
             } else {
@@ -262,53 +271,59 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
                 continue;
             }
             let parent = place.parent;
-            // SAFETY: the caller's.
+            // SAFETY: the parent is a link.
             let of_parent = unsafe { self.direction(parent) };
             let mut sums = E::attach(&constants, of_parent, response);
             if !place.is_last {
-                // SAFETY: the caller's.
+                // SAFETY: the parent is a link, which has places for sums.
                 add(&mut sums, &unsafe { self.shared.read(parent) });
             }
-            // SAFETY: the caller's.
+            // SAFETY: as they are read.
             unsafe { self.shared.write(parent, &sums) };
         }
     }
 
     /// From the root to the last link: accelerations, and what parents hand to children.
+    ///
+    /// # Safety
+    /// The cells are those of the tree, and responses have been formed.
     #[inline(always)]
     unsafe fn down<V: Simd<T>>(&self, above: [V; 2]) {
         for (link, &place) in self.links.iter().enumerate() {
-            // SAFETY: the caller's.
+            // SAFETY: as on the way up.
             let (constants, motion) =
                 unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
             let pivot = match link {
                 0 => above,
                 _ => {
                     let parent = place.parent;
-                    // SAFETY: the caller's.
+                    // SAFETY: the parent is a link. What it hands down stands in the places of
+                    // its sums, which are as many as the longer of the two takes.
                     let (of_parent, carried) =
                         unsafe { (self.direction(parent), self.shared.read(parent)) };
                     E::pivot(&constants, of_parent, carried)
                 }
             };
             let acceleration = if place.carries {
-                // SAFETY: the caller's.
+                // SAFETY: as it was written on the way up.
                 let elimination = unsafe { self.elimination.read(link) };
                 let (acceleration, carried) = E::accelerate(&constants, motion, elimination, pivot);
-                // SAFETY: the caller's.
+                // SAFETY: as it is read for the children.
                 unsafe { self.shared.write(link, &carried) };
                 acceleration
             } else {
                 E::accelerate_leaf(&constants, motion, pivot)
             };
-            // SAFETY: the caller's.
+            // SAFETY: there is an acceleration for each link.
             unsafe { self.alpha.write(link, &[acceleration]) };
         }
     }
 
+    /// # Safety
+    /// It is a link of the tree.
     #[inline(always)]
     unsafe fn constants<V: Simd<T>>(&self, link: usize) -> E::Constants<V> {
-        // SAFETY: the caller's.
+        // SAFETY: the tree has so many constants for each link.
         let mut row: E::Constants<V> = unsafe { self.constants.read(link) };
         if E::TORQUE
             && link == 0
@@ -320,12 +335,14 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     }
 
     /// The motion of a link, where what acts in its joint and from outside is left open.
+    ///
+    /// # Safety
+    /// It is a link of the tree.
     #[inline(always)]
     unsafe fn direction<V: Simd<T>>(&self, link: usize) -> LinkMotion<V> {
-        // SAFETY: the caller's.
-        let [sine, cosine]: [V; 2] = unsafe { self.sincos.read(link) };
-        // SAFETY: the caller's.
-        let [omega]: [V; 1] = unsafe { self.omega.read(link) };
+        // SAFETY: each link has a sine and a cosine in its room, and an angular velocity.
+        let ([sine, cosine], [omega]): ([V; 2], [V; 1]) =
+            unsafe { (self.sincos.read(link), self.omega.read(link)) };
         LinkMotion {
             sine,
             cosine,
@@ -337,17 +354,19 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
         }
     }
 
+    /// # Safety
+    /// Both are links of the tree.
     #[inline(always)]
     unsafe fn motion<V: Simd<T>>(&self, link: usize, parent: usize) -> LinkMotion<V> {
-        // SAFETY: the caller's.
+        // SAFETY: it is a link.
         let mut motion: LinkMotion<V> = unsafe { self.direction(link) };
-        // SAFETY: the caller's.
+        // SAFETY: torques are given for all links, or are one zero, which is read for each.
         [motion.outside_torque] = unsafe { self.torque.read(link) };
         if E::JOINTS {
-            // SAFETY: the caller's.
+            // SAFETY: an angle is given for each link.
             [motion.joint_angle] = unsafe { self.theta.read(link) };
             if link > 0 {
-                // SAFETY: the caller's.
+                // SAFETY: the parent is a link too, which has an angle and a velocity.
                 let ([angle], [rate]): ([V; 1], [V; 1]) =
                     unsafe { (self.theta.read(parent), self.omega.read(parent)) };
                 motion.joint_angle = motion.joint_angle - angle;

@@ -1,6 +1,6 @@
 //! Long sums.
 
-use crate::scalar::Scalar;
+use crate::scalar::{Lanes, Scalar};
 
 /// Sums, a few hundred terms at a time: the error of a long sum grows with its
 /// length.
@@ -35,4 +35,19 @@ impl<T: Scalar> Sum<T> {
     pub(super) fn total(&self) -> T {
         self.total + self.part
     }
+}
+
+/// Sum of many terms, several of them side by side, in the same order for all numbers.
+#[inline(always)]
+pub(super) fn total<T: Scalar>(terms: &[T]) -> T {
+    let (rows, rest) = terms.as_chunks();
+    let mut side_by_side = Sum::<Lanes<T, 8>>::new();
+    for &row in rows {
+        side_by_side.add(Lanes(row));
+    }
+    let mut sum = Sum::new();
+    for &term in side_by_side.total().0.iter().chain(rest) {
+        sum.add(term);
+    }
+    sum.total()
 }

@@ -2,9 +2,9 @@
 
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::tree::RootDrive;
-use branched_pendulum_codegen::scene::{Drive, Signal, TimeFunction};
+use branched_pendulum_codegen::scene::{Drive, Signal, SignalAtom, TimeFunction};
 
-use crate::numbers::{power, value};
+use crate::numbers::{evaluate, value};
 
 /// The drive in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,22 +12,12 @@ pub(crate) struct Courses<T>(Drive<T>);
 
 /// Returns the value of a function of time in any numbers that constants can be taken to.
 fn value_at<T: Scalar, S: Scalar>(signal: &Signal<T>, time: S, lift: &impl Fn(T) -> S) -> S {
-    let at = |part: &Signal<T>| value_at(part, time, lift);
-    match signal {
-        Signal::Constant(value) => lift(*value),
-        Signal::Time => time,
-        Signal::Sum(parts) => {
-            let zero = S::from_f64(0.0);
-            parts.iter().fold(zero, |sum, part| sum + at(part))
-        }
-        Signal::Product(parts) => {
-            let one = S::from_f64(1.0);
-            parts.iter().fold(one, |product, part| product * at(part))
-        }
-        Signal::Power(base, exponent) => power(at(base), *exponent),
-        Signal::Function(TimeFunction::Sin, angle) => at(angle).sin_cos().0,
-        Signal::Function(TimeFunction::Cos, angle) => at(angle).sin_cos().1,
-    }
+    evaluate(signal, &|atom| match atom {
+        SignalAtom::Constant(value) => lift(*value),
+        SignalAtom::Time => time,
+        SignalAtom::Function(TimeFunction::Sin, angle) => value_at(angle, time, lift).sin_cos().0,
+        SignalAtom::Function(TimeFunction::Cos, angle) => value_at(angle, time, lift).sin_cos().1,
+    })
 }
 
 /// Returns the second derivative, by dual numbers of dual numbers: exact to rounding.

@@ -23,6 +23,22 @@ pub(crate) struct Acting<'a, T> {
     pub(crate) torques: Option<&'a [T]>,
 }
 
+impl<T: Scalar> Acting<'_, T> {
+    /// Returns the torques of links. If a drive turns a tree of one link, they are the `sum`
+    /// of all: the equations know a torque of the drive on links with children alone.
+    #[inline(always)]
+    pub(crate) fn on_links<'s>(&'s self, links: usize, sum: &'s mut [T; 1]) -> Option<&'s [T]> {
+        let Some(drive) = self.drive.filter(|_| links == 1) else {
+            return self.torques;
+        };
+        *sum = [match self.torques.and_then(|torques| torques.first()) {
+            Some(&torque) => torque + drive.torque,
+            None => drive.torque,
+        }];
+        Some(sum)
+    }
+}
+
 impl<T: Scalar> Equations<T> {
     pub(crate) fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
         match form {
@@ -66,16 +82,4 @@ impl<T: Scalar> Equations<T> {
             Self::Rough(ways) => ways.evaluate(acting, given, alpha),
         }
     }
-}
-
-/// All torque on a tree of one link, if a drive turns it: the equations know a torque of
-/// the drive on links with children alone.
-#[inline(always)]
-pub(crate) fn on_single_link<T: Scalar>(acting: &Acting<'_, T>, links: usize) -> Option<[T; 1]> {
-    let drive = acting.drive.filter(|_| links == 1)?;
-    let given = acting.torques.and_then(|torques| torques.first());
-    Some([match given {
-        Some(&torque) => torque + drive.torque,
-        None => drive.torque,
-    }])
 }

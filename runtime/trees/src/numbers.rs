@@ -4,7 +4,8 @@
 use branched_pendulum::emitted::{LinkBody, free_link};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
-    Layout, Link, LinkId, Offset, PassiveTorques, Quantity, Scene, Sign,
+    Layout, Link, LinkId, Offset, PassiveTorques, Quantity, QuantityAtom, RationalExpression,
+    Scene, Sign,
 };
 
 use crate::error::TreeError;
@@ -23,33 +24,43 @@ pub(crate) struct LinkNumbers {
 
 /// The value of a quantity.
 pub(crate) fn value(quantity: &Quantity, parameters: &[Double]) -> Double {
-    let number = |value: f64| Double::from_f64(value);
-    let at = |quantity: &Quantity| value(quantity, parameters);
-    match quantity {
-        Quantity::Exact(exact) => {
+    evaluate(quantity, &|atom| match atom {
+        QuantityAtom::Exact(exact) => {
             let (high, low) = exact.to_parts();
             Double::from_parts(high, low)
         }
-        Quantity::Parameter(id) => match parameters.get(id.0) {
+        QuantityAtom::Parameter(id) => match parameters.get(id.0) {
             Some(&value) => value,
-            None => number(f64::NAN),
+            None => Double::from_f64(f64::NAN),
         },
-        Quantity::Sum(parts) => parts.iter().fold(number(0.0), |sum, part| sum + at(part)),
-        Quantity::Product(parts) => parts.iter().fold(number(1.0), |all, part| all * at(part)),
-        Quantity::Quotient(above, below) => at(above) / at(below),
-        Quantity::Power(base, exponent) => {
+    })
+}
+
+/// The value of an expression, given those of its atoms.
+pub(crate) fn evaluate<A, S: Scalar>(
+    expression: &RationalExpression<A>,
+    atom: &impl Fn(&A) -> S,
+) -> S {
+    let (zero, one) = (S::from_f64(0.0), S::from_f64(1.0));
+    let at = |part: &RationalExpression<A>| evaluate(part, atom);
+    match expression {
+        RationalExpression::Atom(own) => atom(own),
+        RationalExpression::Sum(parts) => parts.iter().fold(zero, |sum, part| sum + at(part)),
+        RationalExpression::Product(parts) => parts.iter().fold(one, |all, part| all * at(part)),
+        RationalExpression::Quotient(above, below) => at(above) / at(below),
+        RationalExpression::Power(base, exponent) => {
             let power = power(at(base), exponent.unsigned_abs());
             match *exponent < 0 {
-                true => number(1.0) / power,
+                true => one / power,
                 false => power,
             }
         }
-        Quantity::Negative(value) => -at(value),
+        RationalExpression::Negative(value) => -at(value),
     }
 }
 
 /// A power, by squares.
-pub(crate) fn power<S: Scalar>(base: S, exponent: u32) -> S {
+fn power<S: Scalar>(base: S, exponent: u32) -> S {
     let (mut result, mut square, mut rest) = (S::from_f64(1.0), base, exponent);
     while rest > 0 {
         if rest % 2 == 1 {

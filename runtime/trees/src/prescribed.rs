@@ -11,7 +11,6 @@ use branched_pendulum::tree::Tree;
 use branched_pendulum_codegen::scene::Scene;
 
 use crate::equations::HeldEquations;
-use crate::forms::on_single_link;
 use crate::tree::PendulumTree;
 
 /// The equations of a tree some of whose links may be held, and which ones.
@@ -91,10 +90,11 @@ impl<T: Scalar> PendulumTree<T> {
         motion: PrescribedMotion<'_, T>,
         results: [&mut [T]; 2],
     ) {
-        let single = self.torque_on_single_link(time, motion.torques);
-        let torques = single.as_ref().map_or(motion.torques, <[T; 1]>::as_slice);
+        let acting = self.acting(time, Some(motion.torques));
+        let (drive, mut sum) = (acting.drive, [T::from_f64(0.0)]);
+        let torques = acting.on_links(motion.torques.len(), &mut sum);
+        let torques = torques.unwrap_or_default();
         let motion = PrescribedMotion { torques, ..motion };
-        let drive = self.acting(time, None).drive;
         match &self.held {
             Some(HeldLinks { tree, sets }) => {
                 let links = sets.get(set).map(Vec::as_slice);
@@ -116,19 +116,15 @@ impl<T: Scalar> PendulumTree<T> {
         motion: PrescribedMotion<'_, T>,
         results: [&mut [T]; 2],
     ) {
-        let single = self.torque_on_single_link(time, motion.torques);
-        let torques = single.as_ref().map_or(motion.torques, <[T; 1]>::as_slice);
+        let acting = self.acting(time, Some(motion.torques));
+        let (drive, mut sum) = (acting.drive, [T::from_f64(0.0)]);
+        let torques = acting.on_links(motion.torques.len(), &mut sum);
+        let torques = torques.unwrap_or_default();
         let motion = PrescribedMotion { torques, ..motion };
-        let drive = self.acting(time, None).drive;
         if let Some(HeldLinks { tree, sets }) = &self.held {
             let links = sets.get(set).map(Vec::as_slice);
             tree.evaluate_prescribed(drive, links, motion, results);
         }
-    }
-
-    #[inline(always)]
-    fn torque_on_single_link(&self, time: T, torques: &[T]) -> Option<[T; 1]> {
-        on_single_link(&self.acting(time, Some(torques)), torques.len())
     }
 }
 

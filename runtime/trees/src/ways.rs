@@ -4,7 +4,7 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{LinkEquations, LinkStates, SmallTree, Tree};
 
-use crate::forms::{Acting, on_single_link};
+use crate::forms::Acting;
 use crate::rows::Form;
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
@@ -49,8 +49,8 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         [theta, omega]: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        let single = on_single_link(&acting, theta.len());
-        let torques = single.as_ref().map(<[T; 1]>::as_slice).or(acting.torques);
+        let mut sum = [T::from_f64(0.0)];
+        let torques = acting.on_links(theta.len(), &mut sum);
         let drive = acting.drive;
         if let Some(small) = &self.small {
             let states = LinkStates {
@@ -79,8 +79,8 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         [theta, omega]: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        let single = on_single_link(&acting, theta.len());
-        let torques = single.as_ref().map(<[T; 1]>::as_slice).or(acting.torques);
+        let mut sum = [T::from_f64(0.0)];
+        let torques = acting.on_links(theta.len(), &mut sum);
         match torques {
             None => {
                 let at = |numbers: &[T], link: usize| match numbers.get(link) {

@@ -1,10 +1,10 @@
 //! Columns of numbers of all links, one behind the other.
 
-use super::parts::load;
 use super::shape::ScaleGeneration;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 use crate::tree::LinkMotion;
+use crate::tree::columns::load;
 
 /// Sine and cosine of each link's angle, angular velocity.
 pub(super) const MOTION: usize = 0;

@@ -21,6 +21,7 @@ use core::marker::PhantomData;
 pub use equations::ScaleEquations;
 
 use super::Tree;
+use super::columns::load;
 use super::equations::Row;
 use super::memory::take;
 use crate::scalar::Scalar;
@@ -306,7 +307,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
         let Some(start) = start else { return row };
         for (index, number) in row.iter_mut().enumerate() {
             let column = (first + index) * self.shape.parts;
-            *number = parts::load(self.parts, column + start + place);
+            *number = load(self.parts, column + start + place);
         }
         row
     }

@@ -3,12 +3,13 @@
 use super::columns::{
     CARRIED, DEFICIT, DRIVE, GAIN, MOMENT, MOTION, OUTSIDE, RISE, SPLIT, SPRING, STRAIN, VELOCITY,
 };
-use super::parts::{at, split};
+use super::parts::split;
 use super::shape::ScaleGeneration;
 use super::{ByScale, ScaleEquations, field};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 use crate::tree::LinkMotion;
+use crate::tree::columns::load_front;
 
 impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
     /// Sines and cosines, and what joints do.
@@ -19,9 +20,9 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             let own = self.shape.at(generation);
             let mut place = 0;
             while place < own.count {
-                let angle: V = at(self.theta, own.whole + place);
+                let angle: V = load_front(self.theta, own.whole + place);
                 let (sine, cosine) = angle.sin_cos();
-                let omega: V = at(self.omega, own.whole + place);
+                let omega: V = load_front(self.omega, own.whole + place);
                 let slot = own.slot + place;
                 self.columns.write(MOTION, slot, [sine, cosine, omega]);
                 self.columns.write(RISE, slot, [one - cosine]);
@@ -48,11 +49,11 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             while place < above.count {
                 let number = copy * above.count + place;
                 let mut link: LinkMotion<V> = self.columns.motion(own.slot + number);
-                link.joint_angle = at(self.theta, own.whole + number);
+                link.joint_angle = load_front(self.theta, own.whole + number);
                 if generation > 0 {
                     let parent: LinkMotion<V> = self.columns.motion(above.slot + place);
                     link.joint_rate = link.omega - parent.omega;
-                    let angle: V = at(self.theta, above.whole + place);
+                    let angle: V = load_front(self.theta, above.whole + place);
                     link.joint_angle = link.joint_angle - angle;
                 }
                 let torques = E::scale_torques(&constants, link);
@@ -103,7 +104,7 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
                     self.columns.write(DRIVE, slot, torque);
                 }
                 if !self.torques.is_empty() {
-                    let torque: V = at(self.torques, own.whole + place);
+                    let torque: V = load_front(self.torques, own.whole + place);
                     self.columns.write(OUTSIDE, slot, [torque]);
                 }
                 place += V::LANES;

@@ -4,6 +4,7 @@
 use super::shape::ScaleShape;
 use crate::scalar::Scalar;
 use crate::simd::{Simd, WIDEST};
+use crate::tree::columns::load_front;
 
 /// Splits the values of one generation into their parts in all scales. The values
 /// are overwritten: by the means.
@@ -67,31 +68,16 @@ fn means<T: Scalar, V: Simd<T>>(
     parts: &mut [T],
 ) {
     let each = V::from_f64(1.0) / V::from_f64(copies.max(1) as f64);
-    let first: V = at(values, parent);
+    let first: V = load_front(values, parent);
     let mut sum = V::from_f64(0.0);
     for copy in 1..copies {
-        sum = sum + (at::<T, V>(values, copy * parents + parent) - first);
+        sum = sum + (load_front::<T, V>(values, copy * parents + parent) - first);
     }
     let mean = sum * each;
     for copy in 0..copies {
         let place = copy * parents + parent;
-        let part = (at::<T, V>(values, place) - first) - mean;
+        let part = (load_front::<T, V>(values, place) - first) - mean;
         part.store(parts.get_mut(place..).unwrap_or_default());
     }
     (first + mean).store(values.get_mut(parent..).unwrap_or_default());
-}
-
-/// The numbers from a place where there are enough.
-#[inline(always)]
-pub(super) fn load<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
-    match V::load(numbers.get(place..).unwrap_or_default()) {
-        Some(row) => row,
-        None => V::from_f64(f64::NAN),
-    }
-}
-
-/// The numbers from a place on, and zeros behind the end.
-#[inline(always)]
-pub(super) fn at<T: Scalar, V: Simd<T>>(numbers: &[T], place: usize) -> V {
-    V::load_front(numbers.get(place..).unwrap_or_default())
 }

@@ -119,7 +119,7 @@ impl<T: Scalar> StripView<T> {
 }
 
 /// Places of vectors among neighbours.
-pub(super) struct VectorPlaces {
+pub(in crate::tree) struct VectorPlaces {
     next: usize,
     step: usize,
     last: usize,
@@ -129,7 +129,7 @@ pub(super) struct VectorPlaces {
 impl VectorPlaces {
     /// Of so many neighbours.
     #[inline(always)]
-    pub(super) fn of<T, V: Simd<T>>(length: usize) -> Self {
+    pub(in crate::tree) fn of<T, V: Simd<T>>(length: usize) -> Self {
         Self {
             next: 0,
             step: V::LANES,
@@ -139,7 +139,7 @@ impl VectorPlaces {
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<usize> {
+    pub(in crate::tree) fn next(&mut self) -> Option<usize> {
         if self.next >= self.length {
             return None;
         }

@@ -3,6 +3,7 @@
 
 mod bits;
 mod dense;
+mod energies;
 mod equations;
 
 use alloc::vec::Vec;
