@@ -1,7 +1,7 @@
 //! Enums whose members have names in code, and some a meaning in words: one list for all
 //! that is said of them.
 
-/// Declares an enum with `ALL`, its members in their order, and `name`. Members with a
+/// Declares an enum with `ALL`, its members in their order, `name` and `named`. Members with a
 /// meaning, as in `Mass = "mass": "mass (kg)"`, have it as their docs and by `meaning`.
 macro_rules! named_members {
     (
@@ -24,6 +24,11 @@ macro_rules! named_members {
                 match self {
                     $(Self::$member => $text,)+
                 }
+            }
+
+            /// Returns the member of that name, if there is one.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.into_iter().find(|member| member.name() == name)
             }
         }
     };

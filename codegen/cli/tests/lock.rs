@@ -42,6 +42,17 @@ fn derivation(home: &Path) -> Command {
     command
 }
 
+/// The lock of a user with this home, held as by a process that derives all the time, and the
+/// file in which that process says who it is.
+#[cfg(target_os = "linux")]
+fn held(home: &Path) -> (File, PathBuf) {
+    let own = home.join(".cache/branched-pendulum");
+    fs::create_dir_all(&own).expect("the folder is this test's own");
+    let held = File::create(own.join("derivation.lock")).expect("likewise");
+    held.lock().expect("nobody else knows it");
+    (held, own.join("derivation.holder"))
+}
+
 fn finished(child: Child) -> Output {
     child.wait_with_output().expect("the tool runs")
 }
@@ -86,15 +97,40 @@ fn a_home_that_cannot_be_written_is_an_error_with_its_remedy() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_process_of_many_derivations_is_waited_for() {
+    let folder = Folder::new("many");
+    let home = folder.sub("home");
+    let (held, note) = held(&home);
+    let mut command = derivation(&home);
+    command.env("BRANCHED_PENDULUM_WAIT", "2");
+    let child = command.spawn().expect("the tool starts");
+    for number in 0..8 {
+        let text = format!("process 7 (package `busy`)\n{number}");
+        fs::write(&note, text).expect("likewise");
+        std::thread::sleep(Duration::from_millis(500));
+    }
+    drop(held);
+    let output = finished(child);
+    let errors = errors(&output);
+    assert!(output.status.success(), "{errors}");
+    let notice = "waiting for the derivation of process 7 (package `busy`)\n";
+    assert!(errors.contains(notice), "{errors}");
+    // Each derivation tells itself apart.
+    let note = fs::read_to_string(note).expect("likewise");
+    let lines: Vec<&str> = note.lines().collect();
+    assert!(
+        lines.len() == 2 && lines[0].starts_with("process "),
+        "{note}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn nobody_waits_for_ever_and_who_waits_says_for_whom() {
     let folder = Folder::new("suspended");
     let home = folder.sub("home");
-    let own = home.join(".cache/branched-pendulum");
-    fs::create_dir_all(&own).expect("the folder is this test's own");
-    // Held as by a process that is suspended while it derives.
-    let held = File::create(own.join("derivation.lock")).expect("likewise");
-    held.lock().expect("nobody else knows it");
-    fs::write(own.join("derivation.holder"), "process 7 (package `slow`)").expect("likewise");
+    let (held, note) = held(&home);
+    fs::write(note, "process 7 (package `slow`)").expect("likewise");
     let start = Instant::now();
     let mut command = derivation(&home);
     command.env("BRANCHED_PENDULUM_WAIT", "4");

@@ -3,6 +3,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::functions::{Argument, Cause, Counting, EntryState, Purpose};
+use crate::mechanics::superscript;
 use crate::program::Entry;
 use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
@@ -239,7 +240,7 @@ impl Emission<'_> {
                     // Between two copies only even orders occur.
                     Counting::Amplitude => (
                         "the amplitude of the differences, angles and momenta alike",
-                        format!("Remainder O(ε{}), at pairs one order better.", exponent(order + 1)),
+                        format!("Remainder O(ε{}), at pairs one order better.", superscript(order + 1)),
                     ),
                 };
                 vec![
@@ -357,13 +358,4 @@ pub(super) fn wrapped_names(names: &[&str]) -> String {
     } else {
         format!("{}.", listed.join(", "))
     }
-}
-
-fn exponent(number: u32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digits = number.to_string();
-    let digits = digits
-        .bytes()
-        .map(|digit| DIGITS[usize::from(digit - b'0')]);
-    digits.collect()
 }

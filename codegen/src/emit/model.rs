@@ -136,7 +136,7 @@ impl Emission<'_> {
             self.scene
                 .requirements
                 .iter()
-                .any(|r| r.quantity == Quantity::Parameter(ParameterId(index)))
+                .any(|r| r.quantity == Quantity::parameter(ParameterId(index)))
         };
         let finite = self
             .scene

@@ -3,7 +3,7 @@
 use super::Emission;
 use super::tokens::{Binding, float};
 use crate::exact::Rational;
-use crate::scene::Quantity;
+use crate::scene::{Quantity, QuantityAtom};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
@@ -21,8 +21,8 @@ impl Emission<'_> {
             parts.map(|part| self.bound_quantity(part)).collect()
         };
         match quantity {
-            Quantity::Exact(number) => double(number),
-            Quantity::Parameter(id) => {
+            Quantity::Atom(QuantityAtom::Exact(number)) => double(number),
+            Quantity::Atom(QuantityAtom::Parameter(id)) => {
                 let field = format_ident!("{}", self.scene.parameters[id.0].name);
                 (quote!(parameters.#field), Binding::Atom)
             }

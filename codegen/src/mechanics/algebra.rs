@@ -13,6 +13,7 @@ use super::expression::{Expr, SymbolId, Symbols};
 use super::lock::{DerivationLock, LockError};
 use super::work_limit::{MOST_TERMS, TooManyTerms};
 use crate::exact::Rational;
+use crate::scene::RationalExpression;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -165,6 +166,34 @@ impl Formula {
                 .fold(Self::integer(1), |product, factor| product * factor),
             Expr::Power(base, exponent) => Self::from_expr(base).pow(*exponent),
         }
+    }
+
+    /// The formula of an expression, given those of its atoms. `divisor` checks what is
+    /// divided by.
+    pub(super) fn of<A, E>(
+        expression: &RationalExpression<A>,
+        atom: &mut impl FnMut(&A) -> Result<Self, E>,
+        divisor: &impl Fn(Self) -> Result<Self, E>,
+    ) -> Result<Self, E> {
+        let mut at = |part: &RationalExpression<A>| Self::of(part, atom, divisor);
+        Ok(match expression {
+            RationalExpression::Atom(own) => atom(own)?,
+            RationalExpression::Sum(members) => {
+                let members: Result<Vec<_>, E> = members.iter().map(at).collect();
+                members?.into_iter().sum()
+            }
+            RationalExpression::Product(factors) => {
+                let one = Self::integer(1);
+                let mut factors = factors.iter().map(at);
+                factors.try_fold(one, |product, factor| Ok(product * factor?))?
+            }
+            RationalExpression::Quotient(above, below) => at(above)? / divisor(at(below)?)?,
+            RationalExpression::Power(base, exponent) if *exponent < 0 => {
+                divisor(at(base)?)?.pow(*exponent)
+            }
+            RationalExpression::Power(base, exponent) => at(base)?.pow(*exponent),
+            RationalExpression::Negative(value) => -at(value)?,
+        })
     }
 
     /// An integer power.

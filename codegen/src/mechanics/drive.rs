@@ -12,8 +12,9 @@ use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::letters;
 use super::print::{latex, text};
-use crate::scene::{Signal, TimeFunction};
+use crate::scene::{Signal, SignalAtom, TimeFunction};
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 
 /// Meaning of a symbol that depends on time alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,19 +185,10 @@ impl Derivation<'_> {
 
     /// A function of time as a formula in t, sines and cosines.
     fn signal(&mut self, signal: &Signal) -> Formula {
-        match signal {
-            Signal::Constant(value) => self.quantity(value),
-            Signal::Time => Formula::symbol(self.time()),
-            Signal::Sum(members) => members.iter().map(|member| self.signal(member)).sum(),
-            Signal::Product(factors) => factors
-                .iter()
-                .map(|factor| self.signal(factor))
-                .fold(Formula::integer(1), |product, factor| product * factor),
-            Signal::Power(base, exponent) => {
-                let base = self.signal(base);
-                (0..*exponent).fold(Formula::integer(1), |power, _| &power * &base)
-            }
-            Signal::Function(function, argument) => {
+        let mut atom = |atom: &SignalAtom| match atom {
+            SignalAtom::Constant(value) => self.quantity(value),
+            SignalAtom::Time => Formula::symbol(self.time()),
+            SignalAtom::Function(function, argument) => {
                 let argument = self.signal(argument).expand();
                 if argument.is_zero() {
                     return Formula::integer(i64::from(*function == TimeFunction::Cos));
@@ -207,7 +199,9 @@ impl Derivation<'_> {
                     TimeFunction::Cos => cos,
                 })
             }
-        }
+        };
+        let Ok(formula) = Formula::of(signal, &mut |own| Ok(atom(own)), &Ok::<_, Infallible>);
+        formula
     }
 
     fn time(&mut self) -> SymbolId {

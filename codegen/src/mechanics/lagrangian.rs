@@ -7,7 +7,8 @@ use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::friction::DerivedTorque;
 use super::letters;
-use crate::scene::{Link, LinkId, Offset, Quantity};
+use crate::scene::{Link, LinkId, Offset, Quantity, QuantityAtom};
+use std::convert::Infallible;
 
 impl Derivation<'_> {
     /// The Lagrangian in absolute angles: the mass matrix from the velocities
@@ -268,20 +269,12 @@ impl Derivation<'_> {
 
     /// A quantity of the description as a formula in its parameters.
     pub(super) fn quantity(&self, quantity: &Quantity) -> Formula {
-        match quantity {
-            Quantity::Exact(number) => Formula::number(number),
-            Quantity::Parameter(id) => Formula::symbol(self.parameters[id.0]),
-            Quantity::Sum(parts) => parts.iter().map(|part| self.quantity(part)).sum(),
-            Quantity::Product(parts) => parts
-                .iter()
-                .map(|part| self.quantity(part))
-                .fold(Formula::integer(1), |product, factor| product * factor),
-            Quantity::Quotient(numerator, denominator) => {
-                &self.quantity(numerator) / &self.quantity(denominator)
-            }
-            Quantity::Power(base, exponent) => self.quantity(base).pow(*exponent),
-            Quantity::Negative(value) => -self.quantity(value),
-        }
+        let atom = |atom: &QuantityAtom| match atom {
+            QuantityAtom::Exact(number) => Formula::number(number),
+            QuantityAtom::Parameter(id) => Formula::symbol(self.parameters[id.0]),
+        };
+        let Ok(formula) = Formula::of(quantity, &mut |own| Ok(atom(own)), &Ok::<_, Infallible>);
+        formula
     }
 
     /// A named constant of the model with its value; zero stays zero and is

@@ -9,14 +9,14 @@ use std::fmt;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use directories::BaseDirs;
 
-/// Environment variable with the longest time to wait for one holder, in seconds.
+/// Environment variable with the longest time to wait for one derivation, in seconds.
 const WAIT_VARIABLE: &str = "BRANCHED_PENDULUM_WAIT";
 
-/// Longest time to wait for one holder where the variable is not set.
+/// Longest time to wait for one derivation where the variable is not set.
 const WAIT: Duration = Duration::from_secs(120);
 
 /// Time after which a waiting process says for whom it waits.
@@ -121,19 +121,24 @@ fn open(path: &Path) -> io::Result<File> {
         .open(path)
 }
 
-/// Description of this process for those that wait for it.
+/// Description of this process for those that wait for it, and a second line that tells its
+/// derivations apart.
 fn description() -> String {
     let id = std::process::id();
+    let begun = SystemTime::now().duration_since(UNIX_EPOCH);
+    let begun = begun.unwrap_or_default().as_nanos();
     match std::env::var("CARGO_PKG_NAME") {
-        Ok(package) => format!("process {id} (package `{package}`)"),
-        Err(_) => format!("process {id}"),
+        Ok(package) => format!("process {id} (package `{package}`)\n{begun}"),
+        Err(_) => format!("process {id}\n{begun}"),
     }
 }
 
 /// A process that waits for others.
 struct Waiting {
+    start: Instant,
+    /// Description of the derivation that runs.
     holder: String,
-    /// Time since which that holder has been seen.
+    /// Time since which it has been seen.
     since: Instant,
     limit: Duration,
     noticed: bool,
@@ -143,32 +148,31 @@ impl Waiting {
     fn new() -> Self {
         let seconds = std::env::var(WAIT_VARIABLE).ok();
         let seconds = seconds.and_then(|text| text.trim().parse().ok());
+        let start = Instant::now();
         Self {
+            start,
             holder: String::new(),
-            since: Instant::now(),
+            since: start,
             limit: seconds.map_or(WAIT, Duration::from_secs),
             noticed: false,
         }
     }
 
-    /// Sleeps until the next attempt. Fails once one holder took the limit.
+    /// Sleeps until the next attempt. Fails once one derivation took the limit: a process of
+    /// many is not suspended.
     fn pause(&mut self, note: &Path) -> Result<(), LockError> {
         let holder = std::fs::read_to_string(note).unwrap_or_default();
         if holder != self.holder {
             (self.holder, self.since) = (holder, Instant::now());
         }
-        let waited = self.since.elapsed();
-        let holder = match self.holder.as_str() {
-            "" => "another process",
-            known => known,
-        };
-        if waited > self.limit {
+        let holder = self.holder.lines().next().unwrap_or("another process");
+        if self.since.elapsed() > self.limit {
             return Err(LockError::Held {
                 holder: holder.to_owned(),
                 seconds: self.limit.as_secs(),
             });
         }
-        if waited > NOTICE && !self.noticed {
+        if self.start.elapsed() > NOTICE && !self.noticed {
             self.noticed = true;
             eprintln!("branched-pendulum: waiting for the derivation of {holder}");
         }

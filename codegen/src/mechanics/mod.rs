@@ -50,6 +50,7 @@ pub use observables::{
     ObservableFrame, Observables,
 };
 pub use positions::{LinkPositions, RelativePosition};
+pub(crate) use print::superscript;
 pub use print::{latex, text};
 pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};

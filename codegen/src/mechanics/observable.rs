@@ -6,7 +6,7 @@ use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::print;
 use crate::scene::{
-    Coordinate, CoordinateIndex, Function, LinkId, Observed, Variable, VariableKind,
+    Coordinate, CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Variable, VariableKind,
 };
 
 /// Meaning of a symbol that stands for a function of an expression.
@@ -82,57 +82,39 @@ impl Derivation<'_> {
         setting: &Setting<'_>,
         observed: &Observed,
     ) -> Result<Formula, AlgebraError> {
-        Ok(match observed {
-            Observed::Known(quantity) => self.quantity(quantity),
-            Observed::Variable(variable) => setting.variable(variable),
-            Observed::Constant(name) => self.constant_called(name),
-            Observed::KineticEnergy if setting.frame.has_symbols_alone() => {
+        let divisor = |below: Formula| setting.divisor(below);
+        Formula::of(
+            observed,
+            &mut |atom| self.observed_atom(setting, atom),
+            &divisor,
+        )
+    }
+
+    fn observed_atom(
+        &mut self,
+        setting: &Setting<'_>,
+        atom: &ObservedAtom,
+    ) -> Result<Formula, AlgebraError> {
+        Ok(match atom {
+            ObservedAtom::Known(quantity) => self.quantity(quantity),
+            ObservedAtom::Variable(variable) => setting.variable(variable),
+            ObservedAtom::Constant(name) => self.constant_called(name),
+            ObservedAtom::KineticEnergy if setting.frame.has_symbols_alone() => {
                 Formula::symbol(self.energies(setting.frame).kinetic)
             }
-            Observed::PotentialEnergy if setting.frame.has_symbols_alone() => {
+            ObservedAtom::PotentialEnergy if setting.frame.has_symbols_alone() => {
                 Formula::symbol(self.energies(setting.frame).potential)
             }
-            Observed::KineticEnergy => {
+            ObservedAtom::KineticEnergy => {
                 let terms = setting.frame.kinetic_terms().map(|(_, _, term)| term);
                 terms.sum::<Formula>().expand()
             }
-            Observed::PotentialEnergy => setting.frame.potential.clone(),
-            Observed::Sum(members) => {
-                let members = self.all_observed(setting, members)?;
-                members.into_iter().sum()
-            }
-            Observed::Product(factors) => {
-                let factors = self.all_observed(setting, factors)?;
-                factors
-                    .into_iter()
-                    .fold(Formula::integer(1), |product, factor| product * factor)
-            }
-            Observed::Quotient(above, below) => {
-                let above = self.observed(setting, above)?;
-                above / setting.divisor(self.observed(setting, below)?)?
-            }
-            Observed::Power(base, exponent) if *exponent < 0 => {
-                let base = self.observed(setting, base)?;
-                setting.divisor(base)?.pow(*exponent)
-            }
-            Observed::Power(base, exponent) => self.observed(setting, base)?.pow(*exponent),
-            Observed::Negative(value) => -self.observed(setting, value)?,
-            Observed::Call(function, argument) => {
+            ObservedAtom::PotentialEnergy => setting.frame.potential.clone(),
+            ObservedAtom::Call(function, argument) => {
                 let argument = self.observed(setting, argument)?;
                 self.call(setting, *function, argument)
             }
         })
-    }
-
-    fn all_observed(
-        &mut self,
-        setting: &Setting<'_>,
-        parts: &[Observed],
-    ) -> Result<Vec<Formula>, AlgebraError> {
-        parts
-            .iter()
-            .map(|part| self.observed(setting, part))
-            .collect()
     }
 
     /// The model's constant of that name; zero if it has none.

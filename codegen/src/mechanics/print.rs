@@ -1,7 +1,6 @@
 //! Expressions as text and as LaTeX, for docs and for `branched-pendulum --stage`.
 
 use super::expression::{Expr, Symbols};
-use crate::exact::Rational;
 
 /// Spelling of the parts of an expression in one notation.
 struct Notation {
@@ -11,7 +10,7 @@ struct Notation {
 /// The expression in plain text: `μ cos(θ_2 − θ_1) ω_1² / (2 M)`.
 pub fn text(expr: &Expr, symbols: &Symbols) -> String {
     if let Expr::Number(number) = expr {
-        return number_text(number);
+        return number.to_string();
     }
     Notation { latex: false }.sum(expr, symbols)
 }
@@ -83,7 +82,7 @@ impl Notation {
 
     fn power(&self, base: &Expr, exponent: i32, symbols: &Symbols) -> String {
         let atom = match base {
-            Expr::Number(number) => number_text(number),
+            Expr::Number(number) => number.to_string(),
             Expr::Symbol(id) => {
                 let symbol = symbols.get(*id);
                 let spelled = if self.latex {
@@ -115,31 +114,21 @@ impl Notation {
     }
 
     fn exponent(&self, exponent: i32) -> String {
-        if self.latex {
-            return format!("^{{{exponent}}}");
+        match self.latex {
+            true => format!("^{{{exponent}}}"),
+            false => superscript(exponent),
         }
-        exponent
-            .to_string()
-            .chars()
-            .map(|digit| match digit {
-                '0' => '⁰',
-                '1' => '¹',
-                '2' => '²',
-                '3' => '³',
-                '4' => '⁴',
-                '5' => '⁵',
-                '6' => '⁶',
-                '7' => '⁷',
-                '8' => '⁸',
-                '9' => '⁹',
-                _ => '⁻',
-            })
-            .collect()
     }
 }
 
-fn number_text(number: &Rational) -> String {
-    number.to_string()
+/// A number in superscript: `²`, `⁻¹`.
+pub(crate) fn superscript(number: impl Into<i64>) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |digit: char| match digit.to_digit(10) {
+        Some(digit) => DIGITS[digit as usize],
+        None => '⁻',
+    };
+    number.into().to_string().chars().map(raised).collect()
 }
 
 /// A snake-case name inside `\mathrm{}`.

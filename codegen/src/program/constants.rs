@@ -275,11 +275,15 @@ impl Setup {
         } else {
             wanted
         };
-        let uses = self.names.entry(wanted.clone()).or_default();
-        *uses += 1;
-        match *uses {
-            1 => wanted,
-            count => format!("{wanted}_{count}"),
+        // A name with a number may be another constant's own: that of a link's copy.
+        let mut name = wanted.clone();
+        let mut count = self.names.get(&wanted).copied().unwrap_or(0);
+        while self.names.contains_key(&name) {
+            count += 1;
+            name = format!("{wanted}_{count}");
         }
+        self.names.insert(wanted, count.max(1));
+        self.names.entry(name.clone()).or_insert(1);
+        name
     }
 }

@@ -55,11 +55,6 @@ type Over = fn(Program) -> Program;
 pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::common_factors)];
 
 impl Pass {
-    /// The pass of that name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|pass| pass.name() == name)
-    }
-
     /// Returns true if the pass changes the operations of a function; if not,
     /// it changes only how they are written.
     fn is_counted(self) -> bool {

@@ -1,7 +1,7 @@
 //! The drive: torque and motion from outside, as functions of time.
 
-use super::values::{Usage, Values};
-use super::{Quantity, Sign};
+use super::values::{Usage, Values, all};
+use super::{Quantity, RationalExpression, Sign};
 use crate::description::{self, Expression, ExpressionKind, Property, TIME, Value};
 use crate::named_members::named_members;
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
@@ -18,20 +18,17 @@ pub struct Drive<V = Quantity> {
     pub y: Option<Signal<V>>,
 }
 
-/// A function of time that is smooth at every time: nothing that depends on
-/// time is divided by.
+/// A function of time that is smooth at every time: nothing that depends on time is divided
+/// by. What reads the drive forms no quotient, and no power with a negative exponent.
+pub type Signal<V = Quantity> = RationalExpression<SignalAtom<V>>;
+
+/// What functions of time are formed of.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Signal<V = Quantity> {
+pub enum SignalAtom<V = Quantity> {
     /// A value that does not change.
     Constant(V),
     /// Time, s.
     Time,
-    /// A sum of two or more members.
-    Sum(Vec<Signal<V>>),
-    /// A product of two or more factors.
-    Product(Vec<Signal<V>>),
-    /// A power, not negative.
-    Power(Box<Signal<V>>, u32),
     /// A function of an angle in rad.
     Function(TimeFunction, Box<Signal<V>>),
 }
@@ -116,7 +113,7 @@ fn signal(
 ) -> Option<Signal> {
     if is_plain(expression) {
         let value = values.evaluate(expression, usage, report)?;
-        return Some(Signal::Constant(value));
+        return Some(Signal::Atom(SignalAtom::Constant(value)));
     }
     part(expression, usage, values, report)
 }
@@ -147,17 +144,15 @@ fn part(
     Some(match &expression.kind {
         _ if is_plain(expression) => {
             let value = values.operand(expression, usage, report)?;
-            Signal::Constant(values.accept(value, usage, expression.span, report)?)
+            let value = values.accept(value, usage, expression.span, report)?;
+            Signal::Atom(SignalAtom::Constant(value))
         }
-        ExpressionKind::Number(_) | ExpressionKind::Name(_) => Signal::Time,
-        ExpressionKind::Sum(members) => {
-            let members: Vec<Option<Signal>> = members.iter().map(inner).collect();
-            Signal::Sum(members.into_iter().collect::<Option<_>>()?)
-        }
+        ExpressionKind::Number(_) | ExpressionKind::Name(_) => Signal::Atom(SignalAtom::Time),
+        ExpressionKind::Sum(members) => Signal::Sum(all(members.iter().map(inner))?),
         ExpressionKind::Product { factors, divisors } => {
-            let factors: Vec<Option<Signal>> = factors.iter().map(inner).collect();
+            let factors = all(factors.iter().map(inner));
             let divisor = divisor(divisors, usage, values, report);
-            let mut factors: Vec<Signal> = factors.into_iter().collect::<Option<_>>()?;
+            let mut factors = factors?;
             factors.extend(divisor?);
             match factors.pop() {
                 Some(only) if factors.is_empty() => only,
@@ -168,27 +163,26 @@ fn part(
             }
         }
         ExpressionKind::Power(base, exponent) => {
-            let Ok(exponent) = u32::try_from(*exponent) else {
+            if *exponent < 0 {
                 report.error(expression.span, ValueMessage::TimeDivisor);
                 return None;
-            };
-            Signal::Power(Box::new(inner(base)?), exponent)
+            }
+            Signal::Power(Box::new(inner(base)?), *exponent)
         }
         ExpressionKind::Negative(value) => {
-            let minus = Signal::Constant(Quantity::integer(-1));
+            let minus = Signal::Atom(SignalAtom::Constant(Quantity::integer(-1)));
             Signal::Product(vec![minus, inner(value)?])
         }
         ExpressionKind::Call { function, argument } => {
             let argument = inner(argument);
             let name = function.to_string();
-            let mut functions = TimeFunction::ALL.into_iter();
-            let Some(known) = functions.find(|known| known.name() == name) else {
+            let Some(known) = TimeFunction::named(&name) else {
                 let nearest = nearest(&name, &TimeFunction::ALL.map(TimeFunction::name));
                 let span = function.span();
                 report.error(span, ValueMessage::DriveFunction { name, nearest });
                 return None;
             };
-            Signal::Function(known, Box::new(argument?))
+            Signal::Atom(SignalAtom::Function(known, Box::new(argument?)))
         }
     })
 }
@@ -215,7 +209,7 @@ fn divisor(
         };
         product = quotient;
     }
-    Some((!divisors.is_empty()).then_some(Signal::Constant(product)))
+    Some((!divisors.is_empty()).then_some(Signal::Atom(SignalAtom::Constant(product))))
 }
 
 impl<V> Drive<V> {
@@ -233,16 +227,15 @@ impl<V> Drive<V> {
 impl<V> Signal<V> {
     /// The function with constants that are formed of its own.
     pub fn map<W>(&self, formed: &impl Fn(&V) -> W) -> Signal<W> {
-        let all = |parts: &[Self]| parts.iter().map(|part| part.map(formed)).collect();
-        let one = |part: &Self| Box::new(part.map(formed));
-        match self {
-            Self::Constant(value) => Signal::Constant(formed(value)),
-            Self::Time => Signal::Time,
-            Self::Sum(members) => Signal::Sum(all(members)),
-            Self::Product(factors) => Signal::Product(all(factors)),
-            Self::Power(base, exponent) => Signal::Power(one(base), *exponent),
-            Self::Function(function, angle) => Signal::Function(*function, one(angle)),
-        }
+        self.substitute(&|atom| {
+            Signal::Atom(match atom {
+                SignalAtom::Constant(value) => SignalAtom::Constant(formed(value)),
+                SignalAtom::Time => SignalAtom::Time,
+                SignalAtom::Function(function, angle) => {
+                    SignalAtom::Function(*function, Box::new(angle.map(formed)))
+                }
+            })
+        })
     }
 }
 

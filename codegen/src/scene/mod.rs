@@ -27,6 +27,7 @@ mod prescribed;
 mod probe;
 mod properties;
 mod quantity;
+mod rational_expression;
 mod reduced_body;
 mod reduction;
 mod requests;
@@ -44,16 +45,18 @@ mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
-pub use drive::{Drive, Signal, TimeFunction};
+pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
 pub use names::is_keyword;
 pub use observables::{
-    CoordinateIndex, Function, Observable, ObservableForm, Observed, Variable, VariableKind,
+    CoordinateIndex, Function, Observable, ObservableForm, Observed, ObservedAtom, Variable,
+    VariableKind,
 };
 pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use passive::{FrictionLaw, FrictionPlace, PassiveTorques};
-pub use quantity::Quantity;
+pub use quantity::{Quantity, QuantityAtom};
+pub use rational_expression::RationalExpression;
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};

@@ -2,22 +2,25 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::{Observed, Parameter, ParameterId, Quantity, Signal};
+use super::observables::ObservedAtom;
+use super::{Parameter, ParameterId, QuantityAtom, RationalExpression, SignalAtom};
 use crate::description::TIME;
 use crate::exact::Rational;
 
+/// What can be written in the attribute's notation.
+pub trait Shown {
+    /// The value on its way to text. `parameters` are those of the scene.
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression;
+}
+
 /// An expression on its way to text.
-enum ShownExpression {
-    /// A name, or a number in decimals.
-    Atom(String),
-    /// A number as a fraction.
-    Fraction(String),
-    Sum(Vec<ShownExpression>),
-    Product(Vec<ShownExpression>),
-    Quotient(Box<ShownExpression>, Box<ShownExpression>),
-    Power(Box<ShownExpression>, i64),
-    Negative(Box<ShownExpression>),
-    Call(&'static str, Box<ShownExpression>),
+type ShownExpression = RationalExpression<ShownAtom>;
+
+/// A part of an expression as text.
+pub struct ShownAtom {
+    text: String,
+    /// The tightest place in which it needs no parentheses.
+    binding: Precedence,
 }
 
 /// Surroundings of an expression in the text, from loosest to tightest.
@@ -29,26 +32,86 @@ enum Precedence {
     Base,
 }
 
+impl<A: Shown> RationalExpression<A> {
+    /// The value as text. `parameters` are those of the scene.
+    pub fn display(&self, parameters: &[Parameter]) -> impl Display {
+        self.shown(parameters)
+    }
+}
+
+impl<A: Shown> Shown for RationalExpression<A> {
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        self.substitute(&|atom| atom.shown(parameters))
+    }
+}
+
+impl Shown for QuantityAtom {
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        match self {
+            Self::Exact(number) => ShownExpression::number(number),
+            Self::Parameter(ParameterId(index)) => match parameters.get(*index) {
+                Some(parameter) => ShownExpression::whole(&parameter.name),
+                None => ShownExpression::whole(format!("parameter_{index}")),
+            },
+        }
+    }
+}
+
+impl Shown for ObservedAtom {
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        match self {
+            Self::Known(quantity) => quantity.shown(parameters),
+            Self::Variable(variable) => ShownExpression::whole(&variable.name),
+            Self::Constant(name) => ShownExpression::whole(name),
+            Self::KineticEnergy => ShownExpression::whole("kinetic_energy"),
+            Self::PotentialEnergy => ShownExpression::whole("potential_energy"),
+            Self::Call(function, argument) => {
+                ShownExpression::call(function.name(), argument.shown(parameters))
+            }
+        }
+    }
+}
+
+impl Shown for SignalAtom {
+    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
+        match self {
+            Self::Constant(quantity) => quantity.shown(parameters),
+            Self::Time => ShownExpression::whole(TIME),
+            Self::Function(function, angle) => {
+                ShownExpression::call(function.name(), angle.shown(parameters))
+            }
+        }
+    }
+}
+
 impl ShownExpression {
+    fn whole(text: impl Into<String>) -> Self {
+        let (text, binding) = (text.into(), Precedence::Base);
+        Self::Atom(ShownAtom { text, binding })
+    }
+
+    fn call(function: &str, argument: Self) -> Self {
+        Self::whole(format!("{function}({argument})"))
+    }
+
     fn number(number: &Rational) -> Self {
         if number.is_negative() {
             return Self::Negative(Box::new(Self::number(&-number)));
         }
         let text = number.to_string();
-        match text.contains('/') {
-            true => Self::Fraction(text),
-            false => Self::Atom(text),
-        }
+        let binding = match text.contains('/') {
+            true => Precedence::Term,
+            false => Precedence::Base,
+        };
+        Self::Atom(ShownAtom { text, binding })
     }
 
     /// The tightest place in which the expression needs no parentheses.
     fn binding(&self) -> Precedence {
         match self {
-            Self::Atom(_) | Self::Call(..) => Precedence::Base,
+            Self::Atom(atom) => atom.binding,
             Self::Power(..) => Precedence::Factor,
-            Self::Fraction(_) | Self::Product(_) | Self::Quotient(..) | Self::Negative(_) => {
-                Precedence::Term
-            }
+            Self::Product(_) | Self::Quotient(..) | Self::Negative(_) => Precedence::Term,
             Self::Sum(_) => Precedence::Sum,
         }
     }
@@ -64,7 +127,7 @@ impl ShownExpression {
 impl Display for ShownExpression {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Atom(text) | Self::Fraction(text) => f.write_str(text),
+            Self::Atom(atom) => f.write_str(&atom.text),
             Self::Sum(members) => {
                 for (index, member) in members.iter().enumerate() {
                     let (sign, member) = match member {
@@ -97,82 +160,6 @@ impl Display for ShownExpression {
                 f.write_str("-")?;
                 value.write(Precedence::Term, f)
             }
-            Self::Call(function, argument) => write!(f, "{function}({argument})"),
-        }
-    }
-}
-
-impl Quantity {
-    /// The value as text. `parameters` are those of the scene.
-    pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.shown(parameters)
-    }
-
-    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
-        let one = |value: &Self| Box::new(value.shown(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
-        match self {
-            Self::Exact(number) => ShownExpression::number(number),
-            Self::Parameter(ParameterId(index)) => {
-                ShownExpression::Atom(match parameters.get(*index) {
-                    Some(parameter) => parameter.name.clone(),
-                    None => format!("parameter_{index}"),
-                })
-            }
-            Self::Sum(members) => ShownExpression::Sum(all(members)),
-            Self::Product(factors) => ShownExpression::Product(all(factors)),
-            Self::Quotient(dividend, divisor) => {
-                ShownExpression::Quotient(one(dividend), one(divisor))
-            }
-            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
-            Self::Negative(value) => ShownExpression::Negative(one(value)),
-        }
-    }
-}
-
-impl Observed {
-    /// The value as text. `parameters` are those of the scene.
-    pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.shown(parameters)
-    }
-
-    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
-        let one = |value: &Self| Box::new(value.shown(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
-        match self {
-            Self::Known(quantity) => quantity.shown(parameters),
-            Self::Variable(variable) => ShownExpression::Atom(variable.name.clone()),
-            Self::Constant(name) => ShownExpression::Atom(name.clone()),
-            Self::KineticEnergy => ShownExpression::Atom("kinetic_energy".into()),
-            Self::PotentialEnergy => ShownExpression::Atom("potential_energy".into()),
-            Self::Sum(members) => ShownExpression::Sum(all(members)),
-            Self::Product(factors) => ShownExpression::Product(all(factors)),
-            Self::Quotient(dividend, divisor) => {
-                ShownExpression::Quotient(one(dividend), one(divisor))
-            }
-            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
-            Self::Negative(value) => ShownExpression::Negative(one(value)),
-            Self::Call(function, argument) => ShownExpression::Call(function.name(), one(argument)),
-        }
-    }
-}
-
-impl Signal {
-    /// The function of time as text. `parameters` are those of the scene.
-    pub fn display(&self, parameters: &[Parameter]) -> impl Display {
-        self.shown(parameters)
-    }
-
-    fn shown(&self, parameters: &[Parameter]) -> ShownExpression {
-        let one = |value: &Self| Box::new(value.shown(parameters));
-        let all = |values: &[Self]| values.iter().map(|v| v.shown(parameters)).collect();
-        match self {
-            Self::Constant(quantity) => quantity.shown(parameters),
-            Self::Time => ShownExpression::Atom(TIME.into()),
-            Self::Sum(members) => ShownExpression::Sum(all(members)),
-            Self::Product(factors) => ShownExpression::Product(all(factors)),
-            Self::Power(base, exponent) => ShownExpression::Power(one(base), i64::from(*exponent)),
-            Self::Function(function, angle) => ShownExpression::Call(function.name(), one(angle)),
         }
     }
 }

@@ -4,11 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
+use self::ObservedAtom::Known;
 use super::names::{check_observable, irrational};
 use super::symbols::{Meaning, ObservableSymbols};
-use super::values::{message_for, unrepresentable};
-use super::{Quantity, Scene};
+use super::values::{all, message_for, unrepresentable};
+use super::{Quantity, RationalExpression, Scene};
 use crate::description::{self, Expression, ExpressionKind};
+use crate::exact::ExactError;
 use crate::functions::is_method;
 use crate::named_members::named_members;
 use crate::report::{Faults, Message, OutputMessage, TreeMessage, ValueMessage, nearest};
@@ -22,9 +24,13 @@ pub struct Observable {
     pub value: Observed,
 }
 
-/// An expression in the symbols of the scene. No divisor is identically zero.
+/// An expression in the symbols of the scene. Sums, products, quotients and powers of
+/// what is known are one [`ObservedAtom::Known`].
+pub type Observed = RationalExpression<ObservedAtom>;
+
+/// What observables are formed of.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Observed {
+pub enum ObservedAtom {
     /// Numbers, parameters, gravity, and what is formed of them.
     Known(Quantity),
     /// A quantity that moves.
@@ -36,16 +42,6 @@ pub enum Observed {
     KineticEnergy,
     /// Potential energy, J.
     PotentialEnergy,
-    /// A sum.
-    Sum(Vec<Observed>),
-    /// A product.
-    Product(Vec<Observed>),
-    /// Dividend and divisor.
-    Quotient(Box<Observed>, Box<Observed>),
-    /// An integer power.
-    Power(Box<Observed>, i32),
-    /// The opposite.
-    Negative(Box<Observed>),
     /// A function of a value.
     Call(Function, Box<Observed>),
 }
@@ -95,22 +91,29 @@ named_members! {
 }
 
 impl Observed {
+    /// A value that is known.
+    pub(super) fn known(quantity: Quantity) -> Self {
+        Self::Atom(Known(quantity))
+    }
+
+    /// The value if it is known.
+    fn quantity(&self) -> Option<&Quantity> {
+        match self {
+            Self::Atom(Known(quantity)) => Some(quantity),
+            _ => None,
+        }
+    }
+
     /// Returns true if a variable that only the symmetric coordinates have
     /// occurs.
     pub fn is_symmetric(&self) -> bool {
-        match self {
-            Self::Variable(variable) => {
+        self.atoms().into_iter().any(|atom| match atom {
+            ObservedAtom::Variable(variable) => {
                 matches!(variable.coordinate, CoordinateIndex::Symmetric(_))
             }
-            Self::Known(_) | Self::Constant(_) | Self::KineticEnergy | Self::PotentialEnergy => {
-                false
-            }
-            Self::Sum(parts) | Self::Product(parts) => parts.iter().any(Self::is_symmetric),
-            Self::Quotient(a, b) => a.is_symmetric() || b.is_symmetric(),
-            Self::Power(inner, _) | Self::Negative(inner) | Self::Call(_, inner) => {
-                inner.is_symmetric()
-            }
-        }
+            ObservedAtom::Call(_, argument) => argument.is_symmetric(),
+            _ => false,
+        })
     }
 }
 
@@ -209,20 +212,27 @@ fn evaluate(
     symbols: &ObservableSymbols,
     report: &mut Faults,
 ) -> Option<Observed> {
+    let mut values =
+        |parts: &[Expression]| all(parts.iter().map(|part| evaluate(part, symbols, report)));
     let value = match &expression.kind {
-        ExpressionKind::Number(number) => Observed::Known(Quantity::Exact(number.clone())),
-        ExpressionKind::Name(name) => symbol(name, symbols, report)?,
+        ExpressionKind::Number(number) => Ok(Observed::known(Quantity::number(number.clone()))),
+        ExpressionKind::Name(name) => Ok(symbol(name, symbols, report)?),
         ExpressionKind::Sum(members) => {
-            let members = all(members, symbols, report)?;
-            match known(&members) {
-                Some(members) => Observed::Known(Quantity::sum(members)),
+            let members = values(members)?;
+            Ok(match known(&members) {
+                Some(members) => Observed::known(Quantity::sum(members)),
                 None => Observed::Sum(members),
-            }
+            })
         }
         ExpressionKind::Product { factors, divisors } => {
-            let above = all(factors, symbols, report);
-            let below = all(divisors, symbols, report);
-            quotient(expression, divisors, above?, below?, report)?
+            let (above, below) = (values(factors), values(divisors));
+            let (above, below) = (above?, below?);
+            if let Some(at) = below.iter().position(Observed::is_zero) {
+                let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
+                report.error(span, ValueMessage::DivisionByZero);
+                return None;
+            }
+            quotient(above, below)
         }
         ExpressionKind::Power(base, exponent) => {
             let value = evaluate(base, symbols, report)?;
@@ -231,81 +241,65 @@ fn evaluate(
                 return None;
             }
             match value {
-                Observed::Known(value) => match value.power(*exponent) {
-                    Ok(value) => Observed::Known(value),
-                    Err(error) => {
-                        report.error(expression.span, message_for(error));
-                        return None;
-                    }
-                },
-                value => Observed::Power(Box::new(value), *exponent),
+                Observed::Atom(Known(value)) => value.power(*exponent).map(Observed::known),
+                value => Ok(Observed::Power(Box::new(value), *exponent)),
             }
         }
-        ExpressionKind::Negative(value) => match evaluate(value, symbols, report)? {
-            Observed::Known(value) => Observed::Known(value.negative()),
+        ExpressionKind::Negative(value) => Ok(match evaluate(value, symbols, report)? {
+            Observed::Atom(Known(value)) => Observed::known(value.negative()),
             value => Observed::Negative(Box::new(value)),
-        },
+        }),
         ExpressionKind::Call { function, argument } => {
-            let name = function.to_string();
-            let mut functions = Function::ALL.into_iter();
-            let known = functions.find(|known| known.name() == name);
-            let value = evaluate(argument, symbols, report);
-            let Some(known) = known else {
-                let known = Function::ALL.map(Function::name).to_vec();
-                report.error(
-                    function.span(),
-                    OutputMessage::UnknownFunction { name, known },
-                );
-                return None;
-            };
-            let value = value?;
-            if let (Function::Sqrt, Observed::Known(Quantity::Exact(number))) = (known, &value)
-                && number.is_negative()
-            {
-                let message = ValueMessage::Negative {
-                    what: "argument of `sqrt`".to_owned(),
-                    value: number.to_string(),
-                };
-                report.error(argument.span, message);
-                return None;
-            }
-            Observed::Call(known, Box::new(value))
+            Ok(call(function, argument, symbols, report)?)
         }
     };
-    if let Observed::Known(quantity) = &value
-        && let Some(message) = unrepresentable(quantity)
+    let message = match value {
+        Ok(value) => match value.quantity().and_then(unrepresentable) {
+            Some(message) => message,
+            None if value.is_out_of_range() => ValueMessage::NumberRange,
+            None => return Some(value),
+        },
+        Err(error) => message_for(error),
+    };
+    report.error(expression.span, message);
+    None
+}
+
+/// A function of an expression.
+fn call(
+    function: &Ident,
+    argument: &Expression,
+    symbols: &ObservableSymbols,
+    report: &mut Faults,
+) -> Option<Observed> {
+    let name = function.to_string();
+    let value = evaluate(argument, symbols, report);
+    let Some(known) = Function::named(&name) else {
+        let known = Function::ALL.map(Function::name).to_vec();
+        let message = OutputMessage::UnknownFunction { name, known };
+        report.error(function.span(), message);
+        return None;
+    };
+    let value = value?;
+    if known == Function::Sqrt
+        && let Some(number) = value.quantity().and_then(Quantity::exact)
+        && number.is_negative()
     {
-        report.error(expression.span, message);
+        let message = ValueMessage::Negative {
+            what: "argument of `sqrt`".to_owned(),
+            value: number.to_string(),
+        };
+        report.error(argument.span, message);
         return None;
     }
-    if value.is_out_of_range() {
-        report.error(expression.span, ValueMessage::NumberRange);
-        return None;
-    }
-    Some(value)
+    Some(Observed::Atom(ObservedAtom::Call(known, Box::new(value))))
 }
 
 /// The product of `above` divided by that of `below`.
-fn quotient(
-    expression: &Expression,
-    divisors: &[Expression],
-    above: Vec<Observed>,
-    below: Vec<Observed>,
-    report: &mut Faults,
-) -> Option<Observed> {
-    if let Some(at) = below.iter().position(Observed::is_zero) {
-        let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
-        report.error(span, ValueMessage::DivisionByZero);
-        return None;
-    }
+fn quotient(above: Vec<Observed>, below: Vec<Observed>) -> Result<Observed, ExactError> {
     if let (Some(above), Some(below)) = (known(&above), known(&below)) {
-        return match Quantity::product(above).divided_by(Quantity::product(below)) {
-            Ok(value) => Some(Observed::Known(value)),
-            Err(error) => {
-                report.error(expression.span, message_for(error));
-                None
-            }
-        };
+        let quotient = Quantity::product(above).divided_by(Quantity::product(below));
+        return quotient.map(Observed::known);
     }
     let product = |mut factors: Vec<Observed>| match (factors.pop(), factors.is_empty()) {
         (Some(only), true) => only,
@@ -314,40 +308,22 @@ fn quotient(
             Observed::Product(factors)
         }
     };
-    let empty = below.is_empty();
-    let (above, below) = (product(above), product(below));
-    Some(match empty {
-        true => above,
-        false => Observed::Quotient(Box::new(above), Box::new(below)),
+    Ok(match below.is_empty() {
+        true => product(above),
+        false => Observed::Quotient(Box::new(product(above)), Box::new(product(below))),
     })
 }
 
-/// Values of several expressions, all of them looked at even if one is wrong.
-fn all(
-    expressions: &[Expression],
-    symbols: &ObservableSymbols,
-    report: &mut Faults,
-) -> Option<Vec<Observed>> {
-    let values: Vec<Option<Observed>> = expressions
-        .iter()
-        .map(|expression| evaluate(expression, symbols, report))
-        .collect();
-    values.into_iter().collect()
-}
-
-/// The values as quantities, if none of them moves.
+/// The values as quantities, if all are known.
 fn known(values: &[Observed]) -> Option<Vec<Quantity>> {
-    let quantity = |value: &Observed| match value {
-        Observed::Known(quantity) => Some(quantity.clone()),
-        _ => None,
-    };
-    values.iter().map(quantity).collect()
+    let quantities = values.iter().map(|value| value.quantity().cloned());
+    quantities.collect()
 }
 
 fn symbol(name: &Ident, symbols: &ObservableSymbols, report: &mut Faults) -> Option<Observed> {
     let text = name.to_string();
     let message = match symbols.get(&text) {
-        Some(Meaning::One(value)) => return Some(value.clone()),
+        Some(Meaning::One(atom)) => return Some(Observed::Atom(atom.clone())),
         Some(Meaning::Several) => OutputMessage::AmbiguousSymbol { name: text }.into(),
         None => irrational(&text).map_or_else(
             || {

@@ -126,7 +126,7 @@ impl FrictionLaw {
 
 /// One hundredth of a radian a second.
 fn default_width() -> Quantity {
-    Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::Exact)
+    Rational::from_ratio(1, 100).map_or_else(Quantity::zero, Quantity::number)
 }
 
 impl PassiveTorques {

@@ -2,8 +2,8 @@
 //! tried at a few points in numbers, since the algebra comes later and may not divide
 //! by zero.
 
-use super::Quantity;
-use super::observables::{Function, Observed};
+use super::observables::{Function, Observed, ObservedAtom};
+use super::{Quantity, QuantityAtom, RationalExpression};
 use crate::exact::Rational;
 
 /// Points to try. A value that is not identically zero vanishes at all of them
@@ -61,8 +61,37 @@ impl Probe {
         }
     }
 
+    fn of(self, function: Function) -> Self {
+        let Self { value, size } = self;
+        match function {
+            Function::Sin => Self {
+                value: value.sin(),
+                size,
+            },
+            Function::Cos => Self::leaf(value.cos()),
+            // Of either sign: only whether it is zero matters.
+            Function::Sqrt => Self {
+                value: value.abs().sqrt(),
+                size: size.sqrt(),
+            },
+        }
+    }
+
     fn is_zero(self) -> bool {
         self.value.abs() <= 1e-13 * self.size
+    }
+}
+
+/// The probe of an expression, given those of its atoms.
+fn probe<A>(expression: &RationalExpression<A>, atom: &impl Fn(&A) -> Probe) -> Probe {
+    let at = |part: &RationalExpression<A>| probe(part, atom);
+    match expression {
+        RationalExpression::Atom(own) => atom(own),
+        RationalExpression::Sum(parts) => Probe::sum(parts.iter().map(at)),
+        RationalExpression::Product(parts) => Probe::product(parts.iter().map(at)),
+        RationalExpression::Quotient(above, below) => at(above).divided_by(at(below)),
+        RationalExpression::Power(base, exponent) => at(base).power(*exponent),
+        RationalExpression::Negative(inner) => at(inner).negative(),
     }
 }
 
@@ -80,34 +109,15 @@ impl Observed {
     }
 
     fn probe(&self, point: u64) -> Probe {
-        let at = |part: &Self| part.probe(point);
-        match self {
-            Self::Known(quantity) => quantity.probe(point),
-            Self::Variable(variable) => Probe::leaf(number(&variable.name, point)),
-            Self::Constant(name) => Probe::leaf(number(name, point)),
-            Self::KineticEnergy => Probe::leaf(number("kinetic_energy", point)),
-            Self::PotentialEnergy => Probe::leaf(number("potential_energy", point)),
-            Self::Sum(parts) => Probe::sum(parts.iter().map(at)),
-            Self::Product(parts) => Probe::product(parts.iter().map(at)),
-            Self::Quotient(above, below) => at(above).divided_by(at(below)),
-            Self::Power(base, exponent) => at(base).power(*exponent),
-            Self::Negative(inner) => at(inner).negative(),
-            Self::Call(function, inner) => {
-                let Probe { value, size } = at(inner);
-                match function {
-                    Function::Sin => Probe {
-                        value: value.sin(),
-                        size,
-                    },
-                    Function::Cos => Probe::leaf(value.cos()),
-                    // Of either sign: only whether it is zero matters.
-                    Function::Sqrt => Probe {
-                        value: value.abs().sqrt(),
-                        size: size.sqrt(),
-                    },
-                }
-            }
-        }
+        let named = |name: &str| Probe::leaf(number(name, point));
+        probe(self, &|atom| match atom {
+            ObservedAtom::Known(quantity) => quantity.probe(point),
+            ObservedAtom::Variable(variable) => named(&variable.name),
+            ObservedAtom::Constant(name) => named(name),
+            ObservedAtom::KineticEnergy => named("kinetic_energy"),
+            ObservedAtom::PotentialEnergy => named("potential_energy"),
+            ObservedAtom::Call(function, inner) => inner.probe(point).of(*function),
+        })
     }
 }
 
@@ -120,16 +130,12 @@ impl Quantity {
     }
 
     fn probe(&self, point: u64) -> Probe {
-        let at = |part: &Self| part.probe(point);
-        match self {
-            Self::Exact(number) => Probe::leaf(number.to_f64()),
-            Self::Parameter(id) => Probe::leaf(number(&format!("parameter {}", id.0), point)),
-            Self::Sum(parts) => Probe::sum(parts.iter().map(at)),
-            Self::Product(parts) => Probe::product(parts.iter().map(at)),
-            Self::Quotient(above, below) => at(above).divided_by(at(below)),
-            Self::Power(base, exponent) => at(base).power(*exponent),
-            Self::Negative(inner) => at(inner).negative(),
-        }
+        probe(self, &|atom| {
+            Probe::leaf(match atom {
+                QuantityAtom::Exact(number) => number.to_f64(),
+                QuantityAtom::Parameter(id) => number(&format!("parameter {}", id.0), point),
+            })
+        })
     }
 
     /// The value for one choice of the parameters, of twenty bits and more each; None
@@ -137,8 +143,8 @@ impl Quantity {
     fn exact_probe(&self) -> Option<Rational> {
         let at = |part: &Self| part.exact_probe();
         match self {
-            Self::Exact(number) => Some(number.clone()),
-            Self::Parameter(id) => {
+            Self::Atom(QuantityAtom::Exact(number)) => Some(number.clone()),
+            Self::Atom(QuantityAtom::Parameter(id)) => {
                 let value = number(&format!("parameter {}", id.0), 0);
                 Some(Rational::from((value * f64::from(1 << 21)) as i64))
             }

@@ -1,48 +1,53 @@
 //! Values of a scene: exact numbers, parameters, and what is formed of them.
 
-use super::ParameterId;
+use self::QuantityAtom::Exact;
+use super::{ParameterId, RationalExpression};
 use crate::exact::{ExactError, Rational};
 
 /// A value in SI units, known exactly or in terms of parameters.
 ///
-/// The functions that build one fold: an expression of literals only is always
-/// [`Quantity::Exact`]; a sum or product holds at most one exact member, which
-/// comes first; nothing is multiplied by 0 or 1 or has 0 added; a sum that is 0
-/// for all parameters is 0; nothing is divided by an exact number. Members keep
-/// the order in which they were written.
+/// The functions that build one fold: an expression of literals only is always one
+/// number; a sum or product holds at most one number, which comes first; nothing is
+/// multiplied by 0 or 1 or has 0 added; a sum that is 0 for all parameters is 0; nothing
+/// is divided by a number; no power is 0 or 1; no number has a
+/// [`Negative`](RationalExpression::Negative) around it. Members keep the order in which
+/// they were written.
+pub type Quantity = RationalExpression<QuantityAtom>;
+
+/// What quantities are formed of.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Quantity {
+pub enum QuantityAtom {
     /// A number.
     Exact(Rational),
     /// A parameter of the model.
     Parameter(ParameterId),
-    /// A sum of two or more members.
-    Sum(Vec<Quantity>),
-    /// A product of two or more factors.
-    Product(Vec<Quantity>),
-    /// Dividend and divisor.
-    Quotient(Box<Quantity>, Box<Quantity>),
-    /// An integer power other than 0 and 1.
-    Power(Box<Quantity>, i32),
-    /// The opposite of a value that is not exact.
-    Negative(Box<Quantity>),
 }
 
 impl Quantity {
+    /// A number.
+    pub fn number(value: Rational) -> Self {
+        Self::Atom(Exact(value))
+    }
+
+    /// A parameter.
+    pub fn parameter(id: ParameterId) -> Self {
+        Self::Atom(QuantityAtom::Parameter(id))
+    }
+
     /// The number 0.
     pub fn zero() -> Self {
-        Self::Exact(Rational::zero())
+        Self::number(Rational::zero())
     }
 
     /// A whole number.
     pub fn integer(value: i64) -> Self {
-        Self::Exact(Rational::from(value))
+        Self::number(Rational::from(value))
     }
 
     /// The value where it is known exactly.
     pub fn exact(&self) -> Option<&Rational> {
         match self {
-            Self::Exact(value) => Some(value),
+            Self::Atom(Exact(value)) => Some(value),
             _ => None,
         }
     }
@@ -61,22 +66,18 @@ impl Quantity {
     fn sum_of(members: Vec<Self>) -> Self {
         let mut constant = Rational::zero();
         let mut rest = Vec::new();
+        let members = members.into_iter().flat_map(|member| match member {
+            Self::Sum(inner) => inner,
+            member => vec![member],
+        });
         for member in members {
             match member {
-                Self::Exact(value) => constant = constant + value,
-                Self::Sum(inner) => {
-                    for member in inner {
-                        match member {
-                            Self::Exact(value) => constant = constant + value,
-                            other => rest.push(other),
-                        }
-                    }
-                }
+                Self::Atom(Exact(value)) => constant = constant + value,
                 other => rest.push(other),
             }
         }
         if !constant.is_zero() {
-            rest.insert(0, Self::Exact(constant));
+            rest.insert(0, Self::number(constant));
         }
         match Self::collected(rest, Self::zero, Self::Sum) {
             sum @ Self::Sum(_) if sum.vanishes() => Self::zero(),
@@ -93,20 +94,16 @@ impl Quantity {
     fn product_of(factors: Vec<Self>) -> Self {
         let mut constant = Rational::one();
         let mut rest = Vec::new();
+        let factors = factors.into_iter().flat_map(|factor| match factor {
+            Self::Product(inner) => inner,
+            factor => vec![factor],
+        });
         for factor in factors {
             match factor {
-                Self::Exact(value) => constant = constant * value,
+                Self::Atom(Exact(value)) => constant = constant * value,
                 Self::Negative(inner) => {
                     constant = -constant;
                     rest.push(*inner);
-                }
-                Self::Product(inner) => {
-                    for factor in inner {
-                        match factor {
-                            Self::Exact(value) => constant = constant * value,
-                            other => rest.push(other),
-                        }
-                    }
                 }
                 other => rest.push(other),
             }
@@ -120,7 +117,7 @@ impl Quantity {
             return Self::Negative(Box::new(positive));
         }
         if !constant.is_one() {
-            rest.insert(0, Self::Exact(constant));
+            rest.insert(0, Self::number(constant));
         }
         Self::collected(rest, || Self::integer(1), Self::Product)
     }
@@ -140,7 +137,7 @@ impl Quantity {
     /// The opposite.
     pub fn negative(self) -> Self {
         match self {
-            Self::Exact(value) => Self::Exact(-value),
+            Self::Atom(Exact(value)) => Self::number(-value),
             Self::Negative(inner) => *inner,
             other => Self::product([Self::integer(-1), other]),
         }
@@ -152,11 +149,11 @@ impl Quantity {
     /// [`ExactError::DivisionByZero`] if `divisor` is known to be 0.
     pub fn divided_by(self, divisor: Self) -> Result<Self, ExactError> {
         match divisor {
-            Self::Exact(divisor) => {
+            Self::Atom(Exact(divisor)) => {
                 let inverse = Rational::one()
                     .checked_div(&divisor)
                     .ok_or(ExactError::DivisionByZero)?;
-                Ok(Self::product([self, Self::Exact(inverse)]))
+                Ok(Self::product([self, Self::number(inverse)]))
             }
             _ if self.is_zero() => Ok(self),
             divisor => Ok(Self::Quotient(Box::new(self), Box::new(divisor))),
@@ -171,7 +168,7 @@ impl Quantity {
     /// [short](Rational::is_short).
     pub fn power(self, exponent: i32) -> Result<Self, ExactError> {
         match (self, exponent) {
-            (Self::Exact(value), _) => value.checked_pow(exponent).map(Self::Exact),
+            (Self::Atom(Exact(value)), _) => value.checked_pow(exponent).map(Self::number),
             (_, 0) => Ok(Self::integer(1)),
             (value, 1) => Ok(value),
             (Self::Power(base, inner), _) => match inner.checked_mul(exponent) {
@@ -185,34 +182,5 @@ impl Quantity {
             }
             (value, _) => Ok(Self::Power(Box::new(value), exponent)),
         }
-    }
-
-    /// Calls `visit` with every number and parameter in the value, in the order
-    /// written.
-    pub fn for_each_leaf<'a>(&'a self, visit: &mut impl FnMut(&'a Self)) {
-        match self {
-            Self::Exact(_) | Self::Parameter(_) => visit(self),
-            Self::Sum(members) | Self::Product(members) => {
-                for member in members {
-                    member.for_each_leaf(visit);
-                }
-            }
-            Self::Quotient(dividend, divisor) => {
-                dividend.for_each_leaf(visit);
-                divisor.for_each_leaf(visit);
-            }
-            Self::Power(base, _) | Self::Negative(base) => base.for_each_leaf(visit),
-        }
-    }
-
-    /// Returns true if every number in the value rounds to a finite `f64`.
-    pub fn is_finite(&self) -> bool {
-        let mut finite = true;
-        self.for_each_leaf(&mut |leaf| {
-            finite &= leaf
-                .exact()
-                .is_none_or(|number| number.to_f64().is_finite());
-        });
-        finite
     }
 }

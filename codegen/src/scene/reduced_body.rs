@@ -10,7 +10,7 @@ use crate::exact::{ExactError, Rational};
 /// it hangs from.
 pub(super) fn turned(point: &Offset, angle: &Rational, pivot: &Offset) -> Offset {
     let (sine, cosine) = angle.sine_and_cosine();
-    let (sine, cosine) = (Quantity::Exact(sine), Quantity::Exact(cosine));
+    let (sine, cosine) = (Quantity::number(sine), Quantity::number(cosine));
     let times = |a: &Quantity, b: &Quantity| Quantity::product([a.clone(), b.clone()]);
     let Offset { along, lateral } = point;
     Offset {

@@ -286,7 +286,7 @@ fn lock(
             let PassiveTorques { spring, rest, .. } = &mut child.passive;
             if !spring.is_zero() {
                 // The spring's angle counts from the link that is now a part of another.
-                *rest = Quantity::sum([rest.clone(), Quantity::Exact(angle.clone())]);
+                *rest = Quantity::sum([rest.clone(), Quantity::number(angle.clone())]);
             }
         }
         match weld(&parent.body, link, angle) {

@@ -204,7 +204,7 @@ fn check_roots(description: &Description, report: &mut Faults) {
 fn resolve_solve(written: Option<&(Ident, Ident)>, report: &mut Faults) -> Option<Solve> {
     let (_, value) = written?;
     let name = value.to_string();
-    let found = Solve::ALL.into_iter().find(|solve| solve.name() == name);
+    let found = Solve::named(&name);
     if found.is_none() {
         let nearest = nearest(&name, &Solve::ALL.map(Solve::name));
         report.error(value.span(), SyntaxMessage::UnknownSolve { name, nearest });

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
-use super::observables::{CoordinateIndex, Observed, Variable, VariableKind};
+use super::observables::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
 use super::{FrictionPlace, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
 /// The meaning of a name.
 pub(super) enum Meaning {
     /// One quantity.
-    One(Observed),
+    One(ObservedAtom),
     /// A parameter of the user's and a symbol of ours.
     Several,
 }
@@ -47,17 +47,17 @@ impl ObservableSymbols {
             }
         }
         for name in constants(scene) {
-            symbols.add(name.clone(), Observed::Constant(name));
+            symbols.add(name.clone(), ObservedAtom::Constant(name));
         }
-        symbols.add("kinetic_energy".into(), Observed::KineticEnergy);
-        symbols.add("potential_energy".into(), Observed::PotentialEnergy);
-        let gravity = Observed::Known(scene.gravity.clone());
+        symbols.add("kinetic_energy".into(), ObservedAtom::KineticEnergy);
+        symbols.add("potential_energy".into(), ObservedAtom::PotentialEnergy);
+        let gravity = ObservedAtom::Known(scene.gravity.clone());
         symbols.add("gravity".into(), gravity);
         for (index, parameter) in scene.parameters.iter().enumerate() {
-            let quantity = Quantity::Parameter(ParameterId(index));
+            let quantity = Quantity::parameter(ParameterId(index));
             // `gravity = gravity` is no contradiction.
             if parameter.name != "gravity" || quantity != scene.gravity {
-                symbols.add(parameter.name.clone(), Observed::Known(quantity));
+                symbols.add(parameter.name.clone(), ObservedAtom::Known(quantity));
             }
         }
         symbols
@@ -75,14 +75,14 @@ impl ObservableSymbols {
                 kind,
                 coordinate,
             };
-            self.add(name, Observed::Variable(variable));
+            self.add(name, ObservedAtom::Variable(variable));
         }
     }
 
-    fn add(&mut self, name: String, value: Observed) {
+    fn add(&mut self, name: String, atom: ObservedAtom) {
         let meaning = match self.meanings.contains_key(&name) {
             true => Meaning::Several,
-            false => Meaning::One(value),
+            false => Meaning::One(atom),
         };
         self.meanings.insert(name, meaning);
     }
@@ -102,14 +102,14 @@ impl ObservableSymbols {
     /// Returns true if a name is that of a quantity that moves.
     pub(super) fn is_variable(&self, name: &str) -> bool {
         let meaning = self.get(name);
-        matches!(meaning, Some(Meaning::One(Observed::Variable(_))))
+        matches!(meaning, Some(Meaning::One(ObservedAtom::Variable(_))))
     }
 
     /// Returns true if a name is that of a constant of the model, which has a
     /// function to read it.
     pub(super) fn is_constant(&self, name: &str) -> bool {
         let meaning = self.get(name);
-        matches!(meaning, Some(Meaning::One(Observed::Constant(_))))
+        matches!(meaning, Some(Meaning::One(ObservedAtom::Constant(_))))
     }
 }
 

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use super::names::check_parameter;
-use super::{Parameter, ParameterId, Quantity, Requirement, Sign};
+use super::{Parameter, ParameterId, Quantity, QuantityAtom, Requirement, Sign};
 use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
@@ -93,14 +93,14 @@ impl Values {
             return None;
         }
         let Usage { what, sign, .. } = usage;
-        match &value {
-            Quantity::Exact(number) => {
+        match value.exact() {
+            Some(number) => {
                 if let Some(message) = violation(number, what, *sign) {
                     report.error(span, message);
                     return None;
                 }
             }
-            _ => {
+            None => {
                 let known = self
                     .requirements
                     .iter()
@@ -124,15 +124,14 @@ impl Values {
         usage: &Usage<'_>,
         report: &mut Faults,
     ) -> Option<Quantity> {
+        let mut operands =
+            |parts: &[Expression]| all(parts.iter().map(|part| self.operand(part, usage, report)));
         let value = match &expression.kind {
-            ExpressionKind::Number(number) => Ok(Quantity::Exact(number.clone())),
+            ExpressionKind::Number(number) => Ok(Quantity::number(number.clone())),
             ExpressionKind::Name(name) => return self.parameter(name, usage, false, report),
-            ExpressionKind::Sum(members) => {
-                Ok(Quantity::sum(self.operands(members, usage, report)?))
-            }
+            ExpressionKind::Sum(members) => Ok(Quantity::sum(operands(members)?)),
             ExpressionKind::Product { factors, divisors } => {
-                let factors = self.operands(factors, usage, report);
-                let values = self.operands(divisors, usage, report);
+                let (factors, values) = (operands(factors), operands(divisors));
                 let (factors, values) = (factors?, values?);
                 if let Some(at) = values.iter().position(Quantity::is_zero) {
                     let span = divisors.get(at).map_or(expression.span, |zero| zero.span);
@@ -152,7 +151,7 @@ impl Values {
             }
         };
         match value {
-            Ok(Quantity::Exact(number)) if !number.is_short() => {
+            Ok(value) if value.exact().is_some_and(|number| !number.is_short()) => {
                 report.error(expression.span, ValueMessage::NumberLength);
                 None
             }
@@ -162,20 +161,6 @@ impl Values {
                 None
             }
         }
-    }
-
-    /// Parts of an expression, all of them looked at even if one is wrong.
-    fn operands(
-        &mut self,
-        expressions: &[Expression],
-        usage: &Usage<'_>,
-        report: &mut Faults,
-    ) -> Option<Vec<Quantity>> {
-        let values: Vec<Option<Quantity>> = expressions
-            .iter()
-            .map(|expression| self.operand(expression, usage, report))
-            .collect();
-        values.into_iter().collect()
     }
 
     /// The parameter of a name. `alone` says that it is the whole value.
@@ -213,8 +198,14 @@ impl Values {
                 parameter.sign = parameter.sign.max(usage.sign);
             }
         }
-        Some(Quantity::Parameter(ParameterId(index)))
+        Some(Quantity::parameter(ParameterId(index)))
     }
+}
+
+/// The values, all of them formed even if one is wrong.
+pub(super) fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let values: Vec<Option<T>> = values.collect();
+    values.into_iter().collect()
 }
 
 /// Reports the declared parameters that no value names.
@@ -258,17 +249,15 @@ fn violation(number: &Rational, what: &str, sign: Sign) -> Option<ValueMessage> 
 /// The message about a value whose numbers are too long to go on with or do not
 /// fit an `f64`: silently they would become zero or infinite.
 pub(super) fn unrepresentable(value: &Quantity) -> Option<ValueMessage> {
-    let mut message = None;
-    value.for_each_leaf(&mut |leaf| {
-        let Quantity::Exact(number) = leaf else {
-            return;
+    value.atoms().into_iter().rev().find_map(|atom| {
+        let QuantityAtom::Exact(number) = atom else {
+            return None;
         };
         let rounded = number.to_f64();
         if !number.is_short() {
-            message = Some(ValueMessage::NumberLength);
-        } else if !rounded.is_finite() || (rounded == 0.0 && !number.is_zero()) {
-            message = Some(ValueMessage::NumberRange);
+            return Some(ValueMessage::NumberLength);
         }
-    });
-    message
+        let fits = rounded.is_finite() && (rounded != 0.0 || number.is_zero());
+        (!fits).then_some(ValueMessage::NumberRange)
+    })
 }

@@ -10,6 +10,8 @@ pub(super) const CALL: u64 = 3;
 pub(super) const BYTES: u64 = 16;
 /// Bytes of a formula that is multiplied out.
 pub(super) const TERM_READ: u64 = 1;
+/// Terms that stand there already and take as long as one that is formed as a product.
+const FORMED: u64 = 8;
 /// Square of the machine words of a number that takes as long as one term more.
 const LONG_NUMBER: u64 = 2;
 
@@ -22,46 +24,68 @@ pub(super) fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
 /// Size of a formula multiplied out, before like terms are collected.
 pub(super) struct Expansion {
     terms: u64,
+    /// Those that are formed as products of others.
+    formed: u64,
     /// Most machine words of the number in a term.
     words: u64,
 }
 
 impl Expansion {
+    const ONE: Self = Self {
+        terms: 1,
+        formed: 0,
+        words: 0,
+    };
+
     pub(super) fn of(view: AtomView<'_>) -> Self {
         match view {
             AtomView::Num(_) => Self {
-                terms: 1,
                 words: view.get_byte_size() as u64 / 8,
+                ..Self::ONE
             },
-            AtomView::Var(_) | AtomView::Fun(_) => Self { terms: 1, words: 0 },
+            AtomView::Var(_) | AtomView::Fun(_) => Self::ONE,
             AtomView::Add(sum) => {
-                let empty = Self { terms: 0, words: 0 };
+                let empty = Self {
+                    terms: 0,
+                    ..Self::ONE
+                };
                 sum.iter().map(Self::of).fold(empty, |sum, part| Self {
                     terms: sum.terms.saturating_add(part.terms),
+                    formed: sum.formed.saturating_add(part.formed),
                     words: sum.words.max(part.words),
                 })
             }
             AtomView::Mul(product) => {
-                let one = Self { terms: 1, words: 0 };
-                product
-                    .iter()
-                    .map(Self::of)
-                    .fold(one, |product, part| Self {
-                        terms: product.terms.saturating_mul(part.terms),
-                        words: product.words.saturating_add(part.words),
-                    })
+                let parts = product.iter().map(Self::of);
+                let product = parts.fold(Self::ONE, |product, part| Self {
+                    terms: product.terms.saturating_mul(part.terms),
+                    formed: product.formed.saturating_add(part.formed),
+                    words: product.words.saturating_add(part.words),
+                });
+                product.multiplied_out()
             }
             AtomView::Pow(power) => {
                 let (base, exponent) = (Self::of(power.get_base()), integer(power.get_exp()));
                 let positive = u64::from(exponent.max(0).unsigned_abs());
-                Self {
+                let power = Self {
                     // A multinomial coefficient; negative powers stay as they are.
                     terms: (0..positive).fold(1, |count: u64, chosen| {
                         count.saturating_mul(base.terms.saturating_add(chosen)) / (chosen + 1)
                     }),
+                    formed: base.formed,
                     words: base.words.saturating_mul(exponent.unsigned_abs().into()),
-                }
+                };
+                power.multiplied_out()
             }
+        }
+    }
+
+    /// Counts the terms of a product or a power as formed, if there is more than one.
+    fn multiplied_out(self) -> Self {
+        let formed = if self.terms > 1 { self.terms } else { 0 };
+        Self {
+            formed: self.formed.saturating_add(formed),
+            ..self
         }
     }
 
@@ -70,6 +94,7 @@ impl Expansion {
     pub(super) fn work(&self) -> u64 {
         let squared = self.words.saturating_mul(self.words);
         let long = self.terms.saturating_mul(squared) / LONG_NUMBER;
-        self.terms.saturating_add(long)
+        let formed = self.formed.saturating_mul(FORMED);
+        self.terms.saturating_add(long).saturating_add(formed)
     }
 }

@@ -3,6 +3,7 @@
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
+use crate::scene::QuantityAtom::{Exact, Parameter};
 use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
 
 impl Lowering<'_> {
@@ -10,8 +11,8 @@ impl Lowering<'_> {
     pub(super) fn quantity(&mut self, quantity: &Quantity) -> ConstantId {
         let mechanics: &Mechanics = self.mechanics;
         match quantity {
-            Quantity::Exact(number) => self.builder.setup.number(number.clone()),
-            Quantity::Parameter(id) => self.constant(mechanics.parameters[id.0]),
+            Quantity::Atom(Exact(number)) => self.builder.setup.number(number.clone()),
+            Quantity::Atom(Parameter(id)) => self.constant(mechanics.parameters[id.0]),
             Quantity::Sum(parts) => self.folded(parts, Setup::add, 0),
             Quantity::Product(parts) => self.folded(parts, Setup::mul, 1),
             Quantity::Quotient(above, below) => {

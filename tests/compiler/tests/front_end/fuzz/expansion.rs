@@ -173,6 +173,10 @@ const CURED: &[&str] = &[
     "#[branched_pendulum(gravity = 1, a: rod(mass = m, length = 2.5) [
         b: generations(mass = 2.5, radius = 0.25, length = -4 / k, shape = ball, count = 64,
             branching = 1, length_ratio = scale * 0.5 + 2.5e99)])] struct A;",
+    "#[branched_pendulum(gravity = 1, arm: rod(mass = 1, length = b) [
+        hand: rod(mass = 1, length = each(2.5, 9.80665, 3.7)) * 3,
+        finger: rod(mass = x, length = 1.88e-3)], drive(x = 1e3 * x * t^2),
+        emit(momenta, symmetric))] struct A;",
 ];
 
 #[test]
