@@ -133,9 +133,14 @@ impl Emission<'_> {
     pub(super) fn written(&self, entry: &Entry, needed: &[ValueId]) -> Written {
         let mut locals = self.locals(entry, needed);
         let gathered = self.gathered(entry, needed);
-        let mut lines = self.lines(&gathered, needed, &locals);
-        let long = self.program.without != Some(Pass::Splitting) && parts::long(&lines);
+        let splits = self.program.without != Some(Pass::Splitting);
+        let mut long = splits && self.surely_long(&locals);
         if long {
+            self.name_outputs(entry, &mut locals);
+        }
+        let mut lines = self.lines(&gathered, needed, &locals);
+        if splits && !long && parts::long(&lines) {
+            long = true;
             self.name_outputs(entry, &mut locals);
             lines = self.lines(&gathered, needed, &locals);
         }
@@ -188,12 +193,8 @@ impl Emission<'_> {
                     .iter()
                     .copied()
                     .filter(|&id| pair.contains(self.op(id)));
-                lines.push(Line {
-                    defines: both.collect(),
-                    reads: vec![angle],
-                    whole: None,
-                    tokens: self.sin_cos(angle, needed, locals),
-                });
+                let tokens = self.sin_cos(angle, needed, locals);
+                lines.push(Line::new(both.collect(), vec![angle], tokens));
             }
         }
         lines
@@ -205,12 +206,8 @@ impl Emission<'_> {
             return None;
         }
         let name = ident(locals.names.get(&id)?);
-        Some(Line {
-            defines: vec![id],
-            reads: self.op(id).operands().collect(),
-            whole: None,
-            tokens: self.named(id, &name, locals),
-        })
+        let reads = self.op(id).operands().collect();
+        Some(Line::new(vec![id], reads, self.named(id, &name, locals)))
     }
 
     fn gathered_line(
@@ -223,15 +220,14 @@ impl Emission<'_> {
         let of_angles = needed.iter().copied().filter(
             |&id| matches!(*self.op(id), Op::Sin(angle) | Op::Cos(angle) if angles.contains(&angle)),
         );
-        Line {
-            defines: of_angles.collect(),
-            reads: match whole {
-                Some(_) => Vec::new(),
-                None => angles.to_vec(),
-            },
-            whole,
-            tokens: self.sin_cos_each(angles, whole, needed, locals),
-        }
+        let reads = match whole {
+            Some(_) => Vec::new(),
+            None => angles.to_vec(),
+        };
+        let tokens = self.sin_cos_each(angles, whole, needed, locals);
+        let mut line = Line::new(of_angles.collect(), reads, tokens);
+        line.whole = whole;
+        line
     }
 
     /// `let [theta_parent, _, theta_child_2] = *theta;`, the elements that are

@@ -133,19 +133,16 @@ impl Emission<'_> {
         needed: &[ValueId],
         passed_on: Option<&Vec<ValueId>>,
     ) -> Vec<ValueId> {
-        let used = |id: ValueId| {
-            entry.outputs.contains(&id)
-                || needed.iter().any(|other| match self.op(*other) {
-                    Op::Sin(_) | Op::Cos(_) => false,
-                    op => op.operands().any(|operand| operand == id),
-                })
-        };
+        let formed = needed.iter().map(|&id| self.op(id));
+        let formed = formed.filter(|op| !matches!(op, Op::Sin(_) | Op::Cos(_)));
+        let mut used: BTreeSet<ValueId> = entry.outputs.iter().copied().collect();
+        used.extend(formed.flat_map(Op::operands));
         needed
             .iter()
             .copied()
             .filter(|&id| {
                 matches!(self.op(id), Op::Input(..))
-                    && (used(id) || !passed_on.is_some_and(|angles| angles.contains(&id)))
+                    && (used.contains(&id) || !passed_on.is_some_and(|angles| angles.contains(&id)))
             })
             .collect()
     }

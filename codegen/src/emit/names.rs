@@ -33,23 +33,20 @@ impl Emission<'_> {
     pub(super) fn locals(&self, entry: &Entry, needed: &[ValueId]) -> Locals {
         let fused = self.program.fused(entry);
         let products: BTreeSet<ValueId> = fused.values().map(|sum| sum.product).collect();
-        let mut uses: BTreeMap<ValueId, usize> = BTreeMap::new();
+        let mut uses = vec![0_u32; self.program.definitions.len()];
         for &id in needed.iter().filter(|id| !products.contains(id)) {
             for operand in self.op(id).operands() {
-                let factors = products.contains(&operand).then(|| self.op(operand));
-                let factors: Vec<ValueId> = factors.into_iter().flat_map(Op::operands).collect();
-                let written = if factors.is_empty() {
-                    vec![operand]
-                } else {
-                    factors
-                };
-                for value in written {
-                    *uses.entry(value).or_default() += 1;
+                if !products.contains(&operand) {
+                    uses[operand.0 as usize] += 1;
+                    continue;
+                }
+                for factor in self.op(operand).operands() {
+                    uses[factor.0 as usize] += 1;
                 }
             }
         }
         for &output in &entry.outputs {
-            *uses.entry(output).or_default() += 1;
+            uses[output.0 as usize] += 1;
         }
         let mut locals = Locals {
             names: BTreeMap::new(),
@@ -62,19 +59,18 @@ impl Emission<'_> {
                 .collect(),
             numbers: BTreeMap::new(),
         };
-        let mut depths: BTreeMap<ValueId, usize> = BTreeMap::new();
+        // Of what is written in place.
+        let mut depths = vec![0; self.program.definitions.len()];
         for &id in needed {
             let definition = self.program.definition(id);
-            let inside = definition
-                .op
-                .operands()
-                .filter_map(|operand| depths.get(&operand));
-            let depth = 1 + inside.copied().max().unwrap_or(0);
+            let inside = definition.op.operands();
+            let inside = inside.map(|operand| depths[operand.0 as usize]);
+            let depth = 1 + inside.max().unwrap_or(0);
             if products.contains(&id) {
-                depths.insert(id, depth);
+                depths[id.0 as usize] = depth;
                 continue;
             }
-            let several = uses.get(&id).is_some_and(|count| *count > 1) || depth > DEEPEST;
+            let several = uses[id.0 as usize] > 1 || depth > DEEPEST;
             let wanted = match (&definition.op, &definition.name) {
                 (Op::Constant(_), _) => continue,
                 // The argument itself, of which there is one.
@@ -91,7 +87,7 @@ impl Emission<'_> {
                     None => self.described(id, &locals),
                 }),
                 (_, None) => {
-                    depths.insert(id, depth);
+                    depths[id.0 as usize] = depth;
                     continue;
                 }
             };

@@ -44,12 +44,19 @@ pub(super) struct Line {
     /// An argument that it reads as a whole.
     pub(super) whole: Option<Argument>,
     pub(super) tokens: TokenStream,
+    /// Estimated number of lines of formatted code.
+    height: usize,
 }
 
 impl Line {
-    /// Estimated number of lines of formatted code.
-    fn height(&self) -> usize {
-        self.tokens.to_string().len().div_ceil(WIDTH)
+    pub(super) fn new(defines: Vec<ValueId>, reads: Vec<ValueId>, tokens: TokenStream) -> Self {
+        Self {
+            defines,
+            reads,
+            whole: None,
+            height: tokens.to_string().len().div_ceil(WIDTH),
+            tokens,
+        }
     }
 }
 
@@ -65,7 +72,7 @@ pub(super) fn is_whole(lines: &[Line]) -> bool {
 }
 
 fn height(lines: &[Line]) -> usize {
-    lines.iter().map(Line::height).sum()
+    lines.iter().map(|line| line.height).sum()
 }
 
 /// Some lines of a function, with what goes in and out.
@@ -121,6 +128,17 @@ impl FunctionParts {
 }
 
 impl Emission<'_> {
+    /// Returns true if the named values alone, of a line each at least, make a function long.
+    pub(super) fn surely_long(&self, locals: &Locals) -> bool {
+        let lines = locals.names.keys().filter(|id| {
+            !matches!(
+                self.op(**id),
+                Op::Input(..) | Op::Constant(_) | Op::Sin(_) | Op::Cos(_)
+            )
+        });
+        lines.count() > MOST_LINES
+    }
+
     /// Names the outputs of a long function: its parts form them.
     pub(super) fn name_outputs(&self, entry: &Entry, locals: &mut Locals) {
         locals.fresh(SHARED.to_owned());

@@ -256,12 +256,9 @@ impl Sinking<'_, '_> {
         let value = self.emission.bound(output, self.locals, Binding::Sum);
         let link = Literal::usize_unsuffixed(index);
         self.results.insert(index);
-        self.written.push(Line {
-            defines: Vec::new(),
-            reads: vec![output],
-            whole: None,
-            tokens: quote!(alpha(#link, #value);),
-        });
+        let tokens = quote!(alpha(#link, #value););
+        self.written
+            .push(Line::new(Vec::new(), vec![output], tokens));
     }
 
     /// Reads the inputs, forms what waits and asks for the sines and cosines that
@@ -278,12 +275,7 @@ impl Sinking<'_, '_> {
                 self.turn(angle);
             } else if let Some(tokens) = self.emission.input(id, self.locals) {
                 self.known.insert(id);
-                self.written.push(Line {
-                    defines: vec![id],
-                    reads: Vec::new(),
-                    whole: None,
-                    tokens,
-                });
+                self.written.push(Line::new(vec![id], Vec::new(), tokens));
             }
         }
     }
@@ -308,14 +300,10 @@ impl Sinking<'_, '_> {
             .filter(|&id| self.angle(id).is_some_and(|angle| group.contains(&angle)))
             .collect();
         self.known.extend(&defined);
-        self.written.push(Line {
-            defines: defined,
-            reads: Vec::new(),
-            whole: None,
-            tokens: quote! {
-                let ([#(#sines),*], [#(#cosines),*]) =
-                    turns.of([#(#links),*], [#(theta(#links)),*]);
-            },
-        });
+        let tokens = quote! {
+            let ([#(#sines),*], [#(#cosines),*]) =
+                turns.of([#(#links),*], [#(theta(#links)),*]);
+        };
+        self.written.push(Line::new(defined, Vec::new(), tokens));
     }
 }

@@ -223,6 +223,14 @@ impl Formula {
         Self(self.0.together())
     }
 
+    /// The terms whose sum it is: itself, where it is no sum.
+    pub fn terms(&self) -> Vec<Self> {
+        match self.0.as_view() {
+            AtomView::Add(sum) => sum.iter().map(|term| Self(term.to_owned())).collect(),
+            _ => vec![self.clone()],
+        }
+    }
+
     /// Partial derivative with respect to the symbol itself (no chain rule).
     pub fn derivative(&self, id: SymbolId) -> Self {
         spend_on(CALL, self, BYTES);

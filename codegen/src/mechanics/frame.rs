@@ -107,10 +107,7 @@ impl DerivedFrame {
                 momenta[b].push(term.derivative(self.velocities[b]));
             }
         }
-        momenta
-            .into_iter()
-            .map(|terms| terms.into_iter().sum::<Formula>().expand())
-            .collect()
+        summed(momenta)
     }
 
     /// Index of a coordinate in this frame.
@@ -129,10 +126,7 @@ impl DerivedFrame {
                 gradient[self.index(coordinate)].push(derivation.partial(&term, coordinate));
             }
         }
-        gradient
-            .into_iter()
-            .map(|terms| terms.into_iter().sum::<Formula>().expand())
-            .collect()
+        summed(gradient)
     }
 
     /// ∂U/∂q_i.
@@ -155,17 +149,14 @@ impl DerivedFrame {
 
     /// The partial derivatives of a function of the coordinates.
     fn gradient(&self, function: &Formula, derivation: &Derivation<'_>) -> Vec<Formula> {
-        let depends = derivation.coordinates_of(function);
-        self.coordinates
-            .iter()
-            .map(|coordinate| {
-                if depends.contains(coordinate) {
-                    derivation.partial(function, *coordinate).expand()
-                } else {
-                    Formula::zero()
-                }
-            })
-            .collect()
+        // Term by term: each depends on few coordinates.
+        let mut gradient = vec![Vec::new(); self.coordinates.len()];
+        for term in function.terms() {
+            for coordinate in derivation.coordinates_of(&term) {
+                gradient[self.index(coordinate)].push(derivation.partial(&term, coordinate));
+            }
+        }
+        summed(gradient)
     }
 
     /// Terms of the Euler–Lagrange equations beside M q̈, so that d/dt ∂L/∂v_i
@@ -200,4 +191,11 @@ impl DerivedFrame {
             })
             .collect()
     }
+}
+
+/// Sums of terms, multiplied out.
+fn summed(sums: Vec<Vec<Formula>>) -> Vec<Formula> {
+    let sums = sums.into_iter();
+    sums.map(|terms| terms.into_iter().sum::<Formula>().expand())
+        .collect()
 }

@@ -191,7 +191,7 @@ impl Builder {
     }
 
     pub(super) fn is(&self, id: ValueId, value: i64) -> bool {
-        *self.op(id) == Op::Number(Rational::from(value))
+        matches!(self.op(id), Op::Number(number) if *number == Rational::from(value))
     }
 
     pub(super) fn is_constant(&self, id: ValueId) -> bool {

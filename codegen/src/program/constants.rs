@@ -5,14 +5,14 @@
 use super::constant_names;
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Index of a constant in [`Setup`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstantId(pub u32);
 
 /// Operation that forms a constant.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ConstantOp {
     /// A number.
     Number(Rational),
@@ -69,7 +69,7 @@ pub struct ConstantDefinition {
 pub struct Setup {
     /// The constants.
     pub definitions: Vec<ConstantDefinition>,
-    known: BTreeMap<ConstantOp, ConstantId>,
+    known: HashMap<ConstantOp, ConstantId>,
     names: BTreeMap<String, u32>,
 }
 

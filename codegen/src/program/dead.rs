@@ -1,13 +1,14 @@
 //! Dead code: an entry point holds nothing that it does not need.
 //!
 //! Exact: the operations that are left out have no effect. Linear in the
-//! program's length.
+//! length of what is needed, but for a bit for each value of the program.
 
 use super::{Definition, Op, Program, ValueId};
 
 impl Program {
     /// The values that `outputs` depend on, themselves included, in order:
-    /// the program pruned to them. Linear in the program's length.
+    /// the program pruned to them. Linear in their number, but for a bit for each value of
+    /// the program.
     pub fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
         needed(&self.definitions, outputs)
     }
@@ -44,21 +45,34 @@ impl Program {
 
 /// See [`Program::needed`].
 pub(super) fn needed(definitions: &[Definition], outputs: &[ValueId]) -> Vec<ValueId> {
-    let mut wanted = vec![false; definitions.len()];
-    for output in outputs {
-        wanted[output.0 as usize] = true;
+    // A bit for each value, so that a short function of a long program costs little.
+    let mut wanted = vec![0_u64; definitions.len().div_ceil(64)];
+    let mut open: Vec<ValueId> = Vec::new();
+    let mut want = |id: ValueId, open: &mut Vec<ValueId>| {
+        let (word, bit) = (&mut wanted[id.0 as usize / 64], 1 << (id.0 % 64));
+        if *word & bit == 0 {
+            *word |= bit;
+            open.push(id);
+        }
+    };
+    for &output in outputs {
+        want(output, &mut open);
     }
-    for index in (0..wanted.len()).rev() {
-        if wanted[index] {
-            for operand in definitions[index].op.operands() {
-                wanted[operand.0 as usize] = true;
-            }
+    let mut count = 0;
+    while let Some(id) = open.pop() {
+        count += 1;
+        for operand in definitions[id.0 as usize].op.operands() {
+            want(operand, &mut open);
         }
     }
-    (0..wanted.len() as u32)
-        .map(ValueId)
-        .filter(|id| wanted[id.0 as usize])
-        .collect()
+    let mut needed = Vec::with_capacity(count);
+    for (mut word, first) in wanted.into_iter().zip((0..).step_by(64)) {
+        while word != 0 {
+            needed.push(ValueId(first + word.trailing_zeros()));
+            word &= word - 1;
+        }
+    }
+    needed
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::exact::Rational;
 pub struct ValueId(pub u32);
 
 /// One operation. Operands are earlier values.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Op {
     /// An element of an argument.
     Input(Argument, usize),

@@ -233,15 +233,15 @@ impl<'a, M: Described> Study<'a, M> {
         let smooth = one_by_one(record, |times, angles| {
             KinematicSmoother::default().smooth(times, angles)
         })?;
-        // What is lacking accelerates each link by itself.
-        let mut links = [[0.0; N]; N];
-        (0..N).for_each(|link| links[link][link] = 1.0);
+        // What is lacking accelerates each link by itself, as if each had an inertia of one.
+        let mut unit = [[0.0; N]; N];
+        (0..N).for_each(|link| unit[link][link] = 1.0);
         let system = linearised(AbsoluteAngles(&tree));
         let smoother = ModelSmoother {
-            disturbances: links.to_vec(),
+            disturbances: unit.to_vec(),
             ..ModelSmoother::default()
         };
-        let exact = by_equations::<N, D, _>(&smoother, &system, |_| links, record, &smooth.mean)?;
+        let exact = by_equations::<N, D, _>(&smoother, &system, |_| unit, record, &smooth.mean)?;
         let fitted = self
             .identification(outcome.law)
             .predict(&outcome.fit, times)?;

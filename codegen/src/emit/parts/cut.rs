@@ -49,7 +49,7 @@ impl Emission<'_> {
             for &id in &line.reads {
                 self.named_operands(id, locals, &mut touched);
             }
-            let own = line.height();
+            let own = line.height;
             height += own;
             seen.extend(&touched);
             // Values count once, whether they come from outside or are made.

@@ -12,7 +12,7 @@ pub(super) const BYTES: u64 = 16;
 pub(super) const TERM_READ: u64 = 1;
 /// Terms that stand there already and take as long as one that is formed as a product.
 const FORMED: u64 = 8;
-/// Square of the machine words of a number that takes as long as one term more.
+/// Terms that take as long as the square of the machine words of one number.
 const LONG_NUMBER: u64 = 2;
 
 /// Counts an operation on a formula.
@@ -93,7 +93,10 @@ impl Expansion {
     /// their length.
     pub(super) fn work(&self) -> u64 {
         let squared = self.words.saturating_mul(self.words);
-        let long = self.terms.saturating_mul(squared) / LONG_NUMBER;
+        let long = self
+            .terms
+            .saturating_mul(squared)
+            .saturating_mul(LONG_NUMBER);
         let formed = self.formed.saturating_mul(FORMED);
         self.terms.saturating_add(long).saturating_add(formed)
     }

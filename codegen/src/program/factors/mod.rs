@@ -36,21 +36,24 @@ use super::builder::Builder;
 use super::{Definition, Entry, Op, Program, TooManyValues, ValueId};
 use crate::functions::Purpose;
 use extract::{Term, extract, product, sum};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// The program with common factors taken out of the entry points that take fewer
 /// operations then; the same program, to the number of each value, where none does.
 pub(super) fn common_factors(program: Program) -> Program {
-    let mut chosen = vec![true; program.entries.len()];
-    let factored = factored(&program, &chosen);
+    let all = vec![true; program.entries.len()];
+    let (factored, changed) = factored(&program, &all);
+    let mut chosen = changed.clone();
     let entries = program.entries.iter().zip(&factored.entries);
     for ((before, after), chosen) in entries.zip(&mut chosen) {
-        *chosen = cost(&factored, after) < cost(&program, before);
+        *chosen = *chosen && cost(&factored, after) < cost(&program, before);
     }
     if !chosen.contains(&true) {
         program
+    } else if chosen == changed {
+        factored
     } else {
-        self::factored(&program, &chosen)
+        self::factored(&program, &chosen).0
     }
 }
 
@@ -59,8 +62,9 @@ fn cost(program: &Program, entry: &Entry) -> usize {
     program.operations(&entry.outputs).total() - program.fused(entry).len()
 }
 
-/// The program with common factors taken out of the chosen entry points.
-fn factored(program: &Program, chosen: &[bool]) -> Program {
+/// The program with common factors taken out of the chosen entry points, and whether these
+/// changed.
+fn factored(program: &Program, chosen: &[bool]) -> (Program, Vec<bool>) {
     let mut pass = Factoring {
         program,
         builder: Builder::on_constants_of(program),
@@ -86,13 +90,14 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
             *output = function.value(*output, &values);
         }
     }
+    let changed = functions.iter().map(|function| function.changed);
     match builder.finish(entries, program.choice) {
         Ok(mut factored) => {
             factored.strips.clone_from(&program.strips);
-            factored.without_dead_code()
+            (factored.without_dead_code(), changed.collect())
         }
         // One of the factors would be a value too many.
-        Err(TooManyValues) => program.clone(),
+        Err(TooManyValues) => (program.clone(), vec![false; chosen.len()]),
     }
 }
 
@@ -100,10 +105,12 @@ fn factored(program: &Program, chosen: &[bool]) -> Program {
 struct FactoredEntry {
     /// The values that it needs and that are still to come, last first.
     ahead: Vec<ValueId>,
-    /// The value that uses a value, where there is one alone and that once.
-    user: BTreeMap<ValueId, ValueId>,
-    /// True if factors are taken out.
+    /// The value that uses a value; none where several do, or one twice.
+    user: HashMap<ValueId, Option<ValueId>>,
+    /// True if factors are taken out where that saves anything.
     chosen: bool,
+    /// True if some were.
+    changed: bool,
     /// True if its products are fused with its sums.
     fused: bool,
     /// Values that are others here than in the entry points before it.
@@ -113,21 +120,22 @@ struct FactoredEntry {
 impl FactoredEntry {
     fn new(program: &Program, entry: &Entry, chosen: bool) -> Self {
         let mut ahead = program.needed(&entry.outputs);
-        let mut users: BTreeMap<ValueId, Vec<ValueId>> = BTreeMap::new();
+        let mut user = HashMap::with_capacity(ahead.len());
         for &id in &ahead {
             for operand in program.definition(id).op.operands() {
-                users.entry(operand).or_default().push(id);
+                let found = user.entry(operand);
+                found.and_modify(|user| *user = None).or_insert(Some(id));
             }
         }
         for output in &entry.outputs {
-            users.remove(output);
+            user.remove(output);
         }
-        let alone = users.into_iter().filter(|(_, users)| users.len() == 1);
         ahead.reverse();
         Self {
             ahead,
-            user: alone.map(|(id, users)| (id, users[0])).collect(),
+            user,
             chosen,
+            changed: false,
             fused: matches!(
                 entry.purpose,
                 Purpose::Accelerations
@@ -137,6 +145,11 @@ impl FactoredEntry {
             ),
             own: BTreeMap::new(),
         }
+    }
+
+    /// The value that uses a value, where there is one alone and that once.
+    fn user(&self, id: ValueId) -> Option<ValueId> {
+        self.user.get(&id).copied().flatten()
     }
 
     /// The value that stands for an old one here; `values` holds those of the
@@ -183,10 +196,13 @@ impl Factoring<'_> {
         }
     }
 
-    fn value(&mut self, id: ValueId, function: &FactoredEntry) -> ValueId {
+    fn value(&mut self, id: ValueId, function: &mut FactoredEntry) -> ValueId {
         let Definition { op, name, hint } = self.program.definition(id);
         let value = match self.factored(id, function) {
-            Some(value) => value,
+            Some(value) => {
+                function.changed = true;
+                value
+            }
             None => {
                 let op = op.with_operands(|operand| function.value(operand, &self.values));
                 self.builder.record(op)
@@ -203,8 +219,8 @@ impl Factoring<'_> {
 
     /// The value of a sum with factors taken out, if that saves anything.
     fn factored(&mut self, id: ValueId, function: &FactoredEntry) -> Option<ValueId> {
-        let inside = |user: &ValueId| self.is_sum(*user) && self.opens(id, *user, function);
-        if !function.chosen || !self.is_sum(id) || function.user.get(&id).is_some_and(inside) {
+        let inside = |user: ValueId| self.is_sum(user) && self.opens(id, user, function);
+        if !function.chosen || !self.is_sum(id) || function.user(id).is_some_and(inside) {
             return None;
         }
         let mut terms = Vec::new();
@@ -222,7 +238,7 @@ impl Factoring<'_> {
 
     /// Returns true if a value becomes a part of the one that uses it.
     fn opens(&self, id: ValueId, user: ValueId, function: &FactoredEntry) -> bool {
-        self.program.definition(id).name.is_none() && function.user.get(&id) == Some(&user)
+        self.program.definition(id).name.is_none() && function.user(id) == Some(user)
     }
 
     /// The operands of a sum, and whether the second is subtracted.

@@ -1,26 +1,24 @@
-//! Equal operations on equal operands are one value (hash-consing, with an ordered
-//! map so that no order depends on hashes).
+//! Equal operations on equal operands are one value (hash-consing). Values are looked up alone,
+//! never walked, so that no order depends on hashes.
 //!
 //! Exact: a value has the same bits wherever it is formed, and sums and products do not
 //! depend on the order of their two operands.
 
 use crate::program::{Op, ValueId};
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
-/// The operations that are formed already.
+/// The operations that are formed already, operands in order where that makes no difference.
 #[derive(Clone, Default)]
-pub(in crate::program) struct KnownOperations(BTreeMap<Op, ValueId>);
+pub(in crate::program) struct KnownOperations(HashMap<Op, ValueId>);
 
 impl KnownOperations {
     /// The value that is formed by this operation, or by the same with its operands
     /// exchanged where that makes no difference.
     pub(in crate::program) fn find(&self, op: &Op) -> Option<ValueId> {
-        let exchanged = match *op {
-            Op::Add(a, b) => Op::Add(b, a),
-            Op::Mul(a, b) => Op::Mul(b, a),
-            _ => return self.0.get(op).copied(),
+        let found = match ordered(op) {
+            Some(ordered) => self.0.get(&ordered),
+            None => self.0.get(op),
         };
-        let found = self.0.get(op).or_else(|| self.0.get(&exchanged));
         found.copied()
     }
 
@@ -32,7 +30,16 @@ impl KnownOperations {
     }
 
     pub(in crate::program) fn insert(&mut self, op: Op, id: ValueId) {
-        self.0.insert(op, id);
+        self.0.insert(ordered(&op).unwrap_or(op), id);
+    }
+}
+
+/// A sum or product with its operands exchanged, if they are not in order.
+fn ordered(op: &Op) -> Option<Op> {
+    match *op {
+        Op::Add(a, b) if a > b => Some(Op::Add(b, a)),
+        Op::Mul(a, b) if a > b => Some(Op::Mul(b, a)),
+        _ => None,
     }
 }
 

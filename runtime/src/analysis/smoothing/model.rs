@@ -226,10 +226,10 @@ impl<const N: usize> ModelSmoother<N> {
         let mut sum = 0.0;
         for (index, state) in motion.iter().enumerate() {
             let angles = SVector::from_fn(|row, _| state[row]);
-            let answer = inverse_mass(&mass_matrix, &angles, index)?;
+            let inverse = inverse_mass(&mass_matrix, &angles, index)?;
             let traces = kinds
                 .iter()
-                .map(|kind| (answer * kind * answer.transpose()).trace());
+                .map(|kind| (inverse * kind * inverse.transpose()).trace());
             sum += traces.sum::<f64>();
         }
         let mean = sum / (motion.len() * kinds.len() * N) as f64;

@@ -44,7 +44,7 @@ pub(super) struct LinearFlow<const D: usize, const N: usize> {
     /// Changes of the end by coefficients of friction of one.
     effects: Effects<D, N>,
     /// Accelerations by generalized forces.
-    answer: SMatrix<f64, N, N>,
+    inverse_mass: SMatrix<f64, N, N>,
 }
 
 /// Findings of a filter.
@@ -148,12 +148,12 @@ where
                 let start = State::new(time, state.to_vec());
                 let flow = flow_jacobian(self.method, self.system, &start, end);
                 let (reached, columns) = flow.map_err(|_| SmoothingError::Diverged)?;
-                let ends = [Instant::of(state), Instant::of(next)];
+                let ends = [AnglesAndRates::of(state), AnglesAndRates::of(next)];
                 let mut flow = LinearFlow {
                     end: SVector::from_column_slice(&reached.values),
                     transition: SMatrix::from_column_slice(&columns),
                     effects: SMatrix::zeros(),
-                    answer: inverse_mass(&self.mass_matrix, &ends[0].angles, index)?,
+                    inverse_mass: inverse_mass(&self.mass_matrix, &ends[0].angles, index)?,
                 };
                 if !self.frictions.is_empty() {
                     self.brake(&mut flow, &about.frictions, end - time, &ends, index)?;
@@ -170,7 +170,7 @@ where
         flow: &mut LinearFlow<D, N>,
         coefficients: &SVector<f64, N>,
         h: f64,
-        [first, last]: &[Instant<N>; 2],
+        [first, last]: &[AnglesAndRates<N>; 2],
         index: usize,
     ) -> Result<(), SmoothingError> {
         let middle = first.halfway(last, h);
@@ -183,12 +183,12 @@ where
         let mut found = SMatrix::<f64, N, N>::zeros();
         let kinds = self.frictions.iter().zip(coefficients).enumerate();
         for (column, (friction, coefficient)) in kinds {
-            let push = |answer: &SMatrix<f64, N, N>, instant: &Instant<N>| {
-                let braking = answer * friction * instant.rates;
+            let push = |inverse_mass: &SMatrix<f64, N, N>, at: &AnglesAndRates<N>| {
+                let braking = inverse_mass * friction * at.rates;
                 SVector::<f64, D>::from_fn(|row, _| row.checked_sub(N).map_or(0.0, |i| -braking[i]))
             };
             // Simpson's rule for what a push at each time has become at the end.
-            let pushes = flow.transition * push(&flow.answer, first)
+            let pushes = flow.transition * push(&flow.inverse_mass, first)
                 + 4.0 * half * push(&at_middle, &middle)
                 + push(&at_last, last);
             flow.effects.set_column(column, &(h / 6.0 * pushes));
@@ -223,7 +223,7 @@ where
                     let h = (self.times[index] - self.times[before]) / self.unit;
                     let about = SVector::from(motion[before]);
                     let mean = flow.end + flow.transition * (last.updated.mean - about);
-                    let accelerations = flow.answer * forces * flow.answer.transpose();
+                    let accelerations = flow.inverse_mass * forces * flow.inverse_mass.transpose();
                     let noise = self.noise(&accelerations, h);
                     let transition = flow.transition;
                     (transition, last.updated.step(mean, &transition, &noise))
@@ -297,12 +297,12 @@ where
 }
 
 /// Angles and angular velocities at one time.
-struct Instant<const N: usize> {
+struct AnglesAndRates<const N: usize> {
     angles: SVector<f64, N>,
     rates: SVector<f64, N>,
 }
 
-impl<const N: usize> Instant<N> {
+impl<const N: usize> AnglesAndRates<N> {
     fn of(state: &[f64]) -> Self {
         let part = |first: usize| SVector::from_fn(|row, _| state[first + row]);
         Self {
@@ -311,7 +311,7 @@ impl<const N: usize> Instant<N> {
         }
     }
 
-    /// The instant in the middle of h until another, by Hermite's cubic.
+    /// Those in the middle of h until others, by Hermite's cubic.
     fn halfway(&self, next: &Self, h: f64) -> Self {
         let step = next.angles - self.angles;
         Self {

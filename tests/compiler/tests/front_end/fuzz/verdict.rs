@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
-use branched_pendulum_codegen::report::{Message, SizeMessage};
+use branched_pendulum_codegen::report::{Faults, Message, SizeMessage};
 use branched_pendulum_codegen::stages;
 use proc_macro2::TokenStream;
 use syn::{Fields, ImplItem, Item, Type};
@@ -19,11 +19,20 @@ pub(crate) enum Verdict {
     Broken(String),
 }
 
-/// Expands a description and looks at what comes out.
-pub(crate) fn judge(attribute: &TokenStream, item: &TokenStream) -> Verdict {
+/// Expands a description and looks at what comes out; with the processor time of the expansion.
+pub(crate) fn judge(attribute: &TokenStream, item: &TokenStream) -> (Verdict, Duration) {
+    let start = processor_time();
     let expanded = catch_unwind(AssertUnwindSafe(|| {
         stages(attribute.clone(), item.clone()).map(|stages| stages.tokens)
     }));
+    let time = processor_time().saturating_sub(start);
+    (verdict(expanded, item), time)
+}
+
+fn verdict(
+    expanded: std::thread::Result<Result<TokenStream, (Faults, TokenStream)>>,
+    item: &TokenStream,
+) -> Verdict {
     let (refused, tokens) = match expanded {
         Ok(Ok(tokens)) => (false, tokens),
         Ok(Err((report, tokens))) => {
