@@ -165,12 +165,16 @@ impl Lowering<'_> {
         for (bias, name) in frame.bias.iter().zip(&names) {
             let value = self.expr(environment, bias);
             self.builder.name(value, &format!("bias_{name}"));
-            let mut torque = self.builder.neg(value);
-            if let Some(argument) = environment.torques {
-                let outside = self.builder.input(argument, right.len());
-                torque = self.builder.add(outside, torque);
-            }
-            right.push(self.builder.name(torque, &format!("torque_{name}")));
+            let torque = self.builder.neg(value);
+            self.builder.name(torque, &format!("minus_bias_{name}"));
+            right.push(match environment.torques {
+                Some(argument) => {
+                    let outside = self.builder.input(argument, right.len());
+                    let torque = self.builder.add(outside, torque);
+                    self.builder.name(torque, &format!("torque_{name}"))
+                }
+                None => torque,
+            });
         }
         let builder = &mut self.builder;
         let free: Vec<usize> = (0..right.len()).filter(|i| !held.contains_key(i)).collect();

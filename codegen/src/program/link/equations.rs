@@ -270,7 +270,7 @@ impl ReducedLink {
         let torque = builder.sub(self.torque, whole.torque);
         match *builder.op(torque) {
             Op::Neg(bias) => builder.name(bias, &format!("bias_torque{}", self.suffix)),
-            _ => builder.name(torque, &format!("torque{}", self.suffix)),
+            _ => builder.name(torque, &format!("minus_bias_torque{}", self.suffix)),
         };
         torque
     }

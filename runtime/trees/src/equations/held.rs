@@ -106,7 +106,7 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
-        let torque = (-held).mul_add(outside_torque, outside_torque)
+        let minus_bias_torque = (-held).mul_add(outside_torque, outside_torque)
             - (joint_torque
                 + (quadratic_drag * speed_ground).mul_add(omega, drag * omega));
         let first_moment_x = moment * cosine - lateral_moment * sine;
@@ -116,7 +116,8 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let deficit_xx = first_moment_x * (yielding * first_moment_x);
         let deficit_xy = first_moment_x * yielding_times_first_moment_y;
         let deficit_yy = first_moment_y * yielding_times_first_moment_y;
-        let sum_with_yielding = held.mul_add(outside_torque, yielding * torque);
+        let sum_with_yielding = held
+            .mul_add(outside_torque, yielding * minus_bias_torque);
         let bias_force_x = sum_with_yielding * first_moment_x
             - omega_squared * first_moment_y;
         let bias_force_y = sum_with_yielding
@@ -226,7 +227,7 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let first_moment_x_2 = first_moment_x - moment_x_below;
         let first_moment_y_2 = first_moment_y - moment_y_below;
         let inertia_minus_inertia_below = inertia - inertia_below;
-        let torque = joint_torque_below + drive_torque
+        let minus_bias_torque = joint_torque_below + drive_torque
             + (outside_torque - held_times_outside_torque)
             - (joint_torque
                 + (quadratic_drag * speed_ground).mul_add(omega, drag * omega))
@@ -236,9 +237,9 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let gain_x = yielding_plus_held * first_moment_x_2;
         let gain_y = yielding_plus_held * first_moment_y_2;
         let offset = inertia_minus_inertia_below * held_times_outside_torque
-            - yielding_plus_held * torque;
+            - yielding_plus_held * minus_bias_torque;
         let yielding_times_first_moment_y_2 = yielding * first_moment_y_2;
-        let sum_with_yielding = yielding * torque + held_times_outside_torque;
+        let sum_with_yielding = yielding * minus_bias_torque + held_times_outside_torque;
         let deficit_yy = first_moment_y_2
             .mul_add(yielding_times_first_moment_y_2, deficit_yy_below - mass);
         let deficit_xx = first_moment_x_2
@@ -355,7 +356,7 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let held_times_outside_torque = held * outside_torque;
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
-        let torque = outside_torque - held_times_outside_torque
+        let minus_bias_torque = outside_torque - held_times_outside_torque
             - (joint_torque
                 + (quadratic_drag * speed_ground).mul_add(omega, drag * omega));
         let one_minus_held = T::from_f64(1.0) - held;
@@ -365,8 +366,8 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
             .mul_add(inverse_inertia, held);
         let gain_x = one_minus_held_times_inverse_inertia_plus_held * first_moment_x;
         let gain_y = one_minus_held_times_inverse_inertia_plus_held * first_moment_y;
-        let tangential = one_minus_held_times_inverse_inertia_plus_held * torque
-            - inertia * held_times_outside_torque;
+        let tangential = one_minus_held_times_inverse_inertia_plus_held
+            * minus_bias_torque - inertia * held_times_outside_torque;
         let tangential = gain_x.mul_add(gravity_x, tangential);
         let tangential = gain_y.mul_add(gravity_y, tangential);
         one_minus_held * tangential - held * tangential

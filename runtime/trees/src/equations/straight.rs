@@ -147,17 +147,17 @@ impl ::branched_pendulum::tree::LinkEquations for StraightEquations {
                 centrifugal_moment.mul_add(cosine, deficit_moment_x),
                 bias_force_y_below,
             );
-        let torque = outside_torque
+        let minus_bias_torque = outside_torque
             - attachment_y.mul_add(held_force_y, attachment_x * held_force_x);
         let inverse_joint_inertia = T::from_f64(1.0) / joint_inertia;
         let gain_x = inverse_joint_inertia * first_moment_x;
         let gain_y = inverse_joint_inertia * first_moment_y;
-        let minus_offset = torque * inverse_joint_inertia;
+        let minus_offset = minus_bias_torque * inverse_joint_inertia;
         let deficit_yy = first_moment_y.mul_add(gain_y, deficit_yy_below - mass);
         let deficit_xx = first_moment_x.mul_add(gain_x, deficit_xx_below - mass);
         let deficit_xy = first_moment_x.mul_add(gain_y, deficit_xy_below);
-        let bias_force_x = torque.mul_add(gain_x, held_force_x);
-        let bias_force_y = torque.mul_add(gain_y, held_force_y);
+        let bias_force_x = minus_bias_torque.mul_add(gain_x, held_force_x);
+        let bias_force_y = minus_bias_torque.mul_add(gain_y, held_force_y);
         (
             [deficit_xx, deficit_xy, deficit_yy, bias_force_x, bias_force_y],
             [gain_x, gain_y, -minus_offset],
