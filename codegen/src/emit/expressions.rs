@@ -27,7 +27,8 @@ impl Emission<'_> {
     }
 
     /// `let name = value;`, in several steps where the value is a long sum of
-    /// products: fused operations in one another are hard to read.
+    /// products: fused operations in one another are hard to read. A part of the sum that the
+    /// rest takes with a minus has the name of the opposite.
     pub(super) fn named(&self, id: ValueId, name: &Ident, locals: &Locals) -> TokenStream {
         let mut terms = Vec::new();
         let mut innermost = id;
@@ -48,11 +49,18 @@ impl Emission<'_> {
             false => None,
         };
         let first = first.unwrap_or_else(|| self.bound(innermost, locals, Binding::Sum));
-        let steps = terms.iter().rev().map(|fused| {
-            let value = self.fused_with(fused, &quote!(#name), locals);
-            quote!(let #name = #value;)
-        });
-        quote!(let #name = #first; #(#steps)*)
+        let opposite = ident(&locals.opposite(&name.to_string()));
+        let signs = terms.iter().filter(|fused| fused.minus_addend).count();
+        let part = |signs: usize| if signs % 2 == 0 { name } else { &opposite };
+        let (mut left, mut last) = (signs, part(signs));
+        let mut lines = quote!(let #last = #first;);
+        for fused in terms.iter().rev() {
+            left -= usize::from(fused.minus_addend);
+            let value = self.fused_with(fused, &quote!(#last), locals);
+            last = part(left);
+            lines.extend(quote!(let #last = #value;));
+        }
+        lines
     }
 
     /// `x.mul_add(y, z)`, which is x y + z.

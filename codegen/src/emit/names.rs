@@ -215,14 +215,30 @@ impl Locals {
         self.names.insert(id, name);
     }
 
+    /// A name for the opposite of a value with this name, which no local has.
+    pub(super) fn opposite(&self, name: &str) -> String {
+        match name.strip_prefix("minus_") {
+            Some(own) => self.free(own).0,
+            None => self.free(&format!("minus_{name}")).0,
+        }
+    }
+
     /// A name that no local has, `wanted` or `wanted` with a number.
     pub(super) fn fresh(&mut self, wanted: String) -> String {
-        let mut name = wanted.clone();
-        while !self.used.insert(name.clone()) {
-            let number = self.numbers.entry(wanted.clone()).or_insert(2);
-            name = format!("{wanted}_{number}");
-            *number += 1;
-        }
+        let (name, next) = self.free(&wanted);
+        self.used.insert(name.clone());
+        self.numbers.insert(wanted, next);
         name
+    }
+
+    /// A free name, `wanted` or `wanted` with a number, and the number after it.
+    fn free(&self, wanted: &str) -> (String, usize) {
+        let mut name = wanted.to_owned();
+        let mut next = self.numbers.get(wanted).copied().unwrap_or(2);
+        while self.used.contains(&name) {
+            name = format!("{wanted}_{next}");
+            next += 1;
+        }
+        (name, next)
     }
 }
