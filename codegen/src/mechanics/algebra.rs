@@ -6,8 +6,10 @@
 //! and unlocks. Nothing else in the workspace names Symbolica; what crosses
 //! the door outwards is our own [`Expr`].
 
+mod read;
 mod work;
 
+use self::read::{expression, integer, symbol_id};
 use self::work::{BYTES, CALL, Expansion, TERM_READ, spend_on};
 use super::expression::{Expr, SymbolId, Symbols};
 use super::lock::{DerivationLock, LockError};
@@ -18,7 +20,6 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 use symbolica::atom::{Atom, AtomCore, AtomView, Symbol as AlgebraSymbol};
-use symbolica::coefficient::Coefficient;
 use symbolica::id::Replacement;
 use symbolica::symbol;
 
@@ -292,7 +293,7 @@ impl Formula {
 
     /// The formula as plain data, in canonical order.
     pub fn to_expr(&self, symbols: &Symbols) -> Expr {
-        read(self.0.as_view()).canonical(symbols)
+        expression(self.0.as_view()).canonical(symbols)
     }
 }
 
@@ -315,50 +316,6 @@ fn split_term(term: AtomView<'_>, atoms: &[Atom]) -> (Vec<u32>, Atom) {
         }
     }
     (exponents, Atom::mul_many(rest.iter()))
-}
-
-fn symbol_id(symbol: AlgebraSymbol) -> SymbolId {
-    let name = symbol.get_stripped_name();
-    match name
-        .strip_prefix('x')
-        .and_then(|digits| digits.parse().ok())
-    {
-        Some(id) => SymbolId(id),
-        None => unreachable!("the algebra returned a symbol that we did not make: {name}"),
-    }
-}
-
-fn integer(view: AtomView<'_>) -> i32 {
-    let number = rational(view);
-    match number.to_i32() {
-        Some(value) => value,
-        None => unreachable!("the algebra returned the exponent {number}"),
-    }
-}
-
-fn rational(view: AtomView<'_>) -> Rational {
-    if let AtomView::Num(number) = view
-        && let Coefficient::Complex(value) = number.get_coeff_view().to_owned()
-        && value.is_real()
-    {
-        return Rational::from_inner(value.re);
-    }
-    unreachable!("the algebra returned a number that is not rational: {view}")
-}
-
-fn read(view: AtomView<'_>) -> Expr {
-    match view {
-        AtomView::Num(_) => Expr::Number(rational(view)),
-        AtomView::Var(variable) => Expr::Symbol(symbol_id(variable.get_symbol())),
-        AtomView::Pow(power) => {
-            Expr::Power(Box::new(read(power.get_base())), integer(power.get_exp()))
-        }
-        AtomView::Mul(product) => Expr::Product(product.iter().map(read).collect()),
-        AtomView::Add(sum) => Expr::Sum(sum.iter().map(read).collect()),
-        AtomView::Fun(_) => {
-            unreachable!("no function enters the algebra, yet it returned {view}")
-        }
-    }
 }
 
 macro_rules! operator {
