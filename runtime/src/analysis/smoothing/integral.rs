@@ -6,7 +6,7 @@ const NODES: usize = 6;
 /// Returns the integral of a quantity from the first time to each: over each interval by
 /// Simpson's rule, its middle by the polynomial through the six nearest values. Exact for
 /// cubics, with even and uneven times; the integral of a swing cos ω t at steps h is off by less
-/// than (ω h)⁴/2000 of its amplitude 1/ω where ω h ≤ 0.3, as much as the rule itself. As many
+/// than (ω h)⁴/1400 of its amplitude 1/ω where ω h ≤ 0.3, as much as the rule itself. As many
 /// values as times are used.
 ///
 /// # Examples
