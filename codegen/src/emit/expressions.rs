@@ -51,7 +51,10 @@ impl Emission<'_> {
         let first = first.unwrap_or_else(|| self.bound(innermost, locals, Binding::Sum));
         let opposite = ident(&locals.opposite(&name.to_string()));
         let signs = terms.iter().filter(|fused| fused.minus_addend).count();
-        let part = |signs: usize| if signs.is_multiple_of(2) { name } else { &opposite };
+        let part = |signs: usize| match signs.is_multiple_of(2) {
+            true => name,
+            false => &opposite,
+        };
         let (mut left, mut last) = (signs, part(signs));
         let mut lines = quote!(let #last = #first;);
         for fused in terms.iter().rev() {
