@@ -1,4 +1,4 @@
-//! Friction that equations of motion lack, found by a smoother.
+//! What equations of motion lack, found by a smoother: friction, and all else as disturbances.
 
 use branched_pendulum::analysis::variational::WithDerivative;
 use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothedMotion};
@@ -10,6 +10,12 @@ use super::normal::Normal;
 /// Forces per unit of inertia.
 fn unit_mass(_: &[f64; 1]) -> [[f64; 1]; 1] {
     [[1.0]]
+}
+
+/// Rates of a pendulum.
+fn without_friction(_time: f64, y: &[f64], rates: &mut [f64]) {
+    rates[0] = y[1];
+    rates[1] = -14.7 * y[0].sin();
 }
 
 /// 10 s of a pendulum with this friction (1/s), 30 times a second, seen with 2 mrad of noise.
@@ -36,10 +42,7 @@ impl Swing {
     /// Smooths by equations without friction.
     fn smoothed(&self, seed: u64, with_friction: bool) -> SmoothedMotion<2> {
         let ideal = WithDerivative::new(
-            OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
-                rates[0] = y[1];
-                rates[1] = -14.7 * y[0].sin();
-            }),
+            OdeFn::new(2, without_friction),
             |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
                 out[0] = v[1];
                 out[1] = -14.7 * y[0].cos() * v[0];
@@ -132,4 +135,68 @@ fn draws_have_the_errors_of_the_friction() {
             assert!((ratio - 1.0).abs() < 0.08, "{index} {part} {ratio}");
         }
     }
+}
+
+/// Energy of the motion at all times that disturbances bring since the first.
+fn brought(motion: &SmoothedMotion<2>, disturbances: &[[f64; 2]]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let changes = disturbances.iter().enumerate();
+    changes
+        .map(|(index, [angle, rate])| {
+            let [theta, omega] = motion.mean(index);
+            sum += 14.7 * theta.sin() * angle + omega * rate;
+            sum
+        })
+        .collect()
+}
+
+#[test]
+fn disturbances_are_where_the_motion_leaves_its_equations() {
+    let swing = Swing::new(0.05);
+    let motion = swing.smoothed(3, false);
+    let disturbances = motion.disturbances();
+    assert_eq!(disturbances[0], [0.0; 2]);
+    let largest = disturbances.iter().map(|[_, rate]| rate.abs());
+    let largest = largest.fold(0.0, f64::max);
+    let (method, ode) = (Rk4::new(0.005), OdeFn::new(2, without_friction));
+    for (index, times) in swing.times.windows(2).enumerate() {
+        let start = State::new(times[0], motion.mean(index).to_vec());
+        let end = method.sample_to_vec(&ode, &start, &times[1..]).unwrap();
+        let next = motion.mean(index + 1);
+        for part in 0..2 {
+            let off = next[part] - end[0].values[part] - disturbances[index + 1][part];
+            assert!(off.abs() < 1e-4 * largest, "{index} {part} {off} {largest}");
+        }
+    }
+}
+
+/// The energy that disturbances seem to bring is as large as noise makes it, where the equations
+/// lack nothing or a friction that is found, and far larger where they lack friction.
+#[test]
+fn what_noise_feigns_is_told_from_what_equations_lack() {
+    let deviations = |friction: f64, with_friction: bool, seeds: u64| {
+        let swing = Swing::new(friction);
+        let mut sum = 0.0;
+        for seed in 1..=seeds {
+            let motion = swing.smoothed(seed, with_friction);
+            let mut normal = Normal(seed);
+            let feigned = (0..60).map(|_| {
+                let spurious = motion.spurious_disturbances(|| normal.next());
+                brought(&motion, &spurious)
+            });
+            let feigned: Vec<Vec<f64>> = feigned.collect();
+            let energy = brought(&motion, &motion.disturbances());
+            for (index, energy) in energy.iter().enumerate().skip(1) {
+                let squares = feigned.iter().map(|one| one[index] * one[index]);
+                sum += energy * energy / (squares.sum::<f64>() / 60.0);
+            }
+        }
+        (sum / (seeds * 299) as f64).sqrt()
+    };
+    for (friction, with_friction) in [(0.0, false), (0.05, true)] {
+        let usual = deviations(friction, with_friction, 60);
+        assert!((0.8..=1.3).contains(&usual), "{friction} {usual}");
+    }
+    let lacking = deviations(0.05, false, 3);
+    assert!(lacking > 10.0, "{lacking}");
 }

@@ -138,7 +138,22 @@ impl<const K: usize> FittedConstants<K> {
             let states = smoothed.iter().rev();
             states.map(|effects| effects * direction).collect()
         };
+        self.known().map(of).collect()
+    }
+
+    /// Columns of the root that are not zero.
+    fn known(&self) -> impl Iterator<Item = usize> {
         let is_known = |one: &usize| self.root.column(*one).iter().any(|&part| part != 0.0);
-        (0..K).filter(is_known).map(of).collect()
+        (0..K).filter(is_known)
+    }
+
+    /// Returns unit vectors of what the constants explain of the innovations they were fitted to.
+    pub(super) fn explained(&self, rows: &[SVector<f64, K>]) -> Vec<Vec<f64>> {
+        let of = |one: usize| {
+            rows.iter()
+                .map(|row| row.dot(&self.root.column(one)))
+                .collect()
+        };
+        self.known().map(of).collect()
     }
 }

@@ -10,8 +10,10 @@ pub(super) struct Gaussian<const D: usize> {
 }
 
 /// Difference of a datum from the expected one, its variance, and what it moves the state by.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Innovation<const D: usize> {
+    /// The component that was measured.
+    pub(super) component: usize,
     pub(super) value: f64,
     pub(super) variance: f64,
     /// Change of the state for an innovation of one.
@@ -38,6 +40,7 @@ impl<const D: usize> Gaussian<D> {
         let variance = self.variance[(component, component)] + 1.0;
         let gain = self.variance.column(component) / variance;
         let innovation = Innovation {
+            component,
             value: datum - self.mean[component],
             variance,
             gain,

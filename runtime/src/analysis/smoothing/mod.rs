@@ -15,6 +15,7 @@
 mod bands;
 mod constants;
 mod coordinates;
+mod disturbances;
 mod error;
 mod gaussian;
 mod integral;

@@ -25,6 +25,10 @@ use crate::integrate::Integrator;
 /// opposite to the velocity all the time. [`frictions`](Self::frictions) finds what the
 /// equations lack of it, or have too much, as a coefficient for each joint.
 ///
+/// Whether the equations hold is asked of the motion's
+/// [`disturbances`](SmoothedMotion::disturbances): noise alone does not bring much more energy
+/// than [`spurious_disturbances`](SmoothedMotion::spurious_disturbances).
+///
 /// # Examples
 ///
 /// A parent with two identical children, and friction in all pivots, equal in the children's:
@@ -146,6 +150,7 @@ impl<const N: usize> ModelSmoother<N> {
             steps,
             constants,
             effects,
+            disturbances,
         } = filtered;
         let noise = problem.noise_of(&logs, &innovations);
         let scale = Scale {
@@ -158,6 +163,7 @@ impl<const N: usize> ModelSmoother<N> {
         };
         let frictions = constants.values.iter().take(problem.frictions.len());
         let motion = SmoothedMotion::new(times, &steps, innovations, scale);
+        let motion = motion.with_disturbances(disturbances);
         Ok(motion.with_frictions(frictions.copied().collect(), |back| {
             constants.errors(back, &effects)
         }))

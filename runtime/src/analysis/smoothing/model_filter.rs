@@ -3,6 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::constants::{Effects, FittedConstants, StepEffects};
+use super::disturbances::{Disturbances, DisturbedStep};
 use super::error::SmoothingError;
 use super::gaussian::{Gaussian, Innovations, Step, smooth};
 use super::kinematic::DIFFUSE;
@@ -54,6 +55,7 @@ pub(super) struct Filtered<const D: usize, const N: usize> {
     /// The coefficients of friction.
     pub(super) constants: FittedConstants<N>,
     pub(super) effects: Vec<StepEffects<D, N>>,
+    pub(super) disturbances: Disturbances<D>,
 }
 
 /// A motion, with the friction that acts on it beside the equations.
@@ -215,9 +217,10 @@ where
         let mut steps: Vec<Step<D>> = Vec::with_capacity(self.times.len());
         let mut effects: Vec<StepEffects<D, N>> = Vec::new();
         let mut rows = Vec::new();
+        let mut disturbed = Vec::with_capacity(self.times.len());
         let is_braked = !self.frictions.is_empty();
         for (index, row) in self.data.iter().enumerate() {
-            let (transition, predicted) = match (steps.last(), index.checked_sub(1)) {
+            let (transition, variance, predicted) = match (steps.last(), index.checked_sub(1)) {
                 (Some(last), Some(before)) => {
                     let flow = &flow[before];
                     let h = (self.times[index] - self.times[before]) / self.unit;
@@ -226,9 +229,10 @@ where
                     let accelerations = flow.inverse_mass * forces * flow.inverse_mass.transpose();
                     let noise = self.noise(&accelerations, h);
                     let transition = flow.transition;
-                    (transition, last.updated.step(mean, &transition, &noise))
+                    let predicted = last.updated.step(mean, &transition, &noise);
+                    (transition, noise, predicted)
                 }
-                _ => (SMatrix::identity(), self.start(motion)),
+                _ => (SMatrix::identity(), SMatrix::zeros(), self.start(motion)),
             };
             let moved = effects.last().map_or_else(SMatrix::zeros, |last| {
                 transition * last.updated + flow[index - 1].effects
@@ -238,6 +242,7 @@ where
                 updated: moved,
             };
             let mut updated = predicted;
+            let mut data = Vec::with_capacity(N);
             for (component, datum) in row.iter().enumerate() {
                 let Some(datum) = *datum else { continue };
                 let innovation = updated.update(component, datum);
@@ -247,7 +252,13 @@ where
                     own.updated -= innovation.gain * moves;
                     rows.push(moves.transpose() / innovation.variance.sqrt());
                 }
+                data.push(innovation);
             }
+            disturbed.push(DisturbedStep {
+                transition,
+                variance,
+                data,
+            });
             if is_braked {
                 effects.push(own);
             }
@@ -259,11 +270,16 @@ where
         }
         let constants = FittedConstants::fit(&mut innovations, &rows, self.given_noise(logs));
         constants.move_steps(&mut steps, &effects);
+        let disturbances = Disturbances {
+            steps: disturbed,
+            explained: constants.explained(&rows),
+        };
         Filtered {
             innovations,
             steps,
             constants,
             effects,
+            disturbances,
         }
     }
 

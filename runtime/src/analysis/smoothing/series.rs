@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::disturbances::Disturbances;
 use super::gaussian::{Back, Innovations, Step, smooth};
 
 /// A motion of `D` components at every time, their errors, and draws from all motions that
@@ -18,6 +19,7 @@ pub struct SmoothedMotion<const D: usize> {
     deviations: Vec<[f64; D]>,
     spread: Spread<D>,
     innovations: Vec<f64>,
+    disturbances: Disturbances<D>,
     free: usize,
 }
 
@@ -102,8 +104,15 @@ impl<const D: usize> SmoothedMotion<D> {
                 .iter()
                 .map(|value| value / noise)
                 .collect(),
+            disturbances: Disturbances::default(),
             free: innovations.free,
         }
+    }
+
+    /// The motion with what tells its disturbances.
+    pub(super) fn with_disturbances(mut self, disturbances: Disturbances<D>) -> Self {
+        self.disturbances = disturbances;
+        self
     }
 
     /// The motion with frictions that were found with it. Their errors come to those of the
@@ -161,6 +170,7 @@ impl<const D: usize> SmoothedMotion<D> {
                 data: data.len(),
             },
             innovations: Vec::new(),
+            disturbances: Disturbances::default(),
             free: 0,
         }
     }
@@ -215,6 +225,23 @@ impl<const D: usize> SmoothedMotion<D> {
         let square: f64 = used.iter().map(|x| x * x).sum();
         let product: f64 = used.windows(2).map(|pair| pair[0] * pair[1]).sum();
         (used.len() as f64).sqrt() * product / square
+    }
+
+    /// Changes of the state from the time before to each that the equations of motion of a
+    /// [`ModelSmoother`](super::ModelSmoother) do not make, nor the frictions that it found: those
+    /// of the likeliest disturbances. Other smoothers know of none.
+    pub fn disturbances(&self) -> Vec<[f64; D]> {
+        let innovations = self.innovations.iter();
+        let innovations: Vec<f64> = innovations.map(|value| self.noise * value).collect();
+        self.disturbances.likeliest(&innovations)
+    }
+
+    /// Draws the [`disturbances`](Self::disturbances) that another measurement would feign of a
+    /// motion that has none, with its densities as they were found. What the found ones do, and
+    /// these do not, is no noise: a test of the equations. `normal` gives independent numbers of
+    /// a standard normal distribution.
+    pub fn spurious_disturbances(&self, mut normal: impl FnMut() -> f64) -> Vec<[f64; D]> {
+        self.disturbances.spurious(|| self.noise * normal())
     }
 
     /// Draws a motion, each as likely as the data make it: the components at every time.
