@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::motion::{Motion, Record, Smoothed, one_by_one};
+use super::motion::{Disturbances, Motion, Record, Smoothed, one_by_one};
 use super::subject::Subject;
 use crate::failure::Failure;
 
@@ -20,7 +20,8 @@ pub mod quantity {
     pub const POWER: usize = 1;
     /// Integral since the first time of all power that changes the energy, J.
     pub const FLOWED: usize = 2;
-    /// That less the change of the energy: zero but for errors, J.
+    /// Such an integral less the change of the energy: zero but for errors, J. By the equations
+    /// of motion the one along the likeliest motion, and its error that of noise alone.
     pub const CLOSURE: usize = 3;
     /// Their number.
     pub const COUNT: usize = 4;
@@ -146,16 +147,33 @@ impl<const N: usize> Measured<'_, N> {
             motion.iter().map(|[_, rates]| *rates).collect()
         });
         let mut numbers = normal();
-        let (energies, _) = bands(count, || {
+        let (mut energies, _) = bands(count, || {
             self.energies(&told((found.draw)(&mut numbers)), &found.frictions)
         });
+        let motion = told(found.mean.clone());
+        if let Some(Disturbances {
+            likeliest,
+            spurious,
+        }) = &found.disturbances
+        {
+            let likeliest = told(likeliest.clone());
+            let closure = |changes: &[Motion<N>]| self.closure(&motion, &likeliest, changes);
+            let mut numbers = normal();
+            let (noise, _) = bands(count, || closure(&told(spurious(&mut numbers))));
+            let places = energies.means.iter_mut().zip(&mut energies.deviations);
+            let values = closure(&likeliest).into_iter().zip(noise.deviations);
+            for ((mean, deviation), ([value], [error])) in places.zip(values) {
+                mean[quantity::CLOSURE] = value;
+                deviation[quantity::CLOSURE] = error;
+            }
+        }
         Estimate {
             rates,
             energies,
             noise: found.noise,
             whiteness: found.whiteness,
             frictions: found.frictions.clone(),
-            motion: told(found.mean.clone()),
+            motion,
         }
     }
 
@@ -172,5 +190,26 @@ impl<const N: usize> Measured<'_, N> {
             [*energy, powers.told, *flowed, flowed - (energy - start)]
         })
         .collect()
+    }
+
+    /// The closure by changes of a motion beside its equations: along these the energy changes
+    /// by its power, so that all else is in the changes. To first order, about the middle of the
+    /// likeliest ones.
+    fn closure(
+        &self,
+        motion: &[Motion<N>],
+        likeliest: &[Motion<N>],
+        changes: &[Motion<N>],
+    ) -> Vec<[f64; 1]> {
+        let mut closure = 0.0;
+        let steps = motion.iter().zip(likeliest).zip(changes);
+        steps
+            .map(|((motion, likeliest), change)| {
+                let middle = |part: usize, of: usize| motion[part][of] - 0.5 * likeliest[part][of];
+                let middle = [0, 1].map(|part| std::array::from_fn(|of| middle(part, of)));
+                closure -= self.subject.energy_along(&middle, change);
+                [closure]
+            })
+            .collect()
     }
 }

@@ -1,5 +1,7 @@
 //! Motions that measured angles allow.
 
+use std::rc::Rc;
+
 use branched_pendulum::analysis::variational::Linearised;
 use branched_pendulum::analysis::{
     ModelSmoother, SmoothedCoordinates, SmoothedMotion, SmoothingError,
@@ -34,6 +36,16 @@ pub struct Smoothed<const N: usize> {
     pub whiteness: f64,
     /// Friction that the equations lack, N m s, pivot by pivot; none where none is sought.
     pub frictions: Vec<f64>,
+    /// What the motion does beside its equations; none where it was found without any.
+    pub disturbances: Option<Disturbances<N>>,
+}
+
+/// Changes of a motion from the time before to each that its equations do not make.
+pub struct Disturbances<const N: usize> {
+    /// The likeliest ones.
+    pub likeliest: Vec<Motion<N>>,
+    /// Others, which noise alone would feign of a motion that has none.
+    pub spurious: Box<Draw<N>>,
 }
 
 /// Smooths each coordinate by itself.
@@ -56,6 +68,7 @@ pub fn one_by_one<const N: usize>(
         noise: noise.unwrap_or(f64::NAN),
         whiteness: series.whiteness(),
         frictions: Vec::new(),
+        disturbances: None,
         draw: Box::new(move |normal| series.draw(normal).into_iter().map(parted).collect()),
     })
 }
@@ -79,14 +92,20 @@ pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
     };
     let guess: Vec<[f64; D]> = guess.iter().map(flat).collect();
     let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-    let motion: SmoothedMotion<D> = smoother.smooth(
+    let motion: Rc<SmoothedMotion<D>> = Rc::new(smoother.smooth(
         &method,
         system,
         mass_matrix,
         record.times,
         record.angles,
         &guess,
-    )?;
+    )?);
+    let likeliest = motion.disturbances().iter().map(parted).collect();
+    let measured = Rc::clone(&motion);
+    let spurious = move |normal: &mut dyn FnMut() -> f64| {
+        let drawn = measured.spurious_disturbances(normal);
+        drawn.iter().map(parted).collect()
+    };
     Ok(Smoothed {
         mean: (0..record.times.len())
             .map(|index| parted(&motion.mean(index)))
@@ -94,6 +113,10 @@ pub fn by_equations<const N: usize, const D: usize, L: Linearised<f64>>(
         noise: motion.noise(),
         whiteness: motion.whiteness(),
         frictions: motion.frictions().to_vec(),
+        disturbances: Some(Disturbances {
+            likeliest,
+            spurious: Box::new(spurious),
+        }),
         draw: Box::new(move |normal| motion.draw(normal).iter().map(parted).collect()),
     })
 }

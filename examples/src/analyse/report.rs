@@ -188,3 +188,40 @@ pub fn power_error<const N: usize>(source: &Source<N>, estimate: &Estimate<N>) -
     });
     (size > 0.0).then(|| (error / size).sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Arguments, Draws, Measured, Source};
+    use super::Trust;
+    use crate::branched_double::Apparatus;
+
+    /// The closure by the equations of motion, in its deviations.
+    fn closure(arguments: &Arguments) -> f64 {
+        let apparatus = Apparatus::new(arguments.friction).unwrap();
+        let source = Source::simulate(arguments).unwrap();
+        let measured = Measured {
+            subject: &apparatus,
+            record: source.record(),
+        };
+        let draws = Draws { count: 30, seed: 1 };
+        let guess = measured.by_smoothness(draws).unwrap();
+        let trust = Trust::of(&measured.by_model(&guess, draws).unwrap());
+        trust.closure / trust.closure_deviation
+    }
+
+    /// Dots that are half a degree off their link are no noise, though what is left over of the
+    /// angles is white.
+    #[test]
+    fn turned_dots_are_told_by_the_closure() {
+        let right = Arguments {
+            rate: 60.0,
+            ..Arguments::default()
+        };
+        let turned = Arguments {
+            turned: 0.5,
+            ..right.clone()
+        };
+        let (right, turned) = (closure(&right), closure(&turned));
+        assert!(right < 3.0 && turned > 5.0, "{right} {turned}");
+    }
+}

@@ -55,6 +55,9 @@ pub trait Subject<const N: usize> {
     /// The energy that is told, J.
     fn energy(&self, motion: &Motion<N>) -> f64;
 
+    /// Change of the energy by a change of the motion, to first order about it.
+    fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64;
+
     /// Its powers, with friction in the pivots that is told beside the pendulum's own: a
     /// coefficient (N m s) for each, or none.
     fn powers(&self, motion: &Motion<N>, friction: &[f64]) -> Powers;
@@ -68,6 +71,17 @@ pub trait Subject<const N: usize> {
         record: Record<'_, N>,
         guess: &[Motion<N>],
     ) -> Result<Smoothed<N>, SmoothingError>;
+}
+
+/// A motion that begins to change.
+fn along<const N: usize>(motion: &Motion<N>, change: &Motion<N>) -> [[Dual<f64, 1>; N]; 2] {
+    let part = |part: usize| {
+        std::array::from_fn(|of| Dual {
+            value: motion[part][of],
+            tangents: [change[part][of]],
+        })
+    };
+    [part(0), part(1)]
 }
 
 impl Subject<3> for Apparatus {
@@ -94,6 +108,14 @@ impl Subject<3> for Apparatus {
 
     fn energy(&self, [coordinates, rates]: &Motion<3>) -> f64 {
         self.antiphase_energy(coordinates, rates)
+    }
+
+    fn energy_along(&self, motion: &Motion<3>, change: &Motion<3>) -> f64 {
+        let model = self.ideal().cast(Dual::constant);
+        let [coordinates, rates] = along(motion, change);
+        let momenta = model.symmetric_momenta(&coordinates, &rates);
+        let [slope] = model.antiphase_energy(&coordinates, &momenta).tangents;
+        slope
     }
 
     fn powers(&self, [coordinates, rates]: &Motion<3>, friction: &[f64]) -> Powers {
@@ -184,19 +206,18 @@ impl Subject<2> for TwoLinks {
         self.model.kinetic_energy(angles, rates) + self.model.potential_energy(angles)
     }
 
+    fn energy_along(&self, motion: &Motion<2>, change: &Motion<2>) -> f64 {
+        let [theta, omega] = along(motion, change);
+        let energy = self.dual.kinetic_energy(&theta, &omega) + self.dual.potential_energy(&theta);
+        let [slope] = energy.tangents;
+        slope
+    }
+
     /// Friction is all that changes the energy: its power is the derivative of the energy
     /// along the motion, whatever the law.
     fn powers(&self, [angles, rates]: &Motion<2>, friction: &[f64]) -> Powers {
         let accelerations = self.model.accelerations(angles, rates);
-        let along = |values: &[f64; 2], rates: &[f64; 2]| {
-            std::array::from_fn(|link| Dual {
-                value: values[link],
-                tangents: [rates[link]],
-            })
-        };
-        let (theta, omega) = (along(angles, rates), along(rates, &accelerations));
-        let energy = self.dual.kinetic_energy(&theta, &omega) + self.dual.potential_energy(&theta);
-        let [own] = energy.tangents;
+        let own = self.energy_along(&[*angles, *rates], &[*rates, accelerations]);
         let relative = [rates[0], rates[1] - rates[0]];
         let lost = friction
             .iter()

@@ -204,7 +204,6 @@ fn bars_of_energy_and_transfer_hold_what_they_say_200_cameras() {
     assert_coverage(&FRICTION.map(with_friction), Way::Smoothness, 200, 100);
 }
 
-/// Fails by the closure, whose bar is too wide (`docs/measured.md`).
 #[test]
 #[ignore = "some minutes"]
 fn bars_by_equations_of_motion_200_cameras() {
@@ -219,7 +218,6 @@ fn with_lacking_friction(unmodelled: f64) -> Arguments {
     }
 }
 
-/// Fails by the closure likewise.
 #[test]
 #[ignore = "some minutes"]
 fn bars_with_friction_that_equations_lack_200_cameras() {
