@@ -116,7 +116,10 @@ pub fn report<const N: usize>(
         line(format!("  {finding}"));
     }
     let trust = Trust::of(estimate);
-    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let percent = |part: f64| match 100.0 * part {
+        small @ ..0.01 => format!("{small:.1e} %"),
+        usual => format!("{usual:.2} %"),
+    };
     let (energy, power) = (names.energy, names.power);
     line(
         match (arguments.model, arguments.polynomials) {
@@ -137,17 +140,21 @@ pub fn report<const N: usize>(
         "  {power} to {} (rms of its deviation, of that of {power})",
         percent(trust.power)
     ));
+    // By the equations the integral is not taken from picture to picture.
+    let (cause, or_few) = match arguments.model {
+        true => (" of noise alone", ""),
+        false => ("", ", or the pictures are too few"),
+    };
     line(format!(
-        "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, {} expected",
+        "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, \
+         {} expected{cause}",
         percent(trust.closure),
         percent(trust.closure_deviation)
     ));
     if trust.closure > 3.0 * trust.closure_deviation {
-        line(
-            "  that is too much: the pendulum is not the assumed one with this friction, or the \
-             pictures are too few"
-                .to_owned(),
-        );
+        line(format!(
+            "  that is too much: the pendulum is not the assumed one with this friction{or_few}"
+        ));
     }
     let white = estimate.whiteness;
     line(match white.abs() {
