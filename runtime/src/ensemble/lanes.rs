@@ -243,11 +243,11 @@ impl Ensemble<'_> {
         };
         let outcomes = self.on_threads(task.cases.len(), |queue| {
             let mut results = Vec::new();
-            let done = |index, outcome| {
+            let mut done = |index, outcome| {
                 results.push((index, outcome));
                 queue.done();
             };
-            lanes::integrate(&task, || queue.next(), done);
+            lanes::integrate(&task, &mut || queue.next(), &mut done);
             results
         });
         outcomes.into_iter()

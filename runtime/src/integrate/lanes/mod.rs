@@ -51,8 +51,8 @@ pub(crate) struct Task<'a, M, O, T> {
 /// where it ends, and no step does.
 pub(crate) fn integrate<M, O, T>(
     task: &Task<'_, M, O, T>,
-    next: impl FnMut() -> Option<usize>,
-    done: impl FnMut(usize, Outcome<T>),
+    next: &mut dyn FnMut() -> Option<usize>,
+    done: &mut dyn FnMut(usize, Outcome<T>),
 ) where
     M: LaneMethod<O, T>,
     O: LaneOde<T>,
@@ -62,19 +62,19 @@ pub(crate) fn integrate<M, O, T>(
     dispatch::run_in_registers(task.instructions, kernel);
 }
 
-struct LaneDriver<'a, M, O, T, N, D> {
+/// Compiled once for a method and a system: whoever gives the cases and takes the outcomes is
+/// asked once a trajectory.
+struct LaneDriver<'a, M, O, T> {
     task: &'a Task<'a, M, O, T>,
-    next: N,
-    done: D,
+    next: &'a mut dyn FnMut() -> Option<usize>,
+    done: &'a mut dyn FnMut(usize, Outcome<T>),
 }
 
-impl<M, O, T, N, D> Kernel<T> for LaneDriver<'_, M, O, T, N, D>
+impl<M, O, T> Kernel<T> for LaneDriver<'_, M, O, T>
 where
     M: LaneMethod<O, T>,
     O: LaneOde<T>,
     T: Lane,
-    N: FnMut() -> Option<usize>,
-    D: FnMut(usize, Outcome<T>),
 {
     type Output = ();
 
@@ -118,13 +118,11 @@ where
     }
 }
 
-impl<M, O, T, N, D> LaneDriver<'_, M, O, T, N, D>
+impl<M, O, T> LaneDriver<'_, M, O, T>
 where
     M: LaneMethod<O, T>,
     O: LaneOde<T>,
     T: Lane,
-    N: FnMut() -> Option<usize>,
-    D: FnMut(usize, Outcome<T>),
 {
     fn refuse_all(&mut self, error: &InputError<T>) {
         while let Some(index) = (self.next)() {

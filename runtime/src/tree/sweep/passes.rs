@@ -146,10 +146,11 @@ where
         }
     }
 
-    /// The constants of leaves.
+    /// The constants of leaves: the last row.
     #[inline(always)]
     fn leaf(&self) -> E::Constants<V> {
-        self.row(E::COPIES.len().wrapping_sub(1))
+        let rows = self.view.constants.len() / <E::Constants<V> as Row<V>>::LENGTH.max(1);
+        self.row(rows.wrapping_sub(1))
     }
 
     /// From the leaves to the first strip.

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::equations::{SHAPES, SampleBody, any, by_generation, by_link, links};
+use super::equations::{ALL, SampleBody, any, by_generation, by_link, links};
 use super::{accelerations, drive, motion};
 
 type Vector = [f64; 2];
@@ -95,13 +95,17 @@ fn agree(own: &[f64], dense: &[f64]) {
     }
 }
 
-fn generations_agree<const SHAPE: usize>() {
-    let (parents, bodies) = links(SHAPES[SHAPE]);
-    let expected = dense(&parents, &bodies);
-    let tree = by_generation::<f64, SHAPE>();
-    agree(&accelerations(&tree, bodies.len()), &expected);
-    let same = by_link::<f64>(&parents, &bodies);
-    agree(&accelerations(&same, bodies.len()), &expected);
+fn generations_agree<const PLACE: usize>() {
+    // Of more links the dense solve has too few digits left.
+    let small = |copies: &&&[usize]| links(copies).0.len() < 200;
+    for copies in ALL[PLACE].iter().filter(small) {
+        let (parents, bodies) = links(copies);
+        let expected = dense(&parents, &bodies);
+        let tree = by_generation::<f64, PLACE>(copies);
+        agree(&accelerations(&tree, bodies.len()), &expected);
+        let same = by_link::<f64>(&parents, &bodies);
+        agree(&accelerations(&same, bodies.len()), &expected);
+    }
 }
 
 #[test]
@@ -111,10 +115,6 @@ fn trees_by_generation_solve_the_equations_of_motion() {
     generations_agree::<2>();
     generations_agree::<3>();
     generations_agree::<4>();
-    generations_agree::<5>();
-    generations_agree::<6>();
-    generations_agree::<7>();
-    generations_agree::<8>();
 }
 
 #[test]

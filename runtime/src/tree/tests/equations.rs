@@ -3,28 +3,40 @@
 
 use alloc::vec::Vec;
 
+use core::marker::PhantomData;
+
+use super::super::memory::Sizes;
+use super::super::skeleton::Skeleton;
 use super::super::{LinkEquations, LinkMotion, Tree};
 use super::numbers;
 use crate::scalar::Scalar;
 
-/// Copies of each generation: numbers of siblings below, at and above the lanes of
-/// every register, and none that is a power of two.
-pub(super) const SHAPES: [&[usize]; 12] = [
-    &[1, 1, 1, 1, 1],
+/// Copies of each generation, of trees that one set of compiled equations serves: those that
+/// it is compiled for come last. Numbers of siblings below, at and above the lanes of every
+/// register, and none that is a power of two.
+pub(super) type Shapes = &'static [&'static [usize]];
+
+pub(super) const CHAINS: Shapes = &[&[1, 1, 1, 1, 1]];
+/// One of them in more than one block: for states in lanes, and for one state.
+pub(super) const PAIRS: Shapes = &[
     &[1, 2],
-    &[1, 3, 3],
+    &[1, 2, 2, 2, 2, 2, 2],
+    &[1, 2, 2, 2, 2, 2, 2, 2, 2],
+];
+pub(super) const TRIPLES: Shapes = &[&[1, 3, 3]];
+pub(super) const FOURS: Shapes = &[&[1, 4, 4, 4]];
+pub(super) const MIXED: Shapes = &[
     &[1, 5, 1, 2],
     &[1, 7, 3],
     &[1, 9, 2],
     &[1, 17, 2],
-    &[1, 2, 2, 2, 2, 2, 2],
-    &[1, 4, 4, 4],
-    // In more than one block: for states in lanes, and for one state.
-    &[1, 2, 2, 2, 2, 2, 2, 2, 2],
     &[1, 3, 1, 11, 41, 7],
     // Blocks of blocks, so many that they go up twice.
     &[1, 600, 14, 11, 4],
 ];
+
+/// All of them, each as `CommonPivot<PLACE>` knows it.
+pub(super) const ALL: [Shapes; 5] = [CHAINS, PAIRS, TRIPLES, FOURS, MIXED];
 
 /// A body and its joint.
 #[derive(Clone, Copy, Debug)]
@@ -151,16 +163,16 @@ fn accelerated<V: Scalar>([g_x, g_y, kappa]: [V; 3], pivot: [V; 2]) -> V {
 /// Links whose children share one pivot; its place is among the constants of the
 /// link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct CommonPivot<const SHAPE: usize>;
+pub(super) struct CommonPivot<const PLACE: usize>;
 
-impl<const SHAPE: usize> LinkEquations for CommonPivot<SHAPE> {
+impl<const PLACE: usize> LinkEquations for CommonPivot<PLACE> {
     type Constants<V: Scalar> = Constants<V>;
     type Response<V: Scalar> = [V; 6];
     type Sums<V: Scalar> = [V; 6];
     type Elimination<V: Scalar> = [V; 3];
     type Carried<V: Scalar> = [V; 2];
 
-    const COPIES: &'static [usize] = SHAPES[SHAPE];
+    const COPIES: &'static [usize] = ALL[PLACE][ALL[PLACE].len() - 1];
     const NAMES: &'static [&'static str] = &[];
     const JOINTS: bool = true;
     const TORQUE: bool = true;
@@ -282,16 +294,23 @@ fn row<T: Scalar>(body: SampleBody, place: [f64; 2]) -> Constants<T> {
 
 const GRAVITY: [f64; 2] = [0.0, 9.81];
 
-/// A tree by generations.
-pub(super) fn by_generation<T: Scalar, const SHAPE: usize>() -> Tree<CommonPivot<SHAPE>, T> {
+/// A tree by generations of these copies, or of fewer than the equations are compiled for.
+pub(super) fn by_generation<T: Scalar, const PLACE: usize>(
+    copies: &[usize],
+) -> Tree<CommonPivot<PLACE>, T> {
     // The children's place is a constant of the link.
-    let rows = (0..SHAPES[SHAPE].len()).flat_map(|generation| {
+    let rows = (0..copies.len()).flat_map(|generation| {
         row(
             SampleBody::new(generation),
             SampleBody::new(generation + 1).place,
         )
     });
-    Tree::new(rows.collect(), GRAVITY.map(T::from_f64))
+    let root = GRAVITY.map(T::from_f64);
+    let sizes = Sizes::of::<CommonPivot<PLACE>, T>();
+    Tree {
+        skeleton: Skeleton::by_generation(copies, sizes, rows.collect(), root, 1),
+        equations: PhantomData,
+    }
 }
 
 /// The links of a rule one by one: their parents and bodies.

@@ -103,11 +103,9 @@ fn outcomes<T: Lane, M: LaneMethod<LopsidedOde<T>, T>>(
     };
     let mut queue = 0..count;
     let mut outcomes = vec![None; count];
-    integrate(
-        &task,
-        || queue.next(),
-        |index, outcome| assert!(outcomes[index].replace(outcome).is_none()),
-    );
+    integrate(&task, &mut || queue.next(), &mut |index, outcome| {
+        assert!(outcomes[index].replace(outcome).is_none())
+    });
     outcomes.into_iter().map(Option::unwrap).collect()
 }
 
