@@ -4,10 +4,10 @@ use core::f64::consts::TAU;
 
 use branched_pendulum::integrate::Tolerance;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
 use crate::problems::{
-    BranchedDouble, growth_and_decay, growth_and_decay_at, harmonic, kepler, perihelion, watch,
+    BranchedDouble, Problem, growth_and_decay, growth_and_decay_at, harmonic, kepler, perihelion,
+    watch,
 };
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -92,7 +92,7 @@ fn f32_reaches_what_its_rounding_allows() {
 fn tolerances_per_component_govern_their_component() {
     // Two uncoupled oscillators; only the tolerance of the fast one can make
     // steps short.
-    let ode = OdeFn::new(4, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(4, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates.copy_from_slice(&[y[2], y[3], -y[0], -2500.0 * y[1]]);
     });
     let start = State::at_rest(0.0, &[1.0, 1.0]);
@@ -177,7 +177,7 @@ fn a_component_that_is_zero_stays_zero_under_a_relative_tolerance() {
         absolute: Tolerance::Uniform(0.0),
         ..Options::with_tolerance(1e-10)
     };
-    let ode = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = -y[0];
         rates[1] = -y[1];
     });
@@ -217,7 +217,7 @@ fn energy_of_the_paper_s_pendulum_is_held_to_1e_12() {
 fn compensated_sums_lose_less() {
     // A large value that moves little: a thousand steps, each with a rounding
     // error of the sum a thousand times that of the increment.
-    let ode = OdeFn::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = time.cos()
     });
     let error = |compensated| {

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{BranchedDouble, watch};
+use crate::problems::{BranchedDouble, Problem, watch};
 
 fn threads(count: usize) -> NonZeroUsize {
     NonZeroUsize::new(count).unwrap()
@@ -83,7 +82,7 @@ fn progress_counts_every_item_once() {
 fn parameters_vary_as_well_as_starts() {
     let rates = [1.0, 2.0, f64::NAN, 4.0];
     let ends = Ensemble::new().map(&rates, |_, &rate| {
-        let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
+        let decay = Problem::new(1, move |_time: f64, y: &[f64], rates: &mut [f64]| {
             rates[0] = -rate * y[0]
         });
         Dop853::new(Options::with_tolerance(1e-12))

@@ -4,9 +4,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 
 use branched_pendulum::integrate::{Crossing, Event};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{harmonic, watch};
+use crate::problems::{Problem, harmonic, watch};
 
 /// y = cos t, y' = −sin t.
 fn start() -> State<f64> {
@@ -112,7 +111,7 @@ fn several_events_in_one_step_come_in_order() {
         initial_step: Some(1.0),
         ..Options::with_tolerance(1e-3)
     };
-    let straight = OdeFn::new(1, |_time: f64, _y: &[f64], rates: &mut [f64]| {
+    let straight = Problem::new(1, |_time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = 1.0
     });
     let mut found = Vec::new();

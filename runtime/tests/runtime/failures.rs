@@ -2,9 +2,8 @@
 
 use branched_pendulum::integrate::DenseError;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{growth_and_decay, harmonic, watch};
+use crate::problems::{Problem, growth_and_decay, harmonic, watch};
 
 type Failure = IntegrationError<f64>;
 
@@ -25,7 +24,7 @@ fn run(options: Options<f64>) -> Failure {
 #[test]
 fn rates_that_blow_up_are_reported_at_once() {
     // Defined until t = 1 only.
-    let ode = OdeFn::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = (1.0 - time).sqrt();
     });
     let error = Dop853::new(options())
@@ -60,7 +59,7 @@ fn rates_that_blow_up_are_reported_at_once() {
 
 #[test]
 fn rates_that_are_not_finite_at_the_start() {
-    let ode = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = 1.0 / y[0]
     });
     let zero = State::new(0.5, vec![0.0]);
@@ -82,7 +81,7 @@ fn rates_that_are_not_finite_at_the_start() {
 
 #[test]
 fn a_fixed_step_that_overflows() {
-    let ode = OdeFn::new(1, |_time: f64, _y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |_time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = 1e308
     });
     let error = Dop853::new(options())
@@ -97,7 +96,7 @@ fn a_fixed_step_that_overflows() {
 #[test]
 fn a_singularity_that_the_steps_cannot_pass() {
     // y = 1/(1 - t): the steps shrink towards t = 1 and end there.
-    let ode = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[0] * y[0]
     });
     let one = State::new(0.0, vec![1.0]);
@@ -196,7 +195,7 @@ fn dense_output_refuses_what_it_does_not_know() {
 fn rates_that_are_not_finite_only_between_the_stages() {
     // Finite where the twelve stages look, NaN where the dense output does: at
     // the tenth of a step of length one.
-    let ode = OdeFn::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = if (time - 0.1).abs() < 1e-9 {
             f64::NAN
         } else {

@@ -3,9 +3,8 @@
 
 use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{BranchedDouble, watch};
+use crate::problems::{BranchedDouble, Problem, watch};
 
 /// The reference's regular case, in canonical variables.
 fn regular() -> State<f64> {
@@ -126,7 +125,7 @@ fn both_solvers_reach_the_same_step() {
 
 /// y' = −λ y, far too stiff for a fixed point: h λ = 1000.
 fn stiff() -> impl Ode<f64> {
-    OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    Problem::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = -1e4 * y[0]
     })
 }
@@ -170,7 +169,7 @@ fn newton_solves_what_a_fixed_point_cannot() {
 #[test]
 fn halved_steps_return_to_the_grid() {
     // Stiff only around t = 0.55.
-    let ode = OdeFn::new(1, |time: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |time: f64, y: &[f64], rates: &mut [f64]| {
         let stiffness = if (time - 0.55).abs() < 0.035 {
             60.0
         } else {
@@ -196,7 +195,7 @@ fn halved_steps_return_to_the_grid() {
 #[test]
 fn rates_that_end_are_reported_with_the_last_state() {
     // y' = √(1 − t) is NaN beyond t = 1.
-    let ode = OdeFn::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |time: f64, _y: &[f64], rates: &mut [f64]| {
         rates[0] = (1.0 - time).sqrt();
     });
     let zero = State::new(0.0, vec![0.0]);

@@ -3,9 +3,11 @@
 use branched_pendulum::analysis::variational::WithDerivative;
 use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, SmoothedMotion};
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
-use branched_pendulum::system::{OdeFn, State};
+use branched_pendulum::system::State;
 
 use super::normal::Normal;
+
+use crate::problems::Problem;
 
 /// Forces per unit of inertia.
 fn unit_mass(_: &[f64; 1]) -> [[f64; 1]; 1] {
@@ -26,7 +28,7 @@ struct Swing {
 
 impl Swing {
     fn new(friction: f64) -> Self {
-        let ode = OdeFn::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
+        let ode = Problem::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
             rates[0] = y[1];
             rates[1] = -14.7 * y[0].sin() - friction * y[1];
         });
@@ -42,7 +44,7 @@ impl Swing {
     /// Smooths by equations without friction.
     fn smoothed(&self, seed: u64, with_friction: bool) -> SmoothedMotion<2> {
         let ideal = WithDerivative::new(
-            OdeFn::new(2, without_friction),
+            Problem::new(2, without_friction),
             |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
                 out[0] = v[1];
                 out[1] = -14.7 * y[0].cos() * v[0];
@@ -158,7 +160,7 @@ fn disturbances_are_where_the_motion_leaves_its_equations() {
     assert_eq!(disturbances[0], [0.0; 2]);
     let largest = disturbances.iter().map(|[_, rate]| rate.abs());
     let largest = largest.fold(0.0, f64::max);
-    let (method, ode) = (Rk4::new(0.005), OdeFn::new(2, without_friction));
+    let (method, ode) = (Rk4::new(0.005), Problem::new(2, without_friction));
     for (index, times) in swing.times.windows(2).enumerate() {
         let start = State::new(times[0], motion.mean(index).to_vec());
         let end = method.sample_to_vec(&ode, &start, &times[1..]).unwrap();

@@ -4,9 +4,11 @@ use core::f64::consts::TAU;
 
 use branched_pendulum::analysis::{LineSearch, Lines, Passages, Spectrum, Window};
 use branched_pendulum::integrate::{Dop853, Integrator, Options};
-use branched_pendulum::system::{OdeFn, State};
+use branched_pendulum::system::State;
 
 use super::normal::Normal;
+
+use crate::problems::Problem;
 
 /// θ_m of the paper's pendulum while both children move alike, released at rest from an
 /// angle of the parent, the children vertical: closed form, apart from all generated code.
@@ -16,7 +18,7 @@ fn mean_angle(angle_deg: f64, span: f64, rate: f64) -> Vec<f64> {
     let a = i1 + m1 * d1 * d1 + 2.0 * m2 * joint * joint;
     let (b, c) = (2.0 * m2 * d2 * joint, 2.0 * (i2 + m2 * d2 * d2));
     let (g1, g2) = (g * (m1 * d1 + 2.0 * m2 * joint), 2.0 * g * m2 * d2);
-    let equations = OdeFn::new(4, move |_: f64, y: &[f64], rates: &mut [f64]| {
+    let equations = Problem::new(4, move |_: f64, y: &[f64], rates: &mut [f64]| {
         let (s, k) = (y[1] - y[0]).sin_cos();
         let one = b * s * y[3] * y[3] - g1 * y[0].sin();
         let two = -b * s * y[2] * y[2] - g2 * y[1].sin();

@@ -1,11 +1,39 @@
 //! Problems that come with their answers.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
+
+/// A system of any rates. They are called by their address, so that each method is compiled
+/// once for all such systems.
+pub(crate) struct Problem<T> {
+    dimension: usize,
+    rates: Box<Rates<T>>,
+}
+
+type Rates<T> = dyn Fn(T, &[T], &mut [T]) + Send + Sync;
+
+impl<T> Problem<T> {
+    pub(crate) fn new(
+        dimension: usize,
+        rates: impl Fn(T, &[T], &mut [T]) + Send + Sync + 'static,
+    ) -> Self {
+        let rates = Box::new(rates);
+        Self { dimension, rates }
+    }
+}
+
+impl<T> Ode<T> for Problem<T> {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        (self.rates)(time, state, rates);
+    }
+}
 
 /// y' = y cos t, y(0) = 1: smooth, depends on time, y = exp(sin t).
-pub(crate) fn growth_and_decay() -> impl Ode<f64> {
-    OdeFn::new(1, |time: f64, y: &[f64], rates: &mut [f64]| {
+pub(crate) fn growth_and_decay() -> Problem<f64> {
+    Problem::new(1, |time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[0] * time.cos()
     })
 }
@@ -15,8 +43,8 @@ pub(crate) fn growth_and_decay_at(time: f64) -> f64 {
 }
 
 /// y'' + y = sin 2t.
-pub(crate) fn driven_oscillator() -> impl Ode<f64> {
-    OdeFn::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
+pub(crate) fn driven_oscillator() -> Problem<f64> {
+    Problem::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[1];
         rates[1] = (2.0 * time).sin() - y[0];
     })
@@ -32,8 +60,8 @@ pub(crate) fn driven_oscillator_at(time: f64) -> [f64; 2] {
 }
 
 /// y₁' = −2 t y₁², y₂' = y₁ y₂: not linear, y₁ = 1/(1 + t²), y₂ = exp(arctan t).
-pub(crate) fn bell() -> impl Ode<f64> {
-    OdeFn::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
+pub(crate) fn bell() -> Problem<f64> {
+    Problem::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = -2.0 * time * y[0] * y[0];
         rates[1] = y[0] * y[1];
     })
@@ -44,8 +72,8 @@ pub(crate) fn bell_at(time: f64) -> [f64; 2] {
 }
 
 /// Two bodies; period 2π. State: position, velocity in the plane.
-pub(crate) fn kepler<T: Real>() -> impl Ode<T> {
-    OdeFn::new(4, |_time: T, y: &[T], rates: &mut [T]| {
+pub(crate) fn kepler<T: Real>() -> Problem<T> {
+    Problem::new(4, |_time: T, y: &[T], rates: &mut [T]| {
         let squared = y[0] * y[0] + y[1] * y[1];
         let cubed = squared * squared.sqrt();
         rates[0] = y[2];
@@ -62,8 +90,8 @@ pub(crate) fn perihelion<T: Real>(eccentricity: f64) -> State<T> {
     State::new(T::ZERO, values.map(T::from_f64).to_vec())
 }
 
-pub(crate) fn harmonic<T: Real>() -> impl Ode<T> {
-    OdeFn::new(2, |_time: T, y: &[T], rates: &mut [T]| {
+pub(crate) fn harmonic<T: Real>() -> Problem<T> {
+    Problem::new(2, |_time: T, y: &[T], rates: &mut [T]| {
         rates[0] = y[1];
         rates[1] = -y[0];
     })

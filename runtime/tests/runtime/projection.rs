@@ -4,13 +4,12 @@
 use branched_pendulum::integrate::{InputError, Projected};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::CanonicalEnergy;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{BranchedDouble, watch};
+use crate::problems::{BranchedDouble, Problem, watch};
 
 /// A pendulum: H = p²/2 − cos q.
 fn pendulum() -> impl Ode<f64> {
-    OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    Problem::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[1];
         rates[1] = -y[0].sin();
     })
@@ -109,8 +108,8 @@ fn the_energy_is_kept_to_rounding() {
 }
 
 /// Area of the image of a small parallelogram in phase space, over its own.
-fn area_ratio(method: &impl Integrator<f64, OdeFn<fn(f64, &[f64], &mut [f64])>>) -> f64 {
-    let ode = OdeFn::new(
+fn area_ratio(method: &impl Integrator<f64, Problem<f64>>) -> f64 {
+    let ode = Problem::new(
         2,
         (|_time, y, rates| {
             rates[0] = y[1];

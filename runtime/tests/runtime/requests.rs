@@ -8,7 +8,7 @@ use branched_pendulum::integrate::Tolerance;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::OdeFn;
 
-use crate::problems::{harmonic, watch};
+use crate::problems::{Problem, harmonic, watch};
 
 fn start() -> State<f64> {
     State::at_rest(0.0, &[1.0])
@@ -139,7 +139,7 @@ fn starts_and_times_that_make_no_sense() {
     );
     assert_eq!(refused(start(), f64::NAN), "requested time 0 is NaN");
     assert_eq!(refused(start(), f64::INFINITY), "requested time 0 is inf");
-    let empty = OdeFn::new(0, |_time: f64, _y: &[f64], _rates: &mut [f64]| {});
+    let empty = Problem::new(0, |_time: f64, _y: &[f64], _rates: &mut [f64]| {});
     let error = method
         .integrate(&empty, &State::new(0.0, vec![]), 1.0, watch)
         .unwrap_err();

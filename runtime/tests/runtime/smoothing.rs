@@ -6,9 +6,11 @@ use branched_pendulum::analysis::{
     running_integral,
 };
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
-use branched_pendulum::system::{OdeFn, State};
+use branched_pendulum::system::State;
 
 use super::normal::Normal;
+
+use crate::problems::Problem;
 
 fn signal(time: f64) -> [f64; 3] {
     let waves = [(0.8, 4.1, 0.3), (0.3, 9.7, 1.1), (0.1, 17.0, 2.0)];
@@ -292,7 +294,7 @@ fn impossible_data_are_refused() {
 fn equations_of_motion_help_where_they_hold() {
     let equations = |friction: f64| {
         WithDerivative::new(
-            OdeFn::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
+            Problem::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
                 rates[0] = y[1];
                 rates[1] = -14.7 * y[0].sin() - friction * y[1];
             }),

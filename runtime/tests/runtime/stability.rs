@@ -8,13 +8,12 @@
 
 use branched_pendulum::integrate::{Solver, Tolerance};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{BranchedDouble, harmonic, watch};
+use crate::problems::{BranchedDouble, Problem, harmonic, watch};
 
 /// y' = −λ y with y(0) = 1: friction, stiff for large λ.
 fn friction(rate: f64) -> impl Ode<f64> {
-    OdeFn::new(1, move |_time: f64, y: &[f64], rates: &mut [f64]| {
+    Problem::new(1, move |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = -rate * y[0]
     })
 }
@@ -220,7 +219,7 @@ fn children_lighter_by_twelve_orders_do_not_disturb_their_parent() {
     let start = State::at_rest(0.0, &[1.0, 0.2, -0.1]);
     let method = Dop853::new(Options::with_tolerance(1e-12));
     let light = light(1e-12);
-    let alone = OdeFn::new(2, |_time: f64, y: &[f64], rates: &mut [f64]| {
+    let alone = Problem::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[1];
         rates[1] = -light.g1 / light.m1 * y[0].sin();
     });

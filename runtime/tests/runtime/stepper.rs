@@ -2,9 +2,8 @@
 
 use branched_pendulum::integrate::{Crossing, Event, InputError, RunError};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::OdeFn;
 
-use crate::problems::{BranchedDouble, harmonic};
+use crate::problems::{BranchedDouble, Problem, harmonic};
 
 const FRAME: f64 = 1.0 / 60.0;
 
@@ -49,12 +48,12 @@ fn frames_of_the_length_of_a_step_are_the_steps_of_one_run() {
 /// At 30, 60 and 144 frames a second, and at uneven ones.
 #[test]
 fn the_motion_does_not_depend_on_the_frames() {
-    fn seconds(method: &impl Integrator<f64, OdeFn<fn(f64, &[f64], &mut [f64])>>, error: f64) {
+    fn seconds(method: &impl Integrator<f64, Problem<f64>>, error: f64) {
         let oscillator: fn(f64, &[f64], &mut [f64]) =
             |_, y, rates| rates.copy_from_slice(&[y[1], -y[0]]);
         let start = State::at_rest(0.0, &[1.0]);
         let ends = [30, 60, 144, 1000].map(|frames| {
-            let mut stepper = method.start(OdeFn::new(2, oscillator), &start).unwrap();
+            let mut stepper = method.start(Problem::new(2, oscillator), &start).unwrap();
             for number in 0..3 * frames {
                 let uneven = if frames == 1000 {
                     1.0 + 0.9 * (-1.0_f64).powi(number)
@@ -188,7 +187,7 @@ fn changed_equations_and_states_are_those_of_the_next_step() {
 #[test]
 fn after_an_error_one_goes_on_from_the_last_good_state() {
     // Infinite at t = 1.
-    let ode = OdeFn::new(1, |_: f64, y: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(1, |_: f64, y: &[f64], rates: &mut [f64]| {
         rates[0] = y[0] * y[0]
     });
     let mut stepper = dop853().start(ode, &State::new(0.0, vec![1.0])).unwrap();
@@ -268,7 +267,7 @@ fn errors_of_observers_reach_the_caller() {
 
 #[test]
 fn messages_do_not_show_large_states() {
-    let ode = OdeFn::new(100_000, |_: f64, _: &[f64], rates: &mut [f64]| {
+    let ode = Problem::new(100_000, |_: f64, _: &[f64], rates: &mut [f64]| {
         rates.fill(f64::NAN);
     });
     let start = State::at_rest(0.0, &[0.25; 50_000]);

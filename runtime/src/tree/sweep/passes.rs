@@ -150,7 +150,7 @@ where
     #[inline(always)]
     fn leaf(&self) -> E::Constants<V> {
         let rows = self.view.constants.len() / <E::Constants<V> as Row<V>>::LENGTH.max(1);
-        self.row(rows.wrapping_sub(1))
+        self.row(rows.saturating_sub(1))
     }
 
     /// From the leaves to the first strip.
