@@ -60,13 +60,13 @@ pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
     kernel: K,
 ) -> K::Output {
     match set {
-        InstructionSet::Build => build::<T, B, K>(kernel),
+        InstructionSet::Build => kernel.in_build::<B>(),
         // SAFETY: the call is sound on machines that have the features
         // which the function enables. `widest` has asked for each of them,
         // and `set` is not wider.
-        InstructionSet::Avx2 => unsafe { avx2::<T, A, K>(kernel) },
+        InstructionSet::Avx2 => unsafe { kernel.in_avx2::<A>() },
         // SAFETY: `set` is no wider than what `widest` has found.
-        InstructionSet::Avx512 => unsafe { avx512::<T, W, K>(kernel) },
+        InstructionSet::Avx512 => unsafe { kernel.in_avx512::<W>() },
     }
 }
 
@@ -102,42 +102,49 @@ pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
         // SAFETY: `widest` has asked for AVX2 and FMA; the pointers are those of
         // slices of `K::LINKS` numbers, the last one borrowed mutably.
         InstructionSet::Avx2 => unsafe {
-            state_avx2::<T, K>(model, time, theta, omega, out);
+            K::state_in_avx2(model, time, theta, omega, out);
         },
         // SAFETY: `widest` has asked for AVX-512 too; the pointers are those of slices
         // of `K::LINKS` numbers, the last one borrowed mutably.
         InstructionSet::Avx512 => unsafe {
-            state_avx512::<T, K>(model, time, theta, omega, out);
+            K::state_in_avx512(model, time, theta, omega, out);
         },
     }
     true
 }
 
-/// As `state`.
-#[target_feature(enable = "avx2,fma")]
-unsafe fn state_avx2<T: Lane, K: StateKernel<T>>(
-    model: &K::Model,
-    time: T,
-    theta: *const T,
-    omega: *const T,
-    out: *mut T,
-) {
-    // SAFETY: the caller's.
-    unsafe { state::<T, K>(model, time, theta, omega, out) }
+/// [`state`] in the instructions of each set, likewise.
+trait StateInSet<T: Lane>: StateKernel<T> {
+    /// # Safety
+    /// As for `state`, and the machine must have AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn state_in_avx2(
+        model: &Self::Model,
+        time: T,
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
+    ) {
+        // SAFETY: the caller's.
+        unsafe { state::<T, Self>(model, time, theta, omega, out) }
+    }
+
+    /// # Safety
+    /// As for `state`, and the machine must have these instructions of AVX-512, AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+    unsafe fn state_in_avx512(
+        model: &Self::Model,
+        time: T,
+        theta: *const T,
+        omega: *const T,
+        out: *mut T,
+    ) {
+        // SAFETY: the caller's.
+        unsafe { state::<T, Self>(model, time, theta, omega, out) }
+    }
 }
 
-/// As `state`.
-#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
-    model: &K::Model,
-    time: T,
-    theta: *const T,
-    omega: *const T,
-    out: *mut T,
-) {
-    // SAFETY: the caller's.
-    unsafe { state::<T, K>(model, time, theta, omega, out) }
-}
+impl<T: Lane, K: StateKernel<T>> StateInSet<T> for K {}
 
 /// Without the lengths of the slices, which are known: for three links these, and
 /// asking for them again, are a thirtieth of an evaluation.
@@ -146,7 +153,7 @@ unsafe fn state_avx512<T: Lane, K: StateKernel<T>>(
 /// The pointers must be those of slices of `K::LINKS` numbers, of which the last
 /// one is borrowed mutably, and outlives the call like the others.
 #[inline(always)]
-unsafe fn state<T: Lane, K: StateKernel<T>>(
+unsafe fn state<T: Lane, K: StateKernel<T> + ?Sized>(
     model: &K::Model,
     time: T,
     theta: *const T,
@@ -168,26 +175,36 @@ unsafe fn state<T: Lane, K: StateKernel<T>>(
 pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     // SAFETY: asked for by types that exist in computations alone which
     // `run_state` or `run` has started, where the machine has these instructions.
-    unsafe { avx2::<T, V, K>(kernel) }
+    unsafe { kernel.in_avx2::<V>() }
 }
 
 #[inline(always)]
 pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     // SAFETY: asked for by types that exist where `run` has found AVX-512.
-    unsafe { avx512::<T, V, K>(kernel) }
+    unsafe { kernel.in_avx512::<V>() }
 }
 
-#[inline(never)]
-fn build<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<V>()
+/// A computation in the instructions of each set: methods of its own, since compilers put a
+/// method beside its type, and compile side by side what stands in different modules.
+trait InSet<T>: Kernel<T> + Sized {
+    #[inline(never)]
+    fn in_build<V: Simd<T>>(self) -> Self::Output {
+        self.run::<V>()
+    }
+
+    /// # Safety
+    /// The machine must have AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn in_avx2<V: Simd<T>>(self) -> Self::Output {
+        self.run::<V>()
+    }
+
+    /// # Safety
+    /// The machine must have these instructions of AVX-512, AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
+    unsafe fn in_avx512<V: Simd<T>>(self) -> Self::Output {
+        self.run::<V>()
+    }
 }
 
-#[target_feature(enable = "avx2,fma")]
-fn avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<V>()
-}
-
-#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq,avx512bw")]
-fn avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    kernel.run::<V>()
-}
+impl<T, K: Kernel<T>> InSet<T> for K {}
