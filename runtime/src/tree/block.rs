@@ -1,5 +1,7 @@
 //! Which links are computed together.
 
+use core::ops::Range;
+
 use super::strips::Strips;
 
 /// The neighbours of one generation in a block.
@@ -75,15 +77,17 @@ pub(super) fn generations(
 }
 
 impl Generation {
-    /// All links of a tree of any shape, as if they were one.
-    pub(super) fn of_all(links: usize) -> Self {
+    /// Links of a tree of any shape, as if they were one.
+    #[inline(always)]
+    pub(super) fn of_links(links: Range<usize>) -> Self {
+        let (start, links) = (links.start, links.len());
         Self {
             copies: 1,
             count: links,
             whole_count: links,
-            own: 0,
-            slot: 0,
-            whole: 0,
+            own: start,
+            slot: start,
+            whole: start,
             strips: 1,
             length: links,
             stride: 1,

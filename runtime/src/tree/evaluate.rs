@@ -43,7 +43,7 @@ impl<T: Scalar> Evaluation<'_, T> {
             block,
             constants: &self.tree.constants,
             omega: self.given.omega,
-            storage: room.storage(lasting, passing, false),
+            storage: room.storage(self.tree.sizes, lasting, passing, false),
             root: None,
             torque: None,
         }

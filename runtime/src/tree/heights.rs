@@ -1,6 +1,9 @@
 //! Links of a tree of any shape by their heights.
 
 use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::strips::Part;
 
 /// The links, from the root on, by height: the distance to the deepest leaf below.
 ///
@@ -12,8 +15,12 @@ pub(super) struct Heights {
     pub(super) order: Vec<u32>,
     /// The place of the parent of each of these; 0 for the root.
     pub(super) parents: Vec<u32>,
-    /// Number of links of each height, from the root's down.
-    pub(super) lengths: Vec<usize>,
+    /// Neighbours that are a strip, each behind those of its parents.
+    pub(super) strips: Vec<Range<usize>>,
+    /// What goes up at once, the last one first.
+    pub(super) parts: Vec<Part>,
+    /// Number of links at the front whose motions are formed before all others.
+    pub(super) above: usize,
 }
 
 impl Heights {
@@ -45,7 +52,8 @@ impl Heights {
         if let Some(top) = strips.last_mut() {
             top.push(0);
         }
-        let (mut order, mut lengths) = (Vec::with_capacity(links), Vec::new());
+        let mut order = Vec::with_capacity(links);
+        let mut ranges = Vec::new();
         while let Some(mut strip) = strips.pop() {
             // Those with more children first: of parents side by side, all with another
             // child are the first ones then.
@@ -58,7 +66,7 @@ impl Heights {
                     }
                 }
             }
-            lengths.push(strip.len());
+            ranges.push(order.len()..order.len() + strip.len());
             order.append(&mut strip);
         }
         let mut places = alloc::vec![0_u32; links];
@@ -68,7 +76,79 @@ impl Heights {
         Self {
             parents: order.iter().map(|&link| places[parent(link)]).collect(),
             order: order.iter().map(|&link| link as u32).collect(),
-            lengths,
+            parts: alloc::vec![Part {
+                links: 0..links,
+                strips: 0..ranges.len(),
+            }],
+            strips: ranges,
+            above: 0,
+        }
+    }
+
+    /// Returns the same links in subtrees of at most so many, one behind the other and each
+    /// by height, behind the links above them: what is handed on in a subtree is found
+    /// nearby. The children of a link go up in the same order as by height alone, so that
+    /// their sum has the same bits.
+    pub(super) fn in_subtrees(self, most: usize) -> Self {
+        let links = self.order.len();
+        let parent = |place: usize| self.parents[place] as usize;
+        let mut heights = alloc::vec![0; links];
+        for (height, strip) in self.strips.iter().rev().enumerate() {
+            heights[strip.clone()].fill(height);
+        }
+        let mut sizes = alloc::vec![1; links];
+        let mut children: Vec<Vec<usize>> = alloc::vec![Vec::new(); links];
+        for place in (1..links).rev() {
+            sizes[parent(place)] += sizes[place];
+            children[parent(place)].push(place);
+        }
+        let mut order: Vec<usize> = (0..links).filter(|&place| sizes[place] > most).collect();
+        let above = order.len();
+        let (mut strips, mut parts) = (Vec::new(), Vec::new());
+        let mut next = Vec::from_iter((links > 0).then_some(0));
+        while let Some(place) = next.pop() {
+            let (start, strip) = (order.len(), strips.len());
+            if sizes[place] > most {
+                if let Ok(own) = order[..above].binary_search(&place) {
+                    strips.push(own..own + 1);
+                }
+                // What is pushed first stands last, and goes up first: the lowest.
+                children[place].sort_unstable_by_key(|&child| (heights[child], child));
+                next.append(&mut children[place]);
+            } else {
+                let mut inner = start;
+                order.push(place);
+                while let Some(&place) = order.get(inner) {
+                    order.append(&mut children[place]);
+                    inner += 1;
+                }
+                order[start..].sort_unstable();
+                let mut end = start;
+                let of_one_height = |&one: &usize, &other: &usize| heights[one] == heights[other];
+                for links in order[start..].chunk_by(of_one_height) {
+                    strips.push(end..end + links.len());
+                    end += links.len();
+                }
+            }
+            parts.push(Part {
+                links: start..order.len(),
+                strips: strip..strips.len(),
+            });
+        }
+        parts.push(Part {
+            links: 0..above,
+            strips: strips.len()..strips.len(),
+        });
+        let mut places = alloc::vec![0_u32; links];
+        for (new, &place) in (0..).zip(&order) {
+            places[place] = new;
+        }
+        Self {
+            parents: order.iter().map(|&place| places[parent(place)]).collect(),
+            order: order.iter().map(|&place| self.order[place]).collect(),
+            strips,
+            parts,
+            above,
         }
     }
 }

@@ -144,17 +144,18 @@ impl Room {
     #[inline(always)]
     pub(super) fn storage<'a, T: Copy>(
         &self,
+        sizes: Sizes,
         mut lasting: &'a mut [T],
         mut passing: &'a mut [T],
         in_rows: bool,
     ) -> Storage<'a, T> {
         let lasting = &mut lasting;
         let &Self {
-            sizes,
             lead,
             links,
             slots,
             given,
+            ..
         } = self;
         let (sincos, velocities, joint_motions, torques, held);
         if in_rows {

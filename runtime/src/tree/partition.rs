@@ -20,7 +20,8 @@ pub(super) struct Policy {
     pub(super) width: usize,
     /// Numbers in the widest register.
     pub(super) widest: usize,
-    /// True if all above the blocks of leaves is one block, however large.
+    /// True if all above the blocks of leaves is one block, however large; of a tree of any
+    /// shape, if it is taken apart at all.
     pub(super) once: bool,
 }
 

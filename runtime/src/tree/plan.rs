@@ -90,21 +90,20 @@ impl Plan {
 
     /// For a tree of any shape, of the parents of all links, before which they stand.
     /// Links of one height, the distance to the deepest leaf below, are a strip: their
-    /// children are in strips behind it, their parents in strips before it.
+    /// children are in strips behind it, their parents in strips before it. For states in
+    /// lanes, those of one small subtree.
     pub(super) fn by_height(parents: &[u32], policy: Policy) -> Self {
-        let Heights {
-            order,
-            parents,
-            lengths,
-        } = Heights::new(parents);
-        let links = order.len();
+        let mut heights = Heights::new(parents);
+        if policy.once {
+            heights = heights.in_subtrees(policy.whole);
+        }
         Self {
-            generations: alloc::vec![Generation::of_all(links)],
-            strips: Strips::by_height(&lengths, &parents, policy.widest),
+            generations: alloc::vec![Generation::of_links(0..heights.order.len())],
+            strips: Strips::by_height(&heights, policy.widest),
             partitions: Vec::new(),
             widest: policy.widest,
-            order,
-            parents,
+            order: heights.order,
+            parents: heights.parents,
         }
     }
 

@@ -24,6 +24,9 @@ pub(super) struct Skeleton<T> {
     /// Rows of the generations, one after the other, or columns of the links in the
     /// order of the plan.
     pub(super) constants: Vec<T>,
+    /// Columns of the links in the order for states in lanes; none of generations, whose
+    /// rows serve both.
+    pub(super) of_states: Vec<T>,
     /// Acceleration of the root's pivot.
     pub(super) root: [T; 2],
     threads: usize,
@@ -43,34 +46,27 @@ impl<T: Scalar> Skeleton<T> {
     ) -> Self {
         let plan = Plan::new(copies, Policy::ONE_STATE);
         let states = Plan::new(copies, Policy::STATES);
-        Self::new(plan, states, sizes, constants, root, threads)
+        Self::new(
+            [plan, states],
+            sizes,
+            [constants, Vec::new()],
+            root,
+            threads,
+        )
     }
 
     /// A tree with a row of constants a link, one after the other.
     pub(super) fn by_link(parents: &[u32], sizes: Sizes, rows: &[T], root: [T; 2]) -> Self {
-        let plan = Plan::by_height(parents, Policy::ONE_STATE);
-        let length = odd_lines(line::<T>(), parents.len() + WIDEST);
-        let mut constants = alloc::vec![T::from_f64(0.0); sizes.constants * length];
-        if let Some(width) = core::num::NonZeroUsize::new(sizes.constants) {
-            let rows: Vec<&[T]> = rows.chunks(width.get()).collect();
-            for (column, numbers) in constants.chunks_mut(length).enumerate() {
-                for (number, &link) in numbers.iter_mut().zip(&plan.order) {
-                    let row = rows.get(link as usize);
-                    if let Some(&value) = row.and_then(|row| row.get(column)) {
-                        *number = value;
-                    }
-                }
-            }
-        }
-        let states = Plan::by_height(parents, Policy::STATES);
-        Self::new(plan, states, sizes, constants, root, 1)
+        let plans =
+            [Policy::ONE_STATE, Policy::STATES].map(|policy| Plan::by_height(parents, policy));
+        let constants = plans.each_ref().map(|plan| columns(plan, sizes, rows));
+        Self::new(plans, sizes, constants, root, 1)
     }
 
     fn new(
-        plan: Plan,
-        states: Plan,
+        [plan, states]: [Plan; 2],
         sizes: Sizes,
-        constants: Vec<T>,
+        [constants, of_states]: [Vec<T>; 2],
         root: [T; 2],
         threads: usize,
     ) -> Self {
@@ -82,6 +78,7 @@ impl<T: Scalar> Skeleton<T> {
             states,
             sizes,
             constants,
+            of_states,
             root,
             threads,
         }
@@ -98,15 +95,33 @@ impl<T: Scalar> Skeleton<T> {
 
     /// Returns this tree on other scalars.
     pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Skeleton<S> {
+        let constants = [&self.constants, &self.of_states];
         Skeleton::new(
-            self.plan.clone(),
-            self.states.clone(),
+            [self.plan.clone(), self.states.clone()],
             self.sizes,
-            self.constants.iter().map(|&x| convert(x)).collect(),
+            constants.map(|numbers| numbers.iter().map(|&x| convert(x)).collect()),
             self.root.map(&convert),
             self.threads,
         )
     }
+}
+
+/// Returns rows of constants of all links as columns in the order of a plan.
+fn columns<T: Scalar>(plan: &Plan, sizes: Sizes, rows: &[T]) -> Vec<T> {
+    let length = odd_lines(line::<T>(), plan.links() + WIDEST);
+    let mut columns = alloc::vec![T::from_f64(0.0); sizes.constants * length];
+    if let Some(width) = core::num::NonZeroUsize::new(sizes.constants) {
+        let rows: Vec<&[T]> = rows.chunks(width.get()).collect();
+        for (column, numbers) in columns.chunks_mut(length).enumerate() {
+            for (number, &link) in numbers.iter_mut().zip(&plan.order) {
+                let row = rows.get(link as usize);
+                if let Some(&value) = row.and_then(|row| row.get(column)) {
+                    *number = value;
+                }
+            }
+        }
+    }
+    columns
 }
 
 compiled_once! {

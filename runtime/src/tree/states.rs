@@ -3,16 +3,18 @@
 //! The numbers of the sweep are registers then, each link by itself. One subtree goes
 //! up after the other, each so small that what is handed on in it stays in the first
 //! cache, then what is above them up and down, then the subtrees down, the last one
-//! first.
+//! first. In trees of any shape, links above subtrees go up between them.
 //!
 //! # Which bits
 //! The equations are those of one state, and so is the order of each sum: a state
 //! has the bits that it has alone.
 
-use super::block::SubtreeBlock;
+use core::marker::PhantomData;
+
+use super::block::{Generation, SubtreeBlock};
 use super::equations::LinkEquations;
 use super::links;
-use super::memory::{Room, take};
+use super::memory::{Room, Sizes, take};
 use super::partition::Policy;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
@@ -22,26 +24,27 @@ use crate::simd::Simd;
 
 /// Where accelerations go: to a function of the link and its acceleration. Blocks
 /// start with some link; links of any shape have an order.
-struct Told<'a, F> {
+struct Told<'a, E, F> {
     alpha: &'a mut F,
     start: usize,
     order: &'a [u32],
+    equations: PhantomData<E>,
 }
 
 #[allow(unsafe_code)]
-impl<V: Scalar, F: FnMut(usize, V)> Output<V> for Told<'_, F> {
+impl<E: LinkEquations, V: Scalar, F: FnMut(usize, V)> Output<V> for Told<'_, E, F> {
     #[inline(always)]
     unsafe fn write<W: Simd<V>>(&mut self, at: usize, alpha: W, _count: usize) {
-        (self.alpha)(link(self.order, self.start + at), alpha.first());
+        (self.alpha)(link::<E>(self.order, self.start + at), alpha.first());
     }
 }
 
 /// The number of the link in a place.
 #[inline(always)]
-fn link(order: &[u32], place: usize) -> usize {
-    match order.is_empty() {
-        true => place,
-        false => order.get(place).map_or(0, |&link| link as usize),
+fn link<E: LinkEquations>(order: &[u32], place: usize) -> usize {
+    match E::COPIES.is_empty() {
+        true => order.get(place).map_or(0, |&link| link as usize),
+        false => place,
     }
 }
 
@@ -70,7 +73,9 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     mut alpha: impl FnMut(usize, V),
 ) {
     let plan = &tree.states;
-    let top_room = Room::new(&plan.top(), tree.sizes, 1);
+    let sizes = const { Sizes::of::<E, V>() };
+    let by_link = const { E::COPIES.is_empty() };
+    let top_room = Room::new(&plan.top(), sizes, 1);
     let top_lasting = take(&mut room, top_room.lasting());
     let top_passing = take(&mut room, top_room.passing());
     let above = plan.top().generations.last();
@@ -78,7 +83,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
 
     // Where the equations say it, what a tree is without is not compiled: order and
     // parents if it has generations, blocks if these are small.
-    let (order, parents) = match E::COPIES.is_empty() {
+    let (order, parents) = match by_link {
         true => (&*plan.order, &*plan.parents),
         false => (&[][..], &[][..]),
     };
@@ -86,7 +91,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         true => plan.partitions.first(),
         false => None,
     };
-    let partition = partition.map(|all| (all, Room::new(&all.largest(), tree.sizes, 1)));
+    let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
     let blocks = partition.as_ref().map_or(0, |(all, _)| all.count);
     let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
     let passing = take(&mut room, passing);
@@ -96,6 +101,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         let [rises, falls] = [step <= blocks, step >= blocks];
         let index = step.min(2 * blocks - step);
         let mut top = sweep(
+            sizes,
             tree,
             plan.top(),
             &top_room,
@@ -108,7 +114,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
                     return;
                 };
                 let block = partition.window(index);
-                let block = sweep(tree, block, own, [lasting, &mut *passing]);
+                let block = sweep(sizes, tree, block, own, [lasting, &mut *passing]);
                 (block, Some(top))
             }
             _ => {
@@ -118,8 +124,25 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
                 (top, None)
             }
         };
-        if rises {
-            form(&mut own, order, parents, &theta, &omega, &outside);
+        if rises && by_link {
+            for part in own.block.strips.parts().iter().rev() {
+                let links = [Generation::of_links(part.links.clone())];
+                form::<E, T, V>(&mut own, &links, [order, parents], &theta, &omega, &outside);
+                if let Some(view) = own.view() {
+                    let passes = Passes::<E, T, V, V>::of(&view);
+                    passes.within(part.strips.clone()).up();
+                }
+            }
+        } else if rises {
+            let generations = own.block.own_generations();
+            form::<E, T, V>(
+                &mut own,
+                generations,
+                [order, parents],
+                &theta,
+                &omega,
+                &outside,
+            );
         }
         if let (Some(top), true) = (&mut top, falls) {
             hand_over(top, slot + index, &mut own, 0, 2);
@@ -127,7 +150,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         let start = own.block.start;
         if let Some(view) = own.view() {
             let passes = Passes::<E, T, V, V>::of(&view);
-            if rises {
+            if rises && !by_link {
                 passes.up();
             }
             if falls {
@@ -136,11 +159,12 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
                     alpha,
                     start,
                     order,
+                    equations: PhantomData::<E>,
                 });
             }
         }
         if let (Some(top), true) = (&mut top, rises) {
-            let count = tree.sizes.responses;
+            let count = sizes.responses;
             hand_over(&mut own, 0, top, slot + index, count);
         }
     }
@@ -148,6 +172,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
 
 #[inline(always)]
 fn sweep<'a, T: Scalar, V: Simd<T>>(
+    sizes: Sizes,
     tree: &'a Skeleton<T>,
     block: SubtreeBlock<'a>,
     room: &Room,
@@ -155,9 +180,13 @@ fn sweep<'a, T: Scalar, V: Simd<T>>(
 ) -> Sweep<'a, T, V> {
     Sweep {
         block,
-        constants: &tree.constants,
+        // Where constants are a row a generation, for one state as for many.
+        constants: match tree.of_states.is_empty() {
+            true => &tree.constants,
+            false => &tree.of_states,
+        },
         omega: &[],
-        storage: room.storage(lasting, passing, V::LANES > 1),
+        storage: room.storage(sizes, lasting, passing, V::LANES > 1),
         root: None,
         torque: None,
     }
@@ -197,16 +226,16 @@ const STEP: usize = 2;
 /// Forms the motions of a block's links.
 // No closures around what must be inlined: they are not, always.
 #[inline(always)]
-fn form<T: Scalar, V: Simd<T>>(
+fn form<E: LinkEquations, T: Scalar, V: Simd<T>>(
     sweep: &mut Sweep<'_, T, V>,
-    order: &[u32],
-    parents: &[u32],
+    generations: &[Generation],
+    [order, parents]: [&[u32]; 2],
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
     outside: &impl Fn(usize) -> [V; 2],
 ) {
     let (block, storage) = (sweep.block, &sweep.storage);
-    for generation in block.own_generations() {
+    for generation in generations {
         let first = generation.whole + block.start;
         let (above, count) = generation.above.unwrap_or_default();
         let mut index = 0;
@@ -218,17 +247,18 @@ fn form<T: Scalar, V: Simd<T>>(
                 first + one * generation.step,
                 first + other * generation.step,
             ];
-            let angles = [theta(link(order, places[0])), theta(link(order, places[1]))];
+            let links = [link::<E>(order, places[0]), link::<E>(order, places[1])];
+            let angles = [theta(links[0]), theta(links[1])];
             let (sines, cosines) = V::sin_cos_each(&angles);
             for i in 0..STEP {
                 let own = storage.lead + generation.own + both[i];
-                let rate = omega(link(order, places[i]));
+                let rate = omega(links[i]);
                 let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
                 if let Some(velocities) = storage.velocities {
                     let _ = velocities.store::<V, 1>(own, &[rate]);
                 }
                 if storage.sizes.forced {
-                    let [torque, held] = outside(link(order, places[i]));
+                    let [torque, held] = outside(links[i]);
                     let _ = storage.torques.store::<V, 1>(own, &[torque]);
                     if storage.sizes.held {
                         let _ = storage.held.store::<V, 1>(own, &[held]);
@@ -240,7 +270,7 @@ fn form<T: Scalar, V: Simd<T>>(
                 let (mut angle, mut rate) = (angles[i], rate);
                 if places[i] > 0 {
                     let parent = match parents.get(places[i]) {
-                        Some(&parent) => link(order, parent as usize),
+                        Some(&parent) => link::<E>(order, parent as usize),
                         None => above + (block.start + both[i] * generation.step) % count.max(1),
                     };
                     angle = angle - theta(parent);

@@ -1,8 +1,10 @@
 //! Which neighbours are computed together, and where their numbers stand.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::block::{Generation, Position};
+use super::heights::Heights;
 
 /// Neighbours of one generation, and their children.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,16 +35,34 @@ pub(super) struct Strip {
     pub(super) attachments: (usize, usize),
 }
 
+impl Strip {
+    /// Where the sums of a link stand, of a tree of any shape.
+    #[inline(always)]
+    pub(super) fn slot(&self, link: usize) -> usize {
+        link - self.first.own + self.first.slot
+    }
+}
+
 /// Neighbours whose parents are neighbours in the same order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Attachment {
     /// The first parent, and its first child.
     pub(super) parent: usize,
     pub(super) child: usize,
+    /// Where the sums of the first parent stand.
+    pub(super) slot: usize,
     /// Number of children.
     pub(super) length: usize,
     /// No child of these parents has been attached before.
     pub(super) first: bool,
+}
+
+/// Part of a tree of any shape: links whose motions are formed at once, if they have not
+/// been before, and the strips that go up then.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Part {
+    pub(super) links: Range<usize>,
+    pub(super) strips: Range<usize>,
 }
 
 /// The links with children of a block, strip by strip from its first generation on.
@@ -54,6 +74,8 @@ pub(super) struct Attachment {
 pub(super) struct Strips {
     list: Vec<Strip>,
     attachments: Vec<Attachment>,
+    /// Of a tree of any shape: what goes up at once, the last one first.
+    parts: Vec<Part>,
     reach: Reach,
     branching: usize,
 }
@@ -126,6 +148,7 @@ impl Strips {
         Self {
             list,
             attachments: Vec::new(),
+            parts: Vec::new(),
             reach,
             branching,
         }
@@ -133,19 +156,31 @@ impl Strips {
 
     /// The strips of a tree of any shape, with one parent a link, which stands before
     /// it in the order of the strips.
-    pub(super) fn by_height(lengths: &[usize], parents: &[u32], widest: usize) -> Self {
-        let parent = |child: usize| parents.get(child).map_or(0, |&parent| parent as usize);
-        let mut list = Vec::with_capacity(lengths.len());
+    pub(super) fn by_height(heights: &Heights, widest: usize) -> Self {
+        let Heights {
+            parents,
+            strips,
+            parts,
+            above,
+            ..
+        } = heights;
+        let links = parents.len();
+        // Sums of one part stand where those of others did, behind those of the links above.
+        let mut slots: Vec<usize> = (0..links).collect();
+        for part in parts.iter().filter(|part| part.links.start >= *above) {
+            for (slot, own) in (*above..).zip(&mut slots[part.links.clone()]) {
+                *own = slot;
+            }
+        }
+        let mut list = Vec::with_capacity(strips.len());
         let mut attachments: Vec<Attachment> = Vec::new();
-        let mut has_child = alloc::vec![false; parents.len()];
-        let mut end = parents.len();
-        for &length in lengths.iter().rev() {
-            let start = end.saturating_sub(length);
+        let mut has_child = alloc::vec![false; links];
+        for &Range { start, end } in strips.iter().rev() {
             let from = attachments.len();
             // The root has no parent.
             for child in start.max(1)..end {
-                let parent = parent(child);
-                let first = !has_child.get(parent).copied().unwrap_or(true);
+                let parent = parents[child] as usize;
+                let first = !has_child[parent];
                 match attachments
                     .get_mut(from..)
                     .and_then(<[Attachment]>::last_mut)
@@ -156,17 +191,16 @@ impl Strips {
                     _ => attachments.push(Attachment {
                         parent,
                         child,
+                        slot: slots[parent],
                         length: 1,
                         first,
                     }),
                 }
-                if let Some(has_child) = has_child.get_mut(parent) {
-                    *has_child = true;
-                }
+                has_child[parent] = true;
             }
             let place = Position {
                 own: start,
-                slot: start,
+                slot: slots[start],
                 whole: start,
             };
             list.push(Strip {
@@ -174,7 +208,7 @@ impl Strips {
                 length: end - start,
                 first: place,
                 child: place,
-                copies: usize::from(has_child.get(start).copied().unwrap_or(false)),
+                copies: usize::from(has_child[start]),
                 apart: 0,
                 whole_apart: 0,
                 step: 1,
@@ -182,19 +216,24 @@ impl Strips {
                 lanes: usize::MAX,
                 attachments: (from, attachments.len()),
             });
-            end = start;
         }
         list.reverse();
         Self {
             list,
             attachments,
+            parts: parts.clone(),
             reach: Reach {
-                own: parents.len() + widest,
-                slot: parents.len() + widest,
-                whole: parents.len(),
+                own: links + widest,
+                slot: links + widest,
+                whole: links,
             },
             branching: 0,
         }
+    }
+
+    #[inline(always)]
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.parts
     }
 
     #[inline(always)]

@@ -108,7 +108,7 @@ where
             return E::leaf(&constants, link);
         }
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let sums = unsafe { self.links().sums.read(at) };
+        let sums = unsafe { self.links().sums.read(strip.slot(at)) };
         let (response, elimination) = E::inner(&constants, link, sums);
         // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { self.links().eliminations.write(at, &elimination) };
@@ -134,7 +134,7 @@ where
         // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { out.write(at, acceleration, V::LANES) };
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { self.links().sums.write(at, &carried) };
+        unsafe { self.links().sums.write(strip.slot(at), &carried) };
     }
 
     /// A strip of links with constants of their own, up.
@@ -192,7 +192,7 @@ where
             // SAFETY: places of strips and attachments are there, as the view has seen.
             let link = unsafe { self.links().motion(first.parent + at, Self::DIRECTION) };
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let before: E::Sums<V> = unsafe { self.links().sums.read(first.parent + at) };
+            let before: E::Sums<V> = unsafe { self.links().sums.read(first.slot + at) };
             let mut sums = before;
             let mut fresh = first.first;
             loop {
@@ -219,7 +219,7 @@ where
             }
             // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond
             // the parents are as they were.
-            unsafe { self.links().sums.write(first.parent + at, &sums) };
+            unsafe { self.links().sums.write(first.slot + at, &sums) };
             at += V::LANES;
         }
     }
@@ -239,11 +239,11 @@ where
         let mut sums = own;
         if !attachment.first {
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            sums = unsafe { self.links().sums.read(parent) };
+            sums = unsafe { self.links().sums.read(attachment.slot + at) };
             add(&mut sums, &own);
         }
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { self.links().sums.write(parent, &sums) };
+        unsafe { self.links().sums.write(attachment.slot + at, &sums) };
     }
 
     /// Writes the accelerations of the pivots of a strip.
@@ -275,7 +275,7 @@ where
             )
         };
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let carried = unsafe { self.links().sums.read(parent) };
+        let carried = unsafe { self.links().sums.read(attachment.slot + at) };
         E::pivot(&constants, link, carried)
     }
 

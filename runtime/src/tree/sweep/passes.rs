@@ -3,6 +3,7 @@
 #![allow(unsafe_code)]
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use super::strip::{Output, StripView};
 use super::view::{LinkCells, Read, View};
@@ -106,6 +107,13 @@ where
             attachments,
             types: PhantomData,
         }
+    }
+
+    /// Returns the passes through these strips alone.
+    #[inline(always)]
+    pub(in crate::tree) fn within(self, strips: Range<usize>) -> Self {
+        let strips = self.strips.get(strips).unwrap_or_default();
+        Self { strips, ..self }
     }
 
     /// Where the numbers of links stand: asked for where a loop begins, since compilers

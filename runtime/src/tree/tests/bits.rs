@@ -134,11 +134,27 @@ fn trees_by_generation_have_the_bits_of_links_one_by_one() {
 
 #[test]
 fn trees_of_any_shape_have_the_bits_of_links_one_by_one() {
-    for (count, seed) in [(1, 0), (2, 0), (5, 3), (17, 4), (64, 1), (127, 7), (600, 8)] {
+    for (count, seed) in [
+        (1, 0),
+        (2, 0),
+        (5, 3),
+        (17, 4),
+        (64, 1),
+        (127, 7),
+        (300, 2),
+        (600, 8),
+        (1500, 5),
+    ] {
         let (parents, bodies) = any(count, seed);
         compare(&by_link::<f64>(&parents, &bodies), count);
         compare(&by_link::<f32>(&parents, &bodies), count);
     }
+    // A long chain with links aside, whose subtrees are large down to its end.
+    let (_, bodies) = any(400, 6);
+    let parents: Vec<u32> = (0..400)
+        .map(|link: u32| link - link.min(1 + link % 3))
+        .collect();
+    compare(&by_link::<f64>(&parents, &bodies), 400);
 }
 
 #[test]
