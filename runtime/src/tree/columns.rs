@@ -167,6 +167,12 @@ impl<T: Copy> Cells<T> {
         }
     }
 
+    /// Where number `i` of the link `at` stands.
+    #[inline(always)]
+    pub(super) fn place(self, at: usize, i: usize) -> *mut T {
+        self.start.wrapping_add(at * self.row + i * self.stride)
+    }
+
     /// Reads numbers of the link `at`, or of as many links as `V` has lanes.
     ///
     /// # Safety

@@ -5,10 +5,20 @@
 
 use super::passes::{Passes, add};
 use super::strip::{Output, VectorPlaces};
+use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
+use crate::tree::columns::Cells;
 use crate::tree::equations::{LinkEquations, Row};
 use crate::tree::strips::{Attachment, Strip};
+
+/// Where the numbers of links and their constants stand. A copy: compilers read what is
+/// behind a reference again after everything that is written.
+#[derive(Clone, Copy)]
+struct OwnCells<N, T> {
+    links: LinkCells<T>,
+    constants: Cells<N>,
+}
 
 // Of all this: as for all passes; the places of links are those of the
 // strips and attachments, behind the last of which a register of any width is there.
@@ -22,18 +32,28 @@ where
     /// In single numbers there is nothing but links one by one.
     const SINGLE: bool = V::LANES == 1;
 
+    #[inline(always)]
+    fn cells(&self) -> OwnCells<N, T> {
+        OwnCells {
+            links: self.links(),
+            constants: self.view.columns_of_constants(),
+        }
+    }
+
     /// From the lowest strip to the root.
     #[inline(always)]
     pub(super) fn heights_up(&self) {
+        let cells = &self.cells();
+        let narrow = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, before)) = strips.split_last() {
             if Self::SINGLE {
-                self.one_by_one_up(strip);
+                self.one_by_one_up(cells, strip);
             } else if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).one_by_one_up(strip);
+                narrow.one_by_one_up(cells, strip);
             } else {
-                self.links_up(strip);
-                self.attach(strip);
+                self.links_up(cells, strip);
+                self.attach(cells, strip);
             }
             strips = before;
         }
@@ -42,15 +62,19 @@ where
     /// From the root to the lowest strip.
     #[inline(always)]
     pub(super) fn heights_down(&self, out: &mut impl Output<T>) {
+        let cells = &self.cells();
+        let narrow = Passes::<E, N, T, V::One>::of(self.view);
         let mut strips = self.strips;
         while let Some((strip, behind)) = strips.split_first() {
             if Self::SINGLE {
-                self.one_by_one_down(strip, out);
+                self.one_by_one_down(cells, strip, out);
             } else if strip.length < V::LANES {
-                Passes::<E, N, T, V::One>::of(self.view).one_by_one_down(strip, out);
+                narrow.one_by_one_down(cells, strip, out);
             } else {
-                self.hand_down(strip);
-                self.links_down(strip, out);
+                // Not at once: in registers that start elsewhere than these, what was just
+                // written is read late.
+                self.hand_down(cells, strip);
+                self.links_down(cells, strip, out);
             }
             strips = behind;
         }
@@ -59,19 +83,19 @@ where
     /// A strip of too few links for a register, up, one by one: each link's response goes
     /// to the parent at once, and what is written narrow is read narrow soon.
     #[inline(always)]
-    fn one_by_one_up(&self, strip: &Strip) {
+    fn one_by_one_up(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         if strip.first.own == 0 {
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let _ = unsafe { self.response(strip, 0) };
+            let _ = unsafe { self.response(cells, strip, 0) };
         }
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                let response = unsafe { self.response(strip, attachment.child + at) };
+                let response = unsafe { self.response(cells, strip, attachment.child + at) };
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { self.attach_at(attachment, at, response) };
+                unsafe { self.attach_at(cells, attachment, at, response) };
                 at += 1;
             }
         }
@@ -79,20 +103,20 @@ where
 
     /// Goes back down as `one_by_one_up` went up.
     #[inline(always)]
-    fn one_by_one_down(&self, strip: &Strip, out: &mut impl Output<T>) {
+    fn one_by_one_down(&self, cells: &OwnCells<N, T>, strip: &Strip, out: &mut impl Output<T>) {
         if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
             let pivot = [V::splat(*x), V::splat(*y)];
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { self.accelerate(strip, 0, pivot, out) };
+            unsafe { self.accelerate(cells, strip, 0, pivot, out) };
         }
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                let pivot = unsafe { self.pivot_at(attachment, at) };
+                let pivot = unsafe { self.pivot_at(cells, attachment, at) };
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { self.accelerate(strip, attachment.child + at, pivot, out) };
+                unsafe { self.accelerate(cells, strip, attachment.child + at, pivot, out) };
                 at += 1;
             }
         }
@@ -100,28 +124,43 @@ where
 
     /// The responses of the links of a strip from the place `at` on.
     #[inline(always)]
-    unsafe fn response(&self, strip: &Strip, at: usize) -> E::Response<V> {
+    unsafe fn response(&self, cells: &OwnCells<N, T>, strip: &Strip, at: usize) -> E::Response<V> {
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) =
-            unsafe { (self.constants(at), self.links().motion(at, Self::READ)) };
+        let (constants, link) = unsafe {
+            (
+                self.constants(cells, at),
+                cells.links.motion(at, Self::READ),
+            )
+        };
         if strip.copies == 0 {
             return E::leaf(&constants, link);
         }
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let sums = unsafe { self.links().sums.read(strip.slot(at)) };
+        let sums = unsafe { cells.links.sums.read(strip.slot(at)) };
         let (response, elimination) = E::inner(&constants, link, sums);
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { self.links().eliminations.write(at, &elimination) };
+        unsafe { cells.links.eliminations.write(at, &elimination) };
         response
     }
 
     /// Writes the accelerations of the links of a strip from the place `at` on, and
     /// what they hand to their children.
     #[inline(always)]
-    unsafe fn accelerate(&self, strip: &Strip, at: usize, pivot: [V; 2], out: &mut impl Output<T>) {
+    unsafe fn accelerate(
+        &self,
+        cells: &OwnCells<N, T>,
+        strip: &Strip,
+        at: usize,
+        pivot: [V; 2],
+        out: &mut impl Output<T>,
+    ) {
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) =
-            unsafe { (self.constants(at), self.links().motion(at, Self::READ)) };
+        let (constants, link) = unsafe {
+            (
+                self.constants(cells, at),
+                cells.links.motion(at, Self::READ),
+            )
+        };
         if strip.copies == 0 {
             let acceleration = E::accelerate_leaf(&constants, link, pivot);
             // SAFETY: places of strips and attachments are there, as the view has seen.
@@ -129,43 +168,43 @@ where
             return;
         }
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let elimination = unsafe { self.links().eliminations.read(at) };
+        let elimination = unsafe { cells.links.eliminations.read(at) };
         let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
         // SAFETY: places of strips and attachments are there, as the view has seen.
         unsafe { out.write(at, acceleration, V::LANES) };
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { self.links().sums.write(strip.slot(at), &carried) };
+        unsafe { cells.links.sums.write(strip.slot(at), &carried) };
     }
 
     /// A strip of links with constants of their own, up.
     #[inline(always)]
-    fn links_up(&self, strip: &Strip) {
+    fn links_up(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let response = unsafe { self.response(strip, at) };
+            let response = unsafe { self.response(cells, strip, at) };
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { self.links().responses.write(at, &response) };
+            unsafe { cells.links.responses.write(at, &response) };
         }
     }
 
     /// Goes back down as `links_up` went up; the accelerations of pivots are in memory.
     #[inline(always)]
-    fn links_down(&self, strip: &Strip, out: &mut impl Output<T>) {
+    fn links_down(&self, cells: &OwnCells<N, T>, strip: &Strip, out: &mut impl Output<T>) {
         let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let pivot = unsafe { self.links().responses.read(at) };
+            let pivot = unsafe { cells.links.responses.read(at) };
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { self.accelerate(strip, at, pivot, out) };
+            unsafe { self.accelerate(cells, strip, at, pivot, out) };
         }
     }
 
     /// Adds the responses of a strip to the sums of the parents.
     #[inline(always)]
-    fn attach(&self, strip: &Strip) {
+    fn attach(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         let (from, to) = strip.attachments;
         let mut attachments = self.attachments.get(from..to).unwrap_or_default();
         while let Some((first, others)) = attachments.split_first() {
@@ -177,7 +216,7 @@ where
                 count += 1;
             }
             let (siblings, behind) = others.split_at_checked(count).unwrap_or_default();
-            self.attach_siblings(first, siblings);
+            self.attach_siblings(cells, first, siblings);
             attachments = behind;
         }
     }
@@ -185,21 +224,25 @@ where
     /// Adds the responses of children of the same parents, in registers: what has just
     /// been written in another width, or a little beside, takes long to read.
     #[inline(always)]
-    fn attach_siblings(&self, first: &Attachment, siblings: &[Attachment]) {
+    fn attach_siblings(&self, cells: &OwnCells<N, T>, first: &Attachment, siblings: &[Attachment]) {
         let mut at = 0;
         while at < first.length {
             let (mut attachment, mut siblings) = (first, siblings);
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let link = unsafe { self.links().motion(first.parent + at, Self::DIRECTION) };
+            let link = unsafe { cells.links.motion(first.parent + at, Self::DIRECTION) };
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            let before: E::Sums<V> = unsafe { self.links().sums.read(first.slot + at) };
+            let before: E::Sums<V> = unsafe { cells.links.sums.read(first.slot + at) };
             let mut sums = before;
             let mut fresh = first.first;
             loop {
                 let child = attachment.child + at;
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                let (constants, response) =
-                    unsafe { (self.constants(child), self.links().responses.read(child)) };
+                let (constants, response) = unsafe {
+                    (
+                        self.constants(cells, child),
+                        cells.links.responses.read(child),
+                    )
+                };
                 let own = E::attach(&constants, link, response);
                 let count = attachment.length - at;
                 let mut i = 0;
@@ -219,45 +262,51 @@ where
             }
             // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond
             // the parents are as they were.
-            unsafe { self.links().sums.write(first.slot + at, &sums) };
+            unsafe { cells.links.sums.write(first.slot + at, &sums) };
             at += V::LANES;
         }
     }
 
     /// Adds the response of the child number `at` of an attachment.
     #[inline(always)]
-    unsafe fn attach_at(&self, attachment: &Attachment, at: usize, response: E::Response<V>) {
+    unsafe fn attach_at(
+        &self,
+        cells: &OwnCells<N, T>,
+        attachment: &Attachment,
+        at: usize,
+        response: E::Response<V>,
+    ) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) = unsafe {
             (
-                self.constants(child),
-                self.links().motion(parent, Self::DIRECTION),
+                self.constants(cells, child),
+                cells.links.motion(parent, Self::DIRECTION),
             )
         };
         let own = E::attach(&constants, link, response);
         let mut sums = own;
         if !attachment.first {
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            sums = unsafe { self.links().sums.read(attachment.slot + at) };
+            sums = unsafe { cells.links.sums.read(attachment.slot + at) };
             add(&mut sums, &own);
         }
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { self.links().sums.write(attachment.slot + at, &sums) };
+        unsafe { cells.links.sums.write(attachment.slot + at, &sums) };
     }
 
     /// Writes the accelerations of the pivots of a strip.
     #[inline(always)]
-    fn hand_down(&self, strip: &Strip) {
+    fn hand_down(&self, cells: &OwnCells<N, T>, strip: &Strip) {
         let (from, to) = strip.attachments;
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                let pivot = unsafe { self.pivot_at(attachment, at) };
+                let pivot = unsafe { self.pivot_at(cells, attachment, at) };
                 // Lanes beyond are those of children behind, which come later.
                 // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { self.links().responses.write(attachment.child + at, &pivot) };
+                unsafe { cells.links.responses.write(attachment.child + at, &pivot) };
                 at += V::LANES;
             }
         }
@@ -265,33 +314,61 @@ where
 
     /// The accelerations of the pivots of children.
     #[inline(always)]
-    unsafe fn pivot_at(&self, attachment: &Attachment, at: usize) -> [V; 2] {
+    unsafe fn pivot_at(
+        &self,
+        cells: &OwnCells<N, T>,
+        attachment: &Attachment,
+        at: usize,
+    ) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
         // SAFETY: places of strips and attachments are there, as the view has seen.
         let (constants, link) = unsafe {
             (
-                self.constants(child),
-                self.links().motion(parent, Self::DIRECTION),
+                self.constants(cells, child),
+                cells.links.motion(parent, Self::DIRECTION),
             )
         };
         // SAFETY: places of strips and attachments are there, as the view has seen.
-        let carried = unsafe { self.links().sums.read(attachment.slot + at) };
+        let carried = unsafe { cells.links.sums.read(attachment.slot + at) };
         E::pivot(&constants, link, carried)
     }
 
     /// The constants of the links from `at` on, each its own.
     #[inline(always)]
-    unsafe fn constants(&self, at: usize) -> E::Constants<V> {
+    unsafe fn constants(&self, cells: &OwnCells<N, T>, at: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let mut column = 0;
         while column < <E::Constants<V> as Row<V>>::LENGTH {
             // SAFETY: places of strips and attachments are there, as the view has seen.
-            row.as_mut()[column] = unsafe { self.view.constant(column, at) };
+            row.as_mut()[column] = unsafe { constant(cells.constants, column, at) };
             column += 1;
         }
         if at == 0 {
             self.take_torque(&mut row);
         }
         row
+    }
+}
+
+/// The number in a column of constants of the links from `at` on: one for each lane of `V`, or
+/// the same for all states of a `T`.
+///
+/// # Safety
+/// They may be read there.
+#[inline(always)]
+unsafe fn constant<N: Scalar, T: Simd<N>, V: Simd<T>>(
+    constants: Cells<N>,
+    column: usize,
+    at: usize,
+) -> V
+where
+    T: Scalar,
+{
+    let start = constants.place(at, column);
+    match T::LANES {
+        // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
+        1 => unsafe { V::read(start.cast()) },
+        // SAFETY: the caller's.
+        _ => V::splat(T::splat(unsafe { start.read() })),
     }
 }

@@ -199,7 +199,7 @@ impl<N, T: Scalar> Sweep<'_, N, T> {
     }
 }
 
-impl<'a, N, T: Scalar> View<'a, N, T> {
+impl<'a, N: Scalar, T: Scalar> View<'a, N, T> {
     /// Returns the strips and their attachments, for equations of these sizes, numbers in
     /// rows or columns and, where this is not 0, so many copies of children everywhere;
     /// none for others.
@@ -247,27 +247,10 @@ impl<'a, N, T: Scalar> View<'a, N, T> {
         }
     }
 
-    /// Returns the constants in column `column` of the links from `at` on, for a tree
-    /// with a row a link.
-    ///
-    /// # Safety
-    /// The place and as many behind it as `V` has lanes are within reach of the
-    /// strips, the column is one of those that the sizes say.
+    /// Returns where the constants of links stand, for a tree with a row a link.
     #[inline(always)]
-    pub(super) unsafe fn constant<V: Simd<T>>(&self, column: usize, at: usize) -> V
-    where
-        N: Copy,
-        T: Simd<N>,
-    {
-        let start = self
-            .constants
-            .as_ptr()
-            .wrapping_add(column * self.column + at);
-        match <T as Simd<N>>::LANES {
-            // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
-            1 => unsafe { V::read(start.cast()) },
-            // SAFETY: the caller's.
-            _ => V::splat(T::splat(unsafe { start.read() })),
-        }
+    pub(super) fn columns_of_constants(&self) -> Cells<N> {
+        // Nobody writes there.
+        Cells::columns(self.constants.as_ptr().cast_mut(), self.column)
     }
 }
