@@ -12,9 +12,8 @@
 //! apart, so that the sums are ready when that is.
 
 use super::bias::Bias;
-use super::elimination::LinkColumn;
+use super::elimination::{LinkColumn, LinkFactors, TaylorElimination};
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
-use super::linear::OrderSystem;
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
 use super::series::{SeriesRow, SeriesSums};
@@ -26,39 +25,41 @@ use core::marker::PhantomData;
 /// tolerances of 1e-13, below which rounding is most of the error.
 const REFINED: usize = 28;
 
+/// Number of links up to which one state has its sums formed order by order, from which
+/// two orders at a time: for more links the machine computes more than it waits.
+const IN_TURN: usize = 15;
+
 /// The orders of an expansion from 1 on, of N links in Q quads of memory and M packs.
-pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> {
+pub(super) struct Orders<'a, T, C, B, const N: usize, const Q: usize, const M: usize> {
     start: &'a Start<'a, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
     rows: &'a mut [SeriesRow<T, Q>],
+    factors: &'a mut [LinkFactors<T>; N],
     bias: B,
-    /// The tree's connectivity, and how its equations are solved.
-    kind: PhantomData<(C, L)>,
+    connectivity: PhantomData<C>,
 }
 
-impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> Kernel<T>
-    for Orders<'_, T, C, B, L, N, Q, M>
+impl<T, C, B, const N: usize, const Q: usize, const M: usize> Kernel<T>
+    for Orders<'_, T, C, B, N, Q, M>
 where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: OrderSystem<T, N>,
 {
     type Output = ();
 
     #[inline(always)]
     fn run<P: Simd<T>>(self) {
-        self.form::<P, false>();
+        self.form::<P, P, false>();
     }
 }
 
-impl<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, L, N, Q, M>
+impl<'a, T, C, B, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, N, Q, M>
 where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: OrderSystem<T, N>,
 {
     #[inline(always)]
     pub(super) fn new(
@@ -66,6 +67,7 @@ where
         constants: &'a LinkConstants<T, N>,
         coefficients: &'a mut [[[T; N]; 2]],
         rows: &'a mut [SeriesRow<T, Q>],
+        factors: &'a mut [LinkFactors<T>; N],
         bias: B,
     ) -> Self {
         Self {
@@ -73,8 +75,9 @@ where
             constants,
             coefficients,
             rows,
+            factors,
             bias,
-            kind: PhantomData,
+            connectivity: PhantomData,
         }
     }
 
@@ -84,17 +87,18 @@ where
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(super) fn form<P: Simd<T>, const SEVERAL: bool>(self) {
+    pub(super) fn form<P: Simd<T>, V: Simd<T>, const SEVERAL: bool>(self) {
         let Self {
             start,
             constants,
             coefficients,
             rows,
+            factors,
             mut bias,
-            kind: _,
+            connectivity: _,
         } = self;
         let last = coefficients.len().saturating_sub(1);
-        let system = L::new::<C, P>(start, constants);
+        let system = TaylorElimination::new::<C, P::One>(start, constants, factors);
 
         // Order 0, and 1 of ω, γ, σ.
         let zero = P::splat(T::from_f64(0.0));
@@ -113,12 +117,17 @@ where
                 value.store_quad(series, m);
             }
         }
-        let mut order = system.add_solution::<C, P, M>([[zero; M], weight.along], &force, &c);
-        if last >= REFINED {
-            let rest = residual::<T, C, P, N, Q, M>(start, constants, &order[0]);
-            order = system.add_solution::<C, P, M>(order, &rest, &[zero; M]);
+        let [mut s, mut y] = system.solution::<C, P, V, Q, M>(&force, &c);
+        for m in 0..M {
+            y[m] = y[m] + weight.along[m];
         }
-        let [mut s, mut y] = order;
+        if last >= REFINED {
+            let rest = residual::<T, C, P, N, Q, M>(start, constants, &s);
+            let [more_s, more_y] = system.solution::<C, P, V, Q, M>(&rest, &[zero; M]);
+            for m in 0..M {
+                (s[m], y[m]) = (s[m] + more_s[m], y[m] + more_y[m]);
+            }
+        }
 
         let one = P::from_f64(1.0);
         let mut number = one;
@@ -134,7 +143,7 @@ where
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
-            if !SEVERAL {
+            if !SEVERAL && N <= IN_TURN {
                 for m in 0..M {
                     sums[m] = SeriesSums::of(&lower[1..], m);
                 }
@@ -148,19 +157,8 @@ where
                     sums[m].complete(lower, m);
                 }
             }
-            let (mut x_next, mut c_next, mut s_rest_next) = ([zero; M], [zero; M], [zero; M]);
             let mut theta = [Quad::splat(T::from_f64(0.0)); Q];
             for m in 0..M {
-                // ω/k, ω (k+1)/k, ω (k+2)/k
-                let rate = over_k.times(omega[m]);
-                let rate_1 = omega[m] + rate;
-                let slowing = rate_1 + rate;
-                s_rest_next[m] = (number * sums[m].omega_cos).plus_product(rate, c[m]);
-                c_next[m] = (rate_1 * s_rest[m])
-                    .minus_product(number, sums[m].omega_sin)
-                    .minus_product(slowing, s[m]);
-                x_next[m] = sums[m].force().plus_product(omega[m], y[m]);
-
                 let alpha = s[m] - s_rest[m];
                 let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
                 let new = [over_k.times(alpha), cos, sin, x[m], y[m]];
@@ -168,6 +166,17 @@ where
                     value.store_quad(series, m);
                 }
                 over_both.times(alpha).store_quad(&mut theta, m);
+
+                // ω/k, ω (k+1)/k, ω (k+2)/k
+                let rate = over_k.times(omega[m]);
+                let rate_1 = omega[m] + rate;
+                let slowing = rate_1 + rate;
+                x[m] = sums[m].force().plus_product(omega[m], y[m]);
+                let s_rest_next = (number * sums[m].omega_cos).plus_product(rate, c[m]);
+                c[m] = (rate_1 * s_rest[m])
+                    .minus_product(number, sums[m].omega_sin)
+                    .minus_product(slowing, s[m]);
+                s_rest[m] = s_rest_next;
             }
             numbers(&row[0], &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
@@ -175,11 +184,10 @@ where
                 let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], &lower[k - 1]);
                 let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
                 for m in 0..M {
-                    x_next[m] = x_next[m] - others[m];
+                    x[m] = x[m] - others[m];
                 }
             }
-            [s, y] = system.add_solution::<C, P, M>([[zero; M]; 2], &x_next, &c_next);
-            (x, c, s_rest) = (x_next, c_next, s_rest_next);
+            [s, y] = system.solution::<C, P, V, Q, M>(&x, &c);
         }
         if last > 0 {
             let mut omega = [Quad::splat(T::from_f64(0.0)); Q];
