@@ -188,14 +188,13 @@ fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: us
     work: &mut [Quad<T>],
     bias: B,
 ) {
-    let (factors, columns) = work.split_at_mut(N * FACTORS);
+    let (factors, rows) = work.split_at_mut(N * FACTORS);
     let (factors, _) = factors.as_chunks_mut::<2>();
     let (factors, _) = factors.as_chunks_mut::<5>();
     let Some(factors) = factors.first_chunk_mut::<N>() else {
         return;
     };
-    let (columns, _) = columns.as_chunks_mut::<Q>();
-    let (rows, _) = columns.as_chunks_mut::<SERIES>();
+    let (rows, _) = rows.as_chunks_mut::<SERIES>();
     T::by_kind(OrdersOf::<'_, '_, T, C, B, N, Q> {
         start,
         constants,
@@ -212,7 +211,7 @@ struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
     start: &'a Start<'s, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T, Q>],
+    rows: &'a mut [SeriesRow<T>],
     factors: &'a mut [LinkFactors<T>; N],
     bias: B,
     connectivity: PhantomData<C>,

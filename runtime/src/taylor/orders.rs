@@ -16,7 +16,7 @@ use super::elimination::{LinkColumn, LinkFactors, TaylorElimination};
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
-use super::series::{SeriesRow, SeriesSums};
+use super::series::{SeriesRow, SeriesSums, store, turned};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Quad, Simd};
 use core::marker::PhantomData;
@@ -34,7 +34,7 @@ pub(super) struct Orders<'a, T, C, B, const N: usize, const Q: usize, const M: u
     start: &'a Start<'a, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T, Q>],
+    rows: &'a mut [SeriesRow<T>],
     factors: &'a mut [LinkFactors<T>; N],
     bias: B,
     connectivity: PhantomData<C>,
@@ -66,7 +66,7 @@ where
         start: &'a Start<'a, T, N>,
         constants: &'a LinkConstants<T, N>,
         coefficients: &'a mut [[[T; N]; 2]],
-        rows: &'a mut [SeriesRow<T, Q>],
+        rows: &'a mut [SeriesRow<T>],
         factors: &'a mut [LinkFactors<T>; N],
         bias: B,
     ) -> Self {
@@ -97,7 +97,10 @@ where
             mut bias,
             connectivity: _,
         } = self;
-        let last = coefficients.len().saturating_sub(1);
+        let orders = coefficients.len();
+        let last = orders.saturating_sub(1);
+        // Packs of a quad.
+        let packs_of_four = 4 / P::LANES;
         let system = TaylorElimination::new::<C, P::One>(start, constants, factors);
 
         // Order 0, and 1 of ω, γ, σ.
@@ -112,10 +115,12 @@ where
             x[m] = zero - first_bias[m];
             force[m] = x[m] - weight.across[m];
             c[m] = zero.minus_product(omega[m], omega[m]);
-            let row = [omega[m], zero, omega[m], zero, zero];
-            for (series, value) in rows[0].iter_mut().zip(row) {
-                value.store_quad(series, m);
-            }
+            let (row, place) = (m / packs_of_four * orders, m % packs_of_four);
+            store(
+                [omega[m], zero, omega[m], zero, zero],
+                &mut rows[row],
+                place,
+            );
         }
         let [mut s, mut y] = system.solution::<C, P, V, Q, M>(&force, &c);
         for m in 0..M {
@@ -138,33 +143,29 @@ where
             let over_both = Reciprocal::of(number * (number + one));
             number = number + one;
             over_next = Reciprocal::of(number);
-            let (lower, new) = rows.split_at_mut(k);
-            let Some(row) = new.first_mut() else { return };
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
-            if !SEVERAL && N <= IN_TURN {
-                for m in 0..M {
-                    sums[m] = SeriesSums::of(&lower[1..], m);
-                }
-            } else if k % 2 == 1 {
-                for m in 0..M {
-                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, m);
-                }
-            } else {
-                sums = next_sums;
-                for m in 0..M {
-                    sums[m].complete(lower, m);
+            for m in 0..M {
+                let lower = &rows[m / packs_of_four * orders..][..k];
+                let place = m % packs_of_four;
+                if !SEVERAL && N <= IN_TURN {
+                    sums[m] = SeriesSums::of(&lower[1..], place);
+                } else if k % 2 == 1 {
+                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, place);
+                } else {
+                    sums[m] = next_sums[m];
+                    sums[m].complete(lower, place);
                 }
             }
-            let mut theta = [Quad::splat(T::from_f64(0.0)); Q];
+            let [mut theta, mut velocity] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
             for m in 0..M {
                 let alpha = s[m] - s_rest[m];
                 let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
-                let new = [over_k.times(alpha), cos, sin, x[m], y[m]];
-                for (series, value) in row.iter_mut().zip(new) {
-                    value.store_quad(series, m);
-                }
+                let rise = over_k.times(alpha);
+                let (row, place) = (m / packs_of_four * orders + k, m % packs_of_four);
+                store([rise, cos, sin, x[m], y[m]], &mut rows[row], place);
+                rise.store_quad(&mut velocity, m);
                 over_both.times(alpha).store_quad(&mut theta, m);
 
                 // ω/k, ω (k+1)/k, ω (k+2)/k
@@ -178,10 +179,10 @@ where
                     .minus_product(slowing, s[m]);
                 s_rest[m] = s_rest_next;
             }
-            numbers(&row[0], &mut coefficients[k][1]);
+            numbers(&velocity, &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
             if B::MOVES {
-                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], &lower[k - 1]);
+                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], rows, orders);
                 let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
                 for m in 0..M {
                     x[m] = x[m] - others[m];
@@ -229,19 +230,22 @@ impl<P, const M: usize> Weight<P, M> {
     }
 }
 
-/// State that a torque may depend on, in order k; `row` has γ and σ of that order.
+/// State that a torque may depend on, in order k.
 #[inline(always)]
 fn known<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,
     start: &Start<'_, T, N>,
     [theta, omega]: &[[T; N]; 2],
-    row: &SeriesRow<T, Q>,
+    rows: &[SeriesRow<T>],
+    orders: usize,
 ) -> KnownOrder<T, N> {
     let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
     let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
-    let (mut sine, mut cosine) = (row[2], row[1]);
+    let [mut sine, mut cosine] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
     for m in 0..M {
-        let (cos, sin) = (P::load_quad(&row[1], m), P::load_quad(&row[2], m));
+        let packs_of_four = 4 / P::LANES;
+        let row = &rows[m / packs_of_four * orders + k - 1];
+        let [cos, sin] = turned::<T, P>(row, m % packs_of_four);
         let (upright, level) = (c0[m] * cos, c0[m] * sin);
         level.plus_product(s0[m], cos).store_quad(&mut sine, m);
         upright.minus_product(s0[m], sin).store_quad(&mut cosine, m);
