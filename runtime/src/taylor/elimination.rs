@@ -13,246 +13,204 @@
 //! b = m − Σ N_c r_c, g = i m − Σ N_c i r_c, N = Σ N_c + b bᵀ/J,
 //! J = M − Σ r_c·N_c r_c, K = M − Σ r_c × N_c i r_c, q = Σ r_c × N_c r_c.
 //!
-//! With n = b/J, the forces f and the torques t that a link hands to its parent, and
-//! their sums T and F over the children, an order takes one pass from the leaves to the
-//! root and one back,
+//! Let n = b/J and p = g + q n. A link hands a torque t, its share e in the parent's Y
+//! and a force f to its parent; T, E, F are the sums of what it gets. In quads, with the
+//! unit vectors of the last two places in H_x and H_y,
 //!
-//! τ = X − q C + T, f = F − g C + n τ, t = −r·f, e = −r × f,
-//! S = τ/J − n·a, Y = K C + q τ/J − (g + q n)·a + Σ e_c.
+//! (t, e, f) = (−r·n, −r × n, n) (X + T) + (r·p, r × p, −p) C + H_x F_x + H_y F_y,
+//! (S, Y, a) = (1, q, 0) (X + T)/J + (−q/J, K − q²/J, 0) C + (0, E, 0)
+//!   + (−r·n, −r·p, r) S' + (r × n, r × p, −i r) C' + A_x a'_x + A_y a'_y
 //!
-//! The share of a link alone in what it hands up, and all that comes after the passes, is
-//! computed for several links at once; what goes from link to link is no more than the
-//! sums of what they hand up, and a. A single state waits for that: it is written so that
-//! few operations follow each other.
+//! with S', C', a' of the parent. An order takes one pass from the leaves to the root
+//! and one back, and in each a link takes four products of quads. The matrix of the
+//! second pass is that of the first one, transposed, but for signs.
 
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
 use super::eliminated_link::EliminatedLink;
 use super::expand::{Connectivity, LinkConstants, Start};
-use super::linear::OrderSystem;
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
 /// A number of each link.
 pub(super) type LinkColumn<T, const Q: usize> = [Quad<T>; Q];
 
-/// A vector of each link.
-type Vectors<T, const Q: usize> = [LinkColumn<T, Q>; 2];
+/// The factors of a link at a start, in quads: of X + T and of C in what goes up; of F
+/// there; of X + T and of C in the link's own share of S and Y; of the parent's S and C,
+/// and of its a.
+pub(super) type LinkFactors<T> = [[Quad<T>; 2]; 5];
 
-/// The factors at a start.
-pub(super) struct TaylorElimination<T, const Q: usize> {
-    /// 1/J
-    inverse_inertia: LinkColumn<T, Q>,
-    /// K
-    inertia_along: LinkColumn<T, Q>,
-    /// q
-    product: LinkColumn<T, Q>,
-    /// n
-    response: Vectors<T, Q>,
-    /// g
-    moment_along: Vectors<T, Q>,
-    /// g + q n
-    reduced_moment_along: Vectors<T, Q>,
-    /// r
-    reach: Vectors<T, Q>,
-    /// r·n and r × n: of −t and −e, for each X and T.
-    of_force: Vectors<T, Q>,
-    /// r·(g + q n) and r × (g + q n): of t and e, for each C.
-    of_cosine: Vectors<T, Q>,
-}
+/// Quads of [`LinkFactors`].
+pub(super) const FACTORS: usize = 10;
 
-impl<T: Scalar, const N: usize, const Q: usize> OrderSystem<T, N> for TaylorElimination<T, Q> {
+/// The factors at a start, of each link.
+pub(super) struct TaylorElimination<'a, T, const N: usize>(&'a mut [LinkFactors<T>; N]);
+
+impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
-    fn new<C: Connectivity<N>, W: Simd<T>>(
+    pub(super) fn new<C: Connectivity<N>, P: Simd<T>>(
         start: &Start<'_, T, N>,
         constants: &LinkConstants<T, N>,
+        factors: &'a mut [LinkFactors<T>; N],
     ) -> Self {
-        let empty = [Quad::splat(T::from_f64(0.0)); Q];
-        let mut factors = Self {
-            inverse_inertia: empty,
-            inertia_along: empty,
-            product: empty,
-            response: [empty; 2],
-            moment_along: [empty; 2],
-            reduced_moment_along: [empty; 2],
-            reach: [empty; 2],
-            of_force: [empty; 2],
-            of_cosine: [empty; 2],
-        };
-        let one = W::One::from_f64(1.0);
-        let mut links = [EliminatedLink::<W::One>::none(); N];
+        let (zero, one) = (P::from_f64(0.0), P::from_f64(1.0));
+        let mut links = [EliminatedLink::<P>::none(); N];
         for i in 0..N {
-            let inertia = W::One::splat(constants.inertias[i]);
-            let turn = [start.cosines[i], start.sines[i]].map(W::One::splat);
-            let moment = turned::<T, W::One>(constants.moments[i], turn, C::LATERAL);
+            let inertia = P::splat(constants.inertias[i]);
+            let turn = [start.cosines[i], start.sines[i]].map(P::splat);
+            let moment = turned::<T, P>(constants.moments[i], turn, C::LATERAL);
             links[i] = EliminatedLink::alone(inertia, moment);
         }
         for i in (0..N).rev() {
             let mut link = links[i];
             let inverse = one / link.inertia;
-            let response = link.moment.map(|b| b * inverse);
-            let mut reduced = link.moment_along;
+            let n = link.moment.map(|b| b * inverse);
+            let mut p = link.moment_along;
             for x in 0..2 {
-                reduced[x] = reduced[x].plus_product(link.product, response[x]);
+                p[x] = p[x].plus_product(link.product, n[x]);
             }
-            inverse.store_quad(&mut factors.inverse_inertia, i);
-            link.inertia_along.store_quad(&mut factors.inertia_along, i);
-            link.product.store_quad(&mut factors.product, i);
-            store::<T, W::One, Q>(response, &mut factors.response, i);
-            store::<T, W::One, Q>(link.moment_along, &mut factors.moment_along, i);
-            store::<T, W::One, Q>(reduced, &mut factors.reduced_moment_along, i);
+            let share = link.product * inverse;
+            let along = link.inertia_along.minus_product(share, link.product);
+            let [up, up_pull, own, down, down_fall] = &mut factors[i];
+            *own = [
+                quad([inverse, share, zero, zero]),
+                quad([-share, along, zero, zero]),
+            ];
             if i > 0 {
                 let parent = C::PARENTS[i];
-                let turn = [start.cosines[parent], start.sines[parent]].map(W::One::splat);
-                let reach = turned::<T, W::One>(constants.attachments[i], turn, C::LATERAL);
-                store::<T, W::One, Q>(reach, &mut factors.reach, i);
-                store::<T, W::One, Q>(products(reach, response), &mut factors.of_force, i);
-                store::<T, W::One, Q>(products(reach, reduced), &mut factors.of_cosine, i);
-                link.relieve(response);
-                links[parent].carry(link.deficit, reach);
+                let turn = [start.cosines[parent], start.sines[parent]].map(P::splat);
+                let r = turned::<T, P>(constants.attachments[i], turn, C::LATERAL);
+                let ([r_n, rxn], [r_p, rxp]) = (products(r, n), products(r, p));
+                *up = [
+                    quad([-r_n, -rxn, n[0], n[1]]),
+                    quad([r_p, rxp, -p[0], -p[1]]),
+                ];
+                *up_pull = [
+                    quad([-r[0], r[1], one, zero]),
+                    quad([-r[1], -r[0], zero, one]),
+                ];
+                *down = [
+                    quad([-r_n, -r_p, r[0], r[1]]),
+                    quad([rxn, rxp, r[1], -r[0]]),
+                ];
+                *down_fall = [
+                    quad([-n[0], -p[0], one, zero]),
+                    quad([-n[1], -p[1], zero, one]),
+                ];
+                link.relieve(n);
+                links[parent].carry(link.deficit, r);
             }
         }
-        factors
+        Self(factors)
     }
 
+    /// Returns S and Y where X = `force` and C = `cosine`, in packs `P`. Quads are in `V`.
+    /// No closure takes part: what is not inlined is compiled without the registers.
     #[inline(always)]
-    fn add_solution<C: Connectivity<N>, P: Simd<T>, const M: usize>(
+    pub(super) fn solution<
+        C: Connectivity<N>,
+        P: Simd<T>,
+        V: Simd<T>,
+        const Q: usize,
+        const M: usize,
+    >(
         &self,
-        [mut s, mut y]: [[P; M]; 2],
         force: &[P; M],
         cosine: &[P; M],
     ) -> [[P; M]; 2] {
-        let empty = [Quad::splat(T::from_f64(0.0)); Q];
-        let mut own = Handed {
-            torque: empty,
-            along: empty,
-            pull: [empty; 2],
-        };
-        let (mut share, mut cosines) = (empty, empty);
+        let [mut forces, mut cosines] = [[[T::from_f64(0.0); 4]; Q]; 2];
+        let (forces, cosines) = (forces.as_flattened_mut(), cosines.as_flattened_mut());
         for m in 0..M {
-            let (x, c) = (force[m], cosine[m]);
-            let torque = x.minus_product(P::load_quad(&self.product, m), c);
-            (torque * P::load_quad(&self.inverse_inertia, m)).store_quad(&mut share, m);
-            c.store_quad(&mut cosines, m);
-            for (side, handed) in [&mut own.torque, &mut own.along].into_iter().enumerate() {
-                (P::load_quad(&self.of_cosine[side], m) * c)
-                    .minus_product(P::load_quad(&self.of_force[side], m), x)
-                    .store_quad(handed, m);
-                (P::load_quad(&self.response[side], m) * torque)
-                    .minus_product(P::load_quad(&self.moment_along[side], m), c)
-                    .store_quad(&mut own.pull[side], m);
+            force[m].store(&mut forces[m * P::LANES..]);
+            cosine[m].store(&mut cosines[m * P::LANES..]);
+        }
+        // T, E, F, then S, Y, a. What is added to −0 is known to stay as it is: of few
+        // links one sum less to wait for.
+        let [mut sums, mut answers] = [[Quad::splat(T::from_f64(-0.0)); N]; 2];
+        let (leaves, count) = const { &C::LEAVES };
+        for &i in &leaves[..*count] {
+            let [of_up, _, of_own, _, _] = &self.0[i];
+            let (x, c) = (V::splat(forces[i]), V::splat(cosines[i]));
+            let [of_torque, of_cosine] = load::<T, V>(of_own);
+            (of_cosine * c)
+                .plus_product(of_torque, x)
+                .store_quad(&mut answers, i);
+            let [of_torque, of_cosine] = load::<T, V>(of_up);
+            let up = (of_cosine * c).plus_product(of_torque, x);
+            let parent = C::PARENTS[i];
+            (V::load_quad(&sums, parent) + up).store_quad(&mut sums, parent);
+        }
+        let along = [Quad([0.0, 1.0, 0.0, 0.0].map(T::from_f64))];
+        let (carriers, count) = const { &C::CARRIERS };
+        for &i in &carriers[..*count] {
+            let [of_up, of_pull, of_own, _, _] = &self.0[i];
+            let (x, c) = (V::splat(forces[i]), V::splat(cosines[i]));
+            let torque = V::splat(sums[i].0[0]);
+            let [of_torque, of_cosine] = load::<T, V>(of_own);
+            (of_cosine * c)
+                .plus_product(of_torque, x)
+                .plus_product(V::load_quad(&sums, i), V::load_quad(&along, 0))
+                .plus_product(of_torque, torque)
+                .store_quad(&mut answers, i);
+            if i > 0 {
+                let [of_torque, of_cosine] = load::<T, V>(of_up);
+                let [of_x, of_y] = load::<T, V>(of_pull);
+                let up = (of_cosine * c)
+                    .plus_product(of_torque, x)
+                    .plus_product(of_torque, torque)
+                    .plus_product(of_x, V::splat(sums[i].0[2]))
+                    .plus_product(of_y, V::splat(sums[i].0[3]));
+                let parent = C::PARENTS[i];
+                (V::load_quad(&sums, parent) + up).store_quad(&mut sums, parent);
             }
         }
-        let sums = self.to_root::<C, P::One, N>(&own);
-        let fall = self.to_leaves::<C, P::One, N>(&share, &sums.torque, &cosines);
-
+        for i in 1..N {
+            let [_, _, _, of_parent, of_fall] = &self.0[i];
+            let parent = C::PARENTS[i];
+            let [of_sine, of_cosine] = load::<T, V>(of_parent);
+            let mut sum =
+                V::load_quad(&answers, i).plus_product(of_cosine, V::splat(cosines[parent]));
+            // The root's pivot does not move.
+            if parent > 0 {
+                let [of_x, of_y] = load::<T, V>(of_fall);
+                sum = sum
+                    .plus_product(of_x, V::splat(answers[parent].0[2]))
+                    .plus_product(of_y, V::splat(answers[parent].0[3]));
+            }
+            sum.plus_product(of_sine, V::splat(answers[parent].0[0]))
+                .store_quad(&mut answers, i);
+        }
+        let (mut s, mut y) = (*force, *force);
         for m in 0..M {
-            let inverse = P::load_quad(&self.inverse_inertia, m);
-            let share =
-                P::load_quad(&share, m).plus_product(P::load_quad(&sums.torque, m), inverse);
-            let [a_x, a_y] = load::<T, P, Q>(&fall, m);
-            let [n_x, n_y] = load::<T, P, Q>(&self.response, m);
-            let own_s = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
-            s[m] = s[m] + own_s;
-            let [g_x, g_y] = load::<T, P, Q>(&self.reduced_moment_along, m);
-            y[m] = (y[m] + P::load_quad(&sums.along, m))
-                .plus_product(P::load_quad(&self.inertia_along, m), cosine[m])
-                .plus_product(P::load_quad(&self.product, m), share)
-                .minus_product(g_x, a_x)
-                .minus_product(g_y, a_y);
+            let [mut of_s, mut of_y] = [[Quad::splat(T::from_f64(0.0))]; 2];
+            let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
+            for l in 0..4 {
+                if first + l < N {
+                    let [own_s, own_y, _, _] = answers[first + l].0;
+                    (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
+                }
+            }
+            s[m] = P::load_quad(&of_s, place);
+            y[m] = P::load_quad(&of_y, place);
         }
         [s, y]
     }
 }
 
-impl<T: Scalar, const Q: usize> TaylorElimination<T, Q> {
-    /// From the leaves to the root: the sums of what the children of each link hand up,
-    /// from what each would hand up without children.
-    #[inline(always)]
-    fn to_root<C: Connectivity<N>, P: Simd<T>, const N: usize>(
-        &self,
-        own: &Handed<T, Q>,
-    ) -> Handed<T, Q> {
-        let empty = [Quad::splat(T::from_f64(0.0)); Q];
-        let mut sums = Handed {
-            torque: empty,
-            along: empty,
-            pull: [empty; 2],
-        };
-        for i in (1..N).rev() {
-            let mut torque = P::load_quad(&own.torque, i);
-            let mut along = P::load_quad(&own.along, i);
-            let [mut f_x, mut f_y] = load::<T, P, Q>(&own.pull, i);
-            if C::CARRIES[i] {
-                let sum = P::load_quad(&sums.torque, i);
-                let [sum_x, sum_y] = load::<T, P, Q>(&sums.pull, i);
-                let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
-                let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
-                let [across, turn] = load::<T, P, Q>(&self.of_force, i);
-                torque = torque
-                    .minus_product(r_x, sum_x)
-                    .minus_product(r_y, sum_y)
-                    .minus_product(across, sum);
-                along = along
-                    .minus_product(r_x, sum_y)
-                    .plus_product(r_y, sum_x)
-                    .minus_product(turn, sum);
-                f_x = (f_x + sum_x).plus_product(n_x, sum);
-                f_y = (f_y + sum_y).plus_product(n_y, sum);
-            }
-            let parent = C::PARENTS[i];
-            add::<T, P, Q>(&mut sums.torque, parent, torque);
-            add::<T, P, Q>(&mut sums.along, parent, along);
-            add::<T, P, Q>(&mut sums.pull[0], parent, f_x);
-            add::<T, P, Q>(&mut sums.pull[1], parent, f_y);
-        }
-        sums
+#[inline(always)]
+fn quad<T: Scalar, P: Simd<T>>(numbers: [P; 4]) -> Quad<T> {
+    let mut quad = [Quad::splat(T::from_f64(0.0))];
+    for (lane, number) in numbers.into_iter().enumerate() {
+        number.store(&mut quad[0].0[lane..]);
     }
-
-    /// From the root to the leaves: the accelerations a.
-    #[inline(always)]
-    fn to_leaves<C: Connectivity<N>, P: Simd<T>, const N: usize>(
-        &self,
-        share: &LinkColumn<T, Q>,
-        torque: &LinkColumn<T, Q>,
-        cosines: &LinkColumn<T, Q>,
-    ) -> Vectors<T, Q> {
-        let zero = P::splat(T::from_f64(0.0));
-        let mut fall = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
-        // Of links that have children.
-        let mut sines = [zero; N];
-        for i in 0..N {
-            if i > 0 {
-                let parent = C::PARENTS[i];
-                let (s, c) = (sines[parent], P::load_quad(cosines, parent));
-                let [r_x, r_y] = load::<T, P, Q>(&self.reach, i);
-                let [a_x, a_y] = load::<T, P, Q>(&fall, parent);
-                let a_x = a_x.plus_product(r_y, c).plus_product(r_x, s);
-                let a_y = a_y.minus_product(r_x, c).plus_product(r_y, s);
-                store::<T, P, Q>([a_x, a_y], &mut fall, i);
-            }
-            if C::CARRIES[i] {
-                let inverse = P::load_quad(&self.inverse_inertia, i);
-                let share = P::load_quad(share, i).plus_product(P::load_quad(torque, i), inverse);
-                let [a_x, a_y] = load::<T, P, Q>(&fall, i);
-                let [n_x, n_y] = load::<T, P, Q>(&self.response, i);
-                sines[i] = share.minus_product(n_x, a_x).minus_product(n_y, a_y);
-            }
-        }
-        fall
-    }
+    quad[0]
 }
 
-/// Numbers that links hand to their parents, or the sums of those that they get.
-struct Handed<T, const Q: usize> {
-    /// t
-    torque: LinkColumn<T, Q>,
-    /// e
-    along: LinkColumn<T, Q>,
-    /// f
-    pull: Vectors<T, Q>,
+#[inline(always)]
+fn load<T: Scalar, V: Simd<T>>(quads: &[Quad<T>; 2]) -> [V; 2] {
+    [V::load_quad(quads, 0), V::load_quad(quads, 1)]
 }
 
 /// (p + i q) e^(iθ) of a link in this direction.
@@ -275,25 +233,4 @@ fn products<P: Scalar>([u_x, u_y]: [P; 2], [w_x, w_y]: [P; 2]) -> [P; 2] {
         (u_x * w_x).plus_product(u_y, w_y),
         (u_x * w_y).minus_product(u_y, w_x),
     ]
-}
-
-/// Adds to the number of a link.
-#[inline(always)]
-fn add<T: Scalar, P: Simd<T>, const Q: usize>(column: &mut LinkColumn<T, Q>, i: usize, value: P) {
-    (P::load_quad(column, i) + value).store_quad(column, i);
-}
-
-#[inline(always)]
-fn load<T: Scalar, P: Simd<T>, const Q: usize>(vectors: &Vectors<T, Q>, i: usize) -> [P; 2] {
-    [P::load_quad(&vectors[0], i), P::load_quad(&vectors[1], i)]
-}
-
-#[inline(always)]
-fn store<T: Scalar, P: Simd<T>, const Q: usize>(
-    [x, y]: [P; 2],
-    vectors: &mut Vectors<T, Q>,
-    i: usize,
-) {
-    x.store_quad(&mut vectors[0], i);
-    y.store_quad(&mut vectors[1], i);
 }

@@ -11,19 +11,16 @@
 //! a link are all there is, for a tree of any shape and depth.
 //!
 //! In each order X follows from the equation, C from lower orders, and then S and Y
-//! from a linear system, by [`elimination`](super::elimination) along the tree or, for
-//! one state of a small tree, by [`matrices`](super::dense): what these start from is
-//! formed once and serves all orders. From order 28 on, which is that of tolerances near rounding,
-//! the S of order 0 is refined once more.
+//! from a linear system, by [`elimination`](super::elimination) along the tree, whose
+//! factors are formed once and serve all orders. From order 28 on, which is that of
+//! tolerances near rounding, the S of order 0 is refined once more.
 
 use super::bias::{Bias, ConstantBias, MovingBias};
-use super::dense::Matrices;
-use super::elimination::TaylorElimination;
-use super::linear::OrderSystem;
+use super::elimination::{FACTORS, LinkFactors};
 use super::orders::Orders;
 use super::series::{SERIES, SeriesRow};
-use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
+use crate::scalar::{Lanes, Scalar};
 use crate::simd::dispatch::in_fours;
 use crate::simd::{Quad, Simd};
 use core::marker::PhantomData;
@@ -50,6 +47,14 @@ pub trait Connectivity<const N: usize> {
         carries
     };
 
+    /// Links that others hang on, from the last one to the root; and how many they are.
+    #[doc(hidden)]
+    const CARRIERS: ([usize; N], usize) = listed(&Self::CARRIES, true);
+
+    /// Links that none hangs on, likewise.
+    #[doc(hidden)]
+    const LEAVES: ([usize; N], usize) = listed(&Self::CARRIES, false);
+
     /// Fails to compile where a parent comes behind its child.
     #[doc(hidden)]
     const ORDERED: () = {
@@ -59,6 +64,20 @@ pub trait Connectivity<const N: usize> {
             link += 1;
         }
     };
+}
+
+/// Numbers of the links of which this is said, from the last to the first, and how many.
+const fn listed<const N: usize>(said: &[bool; N], this: bool) -> ([usize; N], usize) {
+    let (mut list, mut count) = ([0; N], 0);
+    let mut link = N;
+    while link > 0 {
+        link -= 1;
+        if said[link] == this {
+            list[count] = link;
+            count += 1;
+        }
+    }
+    (list, count)
 }
 
 /// State at which an expansion starts.
@@ -113,7 +132,7 @@ pub struct KnownOrder<T, const N: usize> {
 /// order `order`.
 #[must_use]
 pub const fn workspace(links: usize, order: usize) -> usize {
-    links.div_ceil(4) * SERIES * (order + 1)
+    links * FACTORS + links.div_ceil(4) * SERIES * (order + 1)
 }
 
 /// Writes the Taylor coefficients of the motion from `start`, order by order:
@@ -126,8 +145,7 @@ pub const fn workspace(links: usize, order: usize) -> usize {
 /// Where `Q` or the length of `work` ([`workspace`]) does not fit, all coefficients
 /// are NaN.
 ///
-/// Complexity: O(n p) for each of p orders of n links, plus O(n²) where matrices are
-/// used. Uses AVX2 and FMA for `f64`
+/// Complexity: O(n p) for each of p orders of n links. Uses AVX2 and FMA for `f64`
 /// where the machine has them: results there differ by rounding from those
 /// elsewhere.
 #[inline(always)]
@@ -160,12 +178,6 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
     }
 }
 
-/// Number of links up to which one state takes matrices, as long as these are faster
-/// than the elimination. An expansion to order 22 takes 0.35 µs by matrices and 0.39 µs
-/// by elimination for three links, 0.83 and 0.92 for seven, 2.5 and 3.0 for fifteen, and
-/// 8.1 and 5.7 for thirty-one.
-const MATRICES: usize = 15;
-
 /// Runs the orders in packs of links, or link by link where a number stands for several
 /// states already.
 #[inline(always)]
@@ -176,13 +188,19 @@ fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: us
     work: &mut [Quad<T>],
     bias: B,
 ) {
-    let (vectors, _) = work.as_chunks_mut::<Q>();
-    let (rows, _) = vectors.as_chunks_mut::<SERIES>();
+    let (factors, rows) = work.split_at_mut(N * FACTORS);
+    let (factors, _) = factors.as_chunks_mut::<2>();
+    let (factors, _) = factors.as_chunks_mut::<5>();
+    let Some(factors) = factors.first_chunk_mut::<N>() else {
+        return;
+    };
+    let (rows, _) = rows.as_chunks_mut::<SERIES>();
     T::by_kind(OrdersOf::<'_, '_, T, C, B, N, Q> {
         start,
         constants,
         coefficients,
         rows,
+        factors,
         bias,
         connectivity: PhantomData,
     });
@@ -193,7 +211,8 @@ struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
     start: &'a Start<'s, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T, Q>],
+    rows: &'a mut [SeriesRow<T>],
+    factors: &'a mut [LinkFactors<T>; N],
     bias: B,
     connectivity: PhantomData<C>,
 }
@@ -204,14 +223,15 @@ where
     C: Connectivity<N>,
     B: Bias<T, N>,
 {
-    /// Solved by `L`, in `M` packs.
+    /// In `M` packs.
     #[inline(always)]
-    fn by<L: OrderSystem<T, N>, const M: usize>(self) -> Orders<'a, T, C, B, L, N, Q, M> {
+    fn in_packs<const M: usize>(self) -> Orders<'a, T, C, B, N, Q, M> {
         Orders::new(
             self.start,
             self.constants,
             self.coefficients,
             self.rows,
+            self.factors,
             self.bias,
         )
     }
@@ -227,11 +247,7 @@ where
 
     #[inline(always)]
     fn of_any(self) {
-        if N <= MATRICES {
-            in_fours::<T, _>(self.by::<Matrices<T, N, Q>, Q>());
-        } else {
-            in_fours::<T, _>(self.by::<TaylorElimination<T, Q>, Q>());
-        }
+        in_fours::<T, _>(self.in_packs::<Q>());
     }
 
     #[inline(always)]
@@ -239,6 +255,6 @@ where
     where
         T: Simd<L>,
     {
-        self.by::<TaylorElimination<T, Q>, N>().form::<T, true>();
+        self.in_packs::<N>().form::<T, Lanes<T, 4>, true>();
     }
 }

@@ -10,11 +10,9 @@
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
 mod bias;
-mod dense;
 mod eliminated_link;
 mod elimination;
 mod expand;
-mod linear;
 mod orders;
 mod reciprocal;
 mod refine;

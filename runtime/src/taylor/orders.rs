@@ -12,12 +12,11 @@
 //! apart, so that the sums are ready when that is.
 
 use super::bias::Bias;
-use super::elimination::LinkColumn;
+use super::elimination::{LinkColumn, LinkFactors, TaylorElimination};
 use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
-use super::linear::OrderSystem;
 use super::reciprocal::Reciprocal;
 use super::refine::residual;
-use super::series::{SeriesRow, SeriesSums};
+use super::series::{SeriesRow, SeriesSums, store, turned};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Quad, Simd};
 use core::marker::PhantomData;
@@ -26,46 +25,49 @@ use core::marker::PhantomData;
 /// tolerances of 1e-13, below which rounding is most of the error.
 const REFINED: usize = 28;
 
+/// Number of links up to which one state has its sums formed order by order, from which
+/// two orders at a time: for more links the machine computes more than it waits.
+const IN_TURN: usize = 15;
+
 /// The orders of an expansion from 1 on, of N links in Q quads of memory and M packs.
-pub(super) struct Orders<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> {
+pub(super) struct Orders<'a, T, C, B, const N: usize, const Q: usize, const M: usize> {
     start: &'a Start<'a, T, N>,
     constants: &'a LinkConstants<T, N>,
     coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T, Q>],
+    rows: &'a mut [SeriesRow<T>],
+    factors: &'a mut [LinkFactors<T>; N],
     bias: B,
-    /// The tree's connectivity, and how its equations are solved.
-    kind: PhantomData<(C, L)>,
+    connectivity: PhantomData<C>,
 }
 
-impl<T, C, B, L, const N: usize, const Q: usize, const M: usize> Kernel<T>
-    for Orders<'_, T, C, B, L, N, Q, M>
+impl<T, C, B, const N: usize, const Q: usize, const M: usize> Kernel<T>
+    for Orders<'_, T, C, B, N, Q, M>
 where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: OrderSystem<T, N>,
 {
     type Output = ();
 
     #[inline(always)]
     fn run<P: Simd<T>>(self) {
-        self.form::<P, false>();
+        self.form::<P, P, false>();
     }
 }
 
-impl<'a, T, C, B, L, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, L, N, Q, M>
+impl<'a, T, C, B, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, N, Q, M>
 where
     T: Scalar,
     C: Connectivity<N>,
     B: Bias<T, N>,
-    L: OrderSystem<T, N>,
 {
     #[inline(always)]
     pub(super) fn new(
         start: &'a Start<'a, T, N>,
         constants: &'a LinkConstants<T, N>,
         coefficients: &'a mut [[[T; N]; 2]],
-        rows: &'a mut [SeriesRow<T, Q>],
+        rows: &'a mut [SeriesRow<T>],
+        factors: &'a mut [LinkFactors<T>; N],
         bias: B,
     ) -> Self {
         Self {
@@ -73,8 +75,9 @@ where
             constants,
             coefficients,
             rows,
+            factors,
             bias,
-            kind: PhantomData,
+            connectivity: PhantomData,
         }
     }
 
@@ -84,17 +87,21 @@ where
     // One index into all vectors at once.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    pub(super) fn form<P: Simd<T>, const SEVERAL: bool>(self) {
+    pub(super) fn form<P: Simd<T>, V: Simd<T>, const SEVERAL: bool>(self) {
         let Self {
             start,
             constants,
             coefficients,
             rows,
+            factors,
             mut bias,
-            kind: _,
+            connectivity: _,
         } = self;
-        let last = coefficients.len().saturating_sub(1);
-        let system = L::new::<C, P>(start, constants);
+        let orders = coefficients.len();
+        let last = orders.saturating_sub(1);
+        // Packs of a quad.
+        let packs_of_four = 4 / P::LANES;
+        let system = TaylorElimination::new::<C, P::One>(start, constants, factors);
 
         // Order 0, and 1 of ω, γ, σ.
         let zero = P::splat(T::from_f64(0.0));
@@ -108,17 +115,24 @@ where
             x[m] = zero - first_bias[m];
             force[m] = x[m] - weight.across[m];
             c[m] = zero.minus_product(omega[m], omega[m]);
-            let row = [omega[m], zero, omega[m], zero, zero];
-            for (series, value) in rows[0].iter_mut().zip(row) {
-                value.store_quad(series, m);
+            let (row, place) = (m / packs_of_four * orders, m % packs_of_four);
+            store(
+                [omega[m], zero, omega[m], zero, zero],
+                &mut rows[row],
+                place,
+            );
+        }
+        let [mut s, mut y] = system.solution::<C, P, V, Q, M>(&force, &c);
+        for m in 0..M {
+            y[m] = y[m] + weight.along[m];
+        }
+        if last >= REFINED {
+            let rest = residual::<T, C, P, N, Q, M>(start, constants, &s);
+            let [more_s, more_y] = system.solution::<C, P, V, Q, M>(&rest, &[zero; M]);
+            for m in 0..M {
+                (s[m], y[m]) = (s[m] + more_s[m], y[m] + more_y[m]);
             }
         }
-        let mut order = system.add_solution::<C, P, M>([[zero; M], weight.along], &force, &c);
-        if last >= REFINED {
-            let rest = residual::<T, C, P, N, Q, M>(start, constants, &order[0]);
-            order = system.add_solution::<C, P, M>(order, &rest, &[zero; M]);
-        }
-        let [mut s, mut y] = order;
 
         let one = P::from_f64(1.0);
         let mut number = one;
@@ -129,57 +143,52 @@ where
             let over_both = Reciprocal::of(number * (number + one));
             number = number + one;
             over_next = Reciprocal::of(number);
-            let (lower, new) = rows.split_at_mut(k);
-            let Some(row) = new.first_mut() else { return };
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
-            if !SEVERAL {
-                for m in 0..M {
-                    sums[m] = SeriesSums::of(&lower[1..], m);
-                }
-            } else if k % 2 == 1 {
-                for m in 0..M {
-                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, m);
-                }
-            } else {
-                sums = next_sums;
-                for m in 0..M {
-                    sums[m].complete(lower, m);
+            for m in 0..M {
+                let lower = &rows[m / packs_of_four * orders..][..k];
+                let place = m % packs_of_four;
+                if !SEVERAL && N <= IN_TURN {
+                    sums[m] = SeriesSums::of(&lower[1..], place);
+                } else if k % 2 == 1 {
+                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, place);
+                } else {
+                    sums[m] = next_sums[m];
+                    sums[m].complete(lower, place);
                 }
             }
-            let (mut x_next, mut c_next, mut s_rest_next) = ([zero; M], [zero; M], [zero; M]);
-            let mut theta = [Quad::splat(T::from_f64(0.0)); Q];
+            let [mut theta, mut velocity] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
             for m in 0..M {
+                let alpha = s[m] - s_rest[m];
+                let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
+                let rise = over_k.times(alpha);
+                let (row, place) = (m / packs_of_four * orders + k, m % packs_of_four);
+                store([rise, cos, sin, x[m], y[m]], &mut rows[row], place);
+                rise.store_quad(&mut velocity, m);
+                over_both.times(alpha).store_quad(&mut theta, m);
+
                 // ω/k, ω (k+1)/k, ω (k+2)/k
                 let rate = over_k.times(omega[m]);
                 let rate_1 = omega[m] + rate;
                 let slowing = rate_1 + rate;
-                s_rest_next[m] = (number * sums[m].omega_cos).plus_product(rate, c[m]);
-                c_next[m] = (rate_1 * s_rest[m])
+                x[m] = sums[m].force().plus_product(omega[m], y[m]);
+                let s_rest_next = (number * sums[m].omega_cos).plus_product(rate, c[m]);
+                c[m] = (rate_1 * s_rest[m])
                     .minus_product(number, sums[m].omega_sin)
                     .minus_product(slowing, s[m]);
-                x_next[m] = sums[m].force().plus_product(omega[m], y[m]);
-
-                let alpha = s[m] - s_rest[m];
-                let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
-                let new = [over_k.times(alpha), cos, sin, x[m], y[m]];
-                for (series, value) in row.iter_mut().zip(new) {
-                    value.store_quad(series, m);
-                }
-                over_both.times(alpha).store_quad(&mut theta, m);
+                s_rest[m] = s_rest_next;
             }
-            numbers(&row[0], &mut coefficients[k][1]);
+            numbers(&velocity, &mut coefficients[k][1]);
             numbers(&theta, &mut coefficients[k + 1][0]);
             if B::MOVES {
-                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], &lower[k - 1]);
+                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], rows, orders);
                 let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
                 for m in 0..M {
-                    x_next[m] = x_next[m] - others[m];
+                    x[m] = x[m] - others[m];
                 }
             }
-            [s, y] = system.add_solution::<C, P, M>([[zero; M]; 2], &x_next, &c_next);
-            (x, c, s_rest) = (x_next, c_next, s_rest_next);
+            [s, y] = system.solution::<C, P, V, Q, M>(&x, &c);
         }
         if last > 0 {
             let mut omega = [Quad::splat(T::from_f64(0.0)); Q];
@@ -221,19 +230,22 @@ impl<P, const M: usize> Weight<P, M> {
     }
 }
 
-/// State that a torque may depend on, in order k; `row` has γ and σ of that order.
+/// State that a torque may depend on, in order k.
 #[inline(always)]
 fn known<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
     k: usize,
     start: &Start<'_, T, N>,
     [theta, omega]: &[[T; N]; 2],
-    row: &SeriesRow<T, Q>,
+    rows: &[SeriesRow<T>],
+    orders: usize,
 ) -> KnownOrder<T, N> {
     let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
     let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
-    let (mut sine, mut cosine) = (row[2], row[1]);
+    let [mut sine, mut cosine] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
     for m in 0..M {
-        let (cos, sin) = (P::load_quad(&row[1], m), P::load_quad(&row[2], m));
+        let packs_of_four = 4 / P::LANES;
+        let row = &rows[m / packs_of_four * orders + k - 1];
+        let [cos, sin] = turned::<T, P>(row, m % packs_of_four);
         let (upright, level) = (c0[m] * cos, c0[m] * sin);
         level.plus_product(s0[m], cos).store_quad(&mut sine, m);
         upright.minus_product(s0[m], sin).store_quad(&mut cosine, m);

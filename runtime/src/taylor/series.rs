@@ -5,12 +5,25 @@
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
-/// Series that are kept: ω, γ, σ, X, Y. SeriesRow r has order r of ω, r + 1 of γ and σ,
-/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j.
+/// Series that are kept: ω, γ, σ, X, Y.
 pub(super) const SERIES: usize = 5;
 
-/// All series in one order.
-pub(super) type SeriesRow<T, const Q: usize> = [[Quad<T>; Q]; SERIES];
+/// All series of four links in one order. Row r has order r of ω, r + 1 of γ and σ,
+/// r − 1 of X and Y, so that all sums of order k run over rows j and k − j. The rows of
+/// four links follow each other in memory, order by order.
+pub(super) type SeriesRow<T> = [Quad<T>; SERIES];
+
+/// Writes one number, or pack of numbers, of each series to a row.
+#[inline(always)]
+pub(super) fn store<T: Scalar, P: Simd<T>>(
+    values: [P; SERIES],
+    row: &mut SeriesRow<T>,
+    place: usize,
+) {
+    for (series, value) in row.iter_mut().zip(values) {
+        value.store_quad(core::slice::from_mut(series), place);
+    }
+}
 
 /// Sums of products in one order, over 0 < j < k.
 #[derive(Clone, Copy)]
@@ -48,7 +61,7 @@ impl<P: Scalar> SeriesSums<P> {
     /// sums of each, so that none waits for the other: for a single state, which waits for
     /// results more than it computes.
     #[inline(always)]
-    pub(super) fn of<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> Self
+    pub(super) fn of<T: Scalar>(rows: &[SeriesRow<T>], place: usize) -> Self
     where
         P: Simd<T>,
     {
@@ -56,11 +69,11 @@ impl<P: Scalar> SeriesSums<P> {
         let (middle, late) = rest.split_at(rest.len() - early.len());
         let [mut first, mut second] = [Self::none(); 2];
         for row in middle {
-            first.add(moved(row, m), turned(row, m));
+            first.add(moved(row, place), turned(row, place));
         }
         for (row, opposite) in early.iter().rev().zip(late) {
-            first.add(moved(row, m), turned(opposite, m));
-            second.add(moved(opposite, m), turned(row, m));
+            first.add(moved(row, place), turned(opposite, place));
+            second.add(moved(opposite, place), turned(row, place));
         }
         Self {
             omega_cos: first.omega_cos + second.omega_cos,
@@ -74,7 +87,7 @@ impl<P: Scalar> SeriesSums<P> {
     /// k + 1 but for their terms with the newest row. What is loaded serves both: for
     /// several states, which compute more than they wait.
     #[inline(always)]
-    pub(super) fn pair<T: Scalar, const Q: usize>(rows: &[SeriesRow<T, Q>], m: usize) -> [Self; 2]
+    pub(super) fn pair<T: Scalar>(rows: &[SeriesRow<T>], place: usize) -> [Self; 2]
     where
         P: Simd<T>,
     {
@@ -86,26 +99,26 @@ impl<P: Scalar> SeriesSums<P> {
         let Some((_, [first, middle @ ..])) = old.split_first() else {
             return [now, next];
         };
-        let mut turned = turned(newest, m);
+        let mut turned = turned(newest, place);
         for (row, opposite) in middle.iter().zip(middle.iter().rev()) {
-            let moved = moved(row, m);
+            let moved = moved(row, place);
             next.add(moved, turned);
-            turned = self::turned(opposite, m);
+            turned = self::turned(opposite, place);
             now.add(moved, turned);
         }
         if let Some(second) = middle.first() {
-            next.add(self::moved(newest, m), self::turned(second, m));
+            next.add(self::moved(newest, place), self::turned(second, place));
         } else {
-            next.add(self::moved(newest, m), self::turned(newest, m));
+            next.add(self::moved(newest, place), self::turned(newest, place));
         }
-        now.add(self::moved(first, m), self::turned(newest, m));
-        now.add(self::moved(newest, m), self::turned(first, m));
+        now.add(self::moved(first, place), self::turned(newest, place));
+        now.add(self::moved(newest, place), self::turned(first, place));
         [now, next]
     }
 
     /// Adds the terms with the newest row.
     #[inline(always)]
-    pub(super) fn complete<T: Scalar, const Q: usize>(&mut self, rows: &[SeriesRow<T, Q>], m: usize)
+    pub(super) fn complete<T: Scalar>(&mut self, rows: &[SeriesRow<T>], place: usize)
     where
         P: Simd<T>,
     {
@@ -113,9 +126,9 @@ impl<P: Scalar> SeriesSums<P> {
             return;
         };
         let newest = others.last().unwrap_or(first);
-        self.add(moved(first, m), turned(newest, m));
+        self.add(moved(first, place), turned(newest, place));
         if !others.is_empty() {
-            self.add(moved(newest, m), turned(first, m));
+            self.add(moved(newest, place), turned(first, place));
         }
     }
 
@@ -131,18 +144,20 @@ impl<P: Scalar> SeriesSums<P> {
 
 /// ω, X, Y
 #[inline(always)]
-fn moved<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 3] {
-    let [omega, _, _, x, y] = row;
-    [
-        P::load_quad(omega, m),
-        P::load_quad(x, m),
-        P::load_quad(y, m),
-    ]
+fn moved<T: Scalar, P: Simd<T>>([omega, _, _, x, y]: &SeriesRow<T>, place: usize) -> [P; 3] {
+    [load(omega, place), load(x, place), load(y, place)]
 }
 
 /// γ, σ
 #[inline(always)]
-fn turned<T: Scalar, P: Simd<T>, const Q: usize>(row: &SeriesRow<T, Q>, m: usize) -> [P; 2] {
-    let [_, cos, sin, _, _] = row;
-    [P::load_quad(cos, m), P::load_quad(sin, m)]
+pub(super) fn turned<T: Scalar, P: Simd<T>>(
+    [_, cos, sin, _, _]: &SeriesRow<T>,
+    place: usize,
+) -> [P; 2] {
+    [load(cos, place), load(sin, place)]
+}
+
+#[inline(always)]
+fn load<T: Scalar, P: Simd<T>>(quad: &Quad<T>, place: usize) -> P {
+    P::load_quad(core::slice::from_ref(quad), place)
 }
