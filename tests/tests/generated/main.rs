@@ -8,7 +8,6 @@ mod hints;
 mod hygiene;
 mod loop_states;
 mod loops;
-mod machine_code;
 mod positions;
 mod scalars;
 mod sectors;

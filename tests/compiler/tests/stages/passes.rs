@@ -2,10 +2,10 @@
 
 use branched_pendulum_codegen::functions::{Argument, Purpose};
 
-use branched_pendulum_codegen::program::{Pass, Program};
-use branched_pendulum_codegen::stages_without;
+use branched_pendulum_codegen::Stages;
+use branched_pendulum_codegen::program::{Pass, Program, lower};
 use branched_pendulum_compiler_tests::random::Random;
-use branched_pendulum_compiler_tests::source::{attributed_struct, fixture};
+use branched_pendulum_compiler_tests::source::scene;
 
 const SCENES: [&str; 9] = [
     "chain",
@@ -19,13 +19,9 @@ const SCENES: [&str; 9] = [
     "unequal",
 ];
 
-fn program(name: &str, off: Option<Pass>) -> Program {
-    let source = std::fs::read_to_string(fixture(&format!("scenes/{name}.rs")));
-    let (attribute, item) = attributed_struct(&source.expect("the fixture exists"));
-    match stages_without(off, attribute, item) {
-        Ok(stages) => stages.program,
-        Err((report, _)) => panic!("{name}: {report:?}"),
-    }
+/// The program of a scene, which is derived once: passes are asked for behind that.
+fn program(stages: &Stages, off: Pass) -> Program {
+    lower(Some(off), &stages.scene, &stages.mechanics).expect("a fixture has few values")
 }
 
 /// Outputs of all entry points at some states.
@@ -57,9 +53,10 @@ fn values(program: &Program) -> Vec<(String, Vec<f64>)> {
 #[test]
 fn passes_keep_the_values() {
     for name in SCENES {
-        let with = values(&program(name, None));
+        let stages = scene(name);
+        let with = values(&stages.program);
         for pass in Pass::ALL {
-            let program = program(name, Some(pass));
+            let program = program(&stages, pass);
             assert_eq!(program.verify(), Ok(()), "{name} without {}", pass.name());
             for ((entry, with), (_, without)) in with.iter().zip(values(&program)) {
                 let size = with

@@ -1,10 +1,13 @@
 //! The machine code of the paper's accelerations, disassembled: one division,
 //! no check of bounds, and no calls but for sines and cosines; and, for one
-//! state and for batches, in fused instructions.
+//! state, for batches and for trajectories in lanes, written out and in loops, in fused
+//! instructions.
 
-use branched_pendulum::Pendulum;
+use branched_pendulum::Cast;
 use branched_pendulum::batch::Batch;
+use branched_pendulum::prelude::*;
 use branched_pendulum_tests::promised;
+use branched_pendulum_tests::scenes::driven_loops::{DrivenLoops, DrivenLoopsParameters};
 use branched_pendulum_tests::scenes::paper::Paper;
 use std::collections::BTreeMap;
 use std::hint::black_box;
@@ -73,18 +76,33 @@ fn the_kernel_is_straight_arithmetic() {
     assert!(all("call").len() <= 4, "{:?}", all("call"));
 }
 
+/// One state, a batch and trajectories in lanes.
+fn runs_in_kernels<P: Cast<f64> + Sync>(model: &P) {
+    let links = P::LINKS;
+    let columns = black_box(vec![vec![0.1; 20]; links]);
+    let mut alpha = vec![vec![0.0; 20]; links];
+    let done = Batch::new(model).accelerations(0.0, &columns, &columns, &mut alpha);
+    assert!(done.is_ok() && alpha[0][19] < 0.0);
+    let mut one = vec![0.0; links];
+    model.accelerations_into(0.0, &vec![0.1; links], &vec![0.1; links], &mut one);
+    assert!(one[0] < 0.0);
+    let method = Dop853::new(Options::with_tolerance(1e-6));
+    let starts = vec![State::at_rest(0.0, &vec![0.1; links]); 9];
+    let ends = Ensemble::new().integrate_in_lanes(&method, &AbsoluteAngles(model), &starts, 0.01);
+    assert!(ends.iter().all(|end| end.is_ok()));
+}
+
 /// No vector instruction is left as a function of its own, which would cost as
 /// much as ten of them: everything between the choice of the instructions and
 /// the arithmetic is inlined.
 #[test]
 fn kernels_are_compiled_for_their_instructions() {
-    let model = Paper::new();
-    let columns = black_box(vec![vec![0.1; 20]; 3]);
-    let mut alpha = vec![vec![0.0; 20]; 3];
-    let done = Batch::new(&model).accelerations(0.0, &columns, &columns, &mut alpha);
-    assert!(done.is_ok() && alpha[0][19] < 0.0);
-    let mut one = [0.0; 3];
-    model.accelerations_into(0.0, &[0.1; 3], &[0.1; 3], &mut one);
+    runs_in_kernels(&Paper::new());
+    let parameters = DrivenLoopsParameters {
+        push: -0.1,
+        pace: 3.0,
+    };
+    runs_in_kernels(&DrivenLoops::new(parameters).expect("they are within their bounds"));
     let Some(functions) = disassembled() else {
         return;
     };

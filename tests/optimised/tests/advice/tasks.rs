@@ -8,7 +8,7 @@ use branched_pendulum::system::CastOde;
 use crate::scenes::{InPhase, Paper, Rods, states};
 
 /// The file of trusted trajectories.
-const FILE: &str = include_str!("../../fixtures/reference/trajectories.json");
+const FILE: &str = include_str!("../../../fixtures/reference/trajectories.json");
 
 /// Values of an output at a state.
 type Output<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
