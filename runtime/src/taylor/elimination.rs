@@ -142,7 +142,6 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
             let parent = C::PARENTS[i];
             (V::load_quad(&sums, parent) + up).store_quad(&mut sums, parent);
         }
-        let along = [Quad([0.0, 1.0, 0.0, 0.0].map(T::from_f64))];
         let (carriers, count) = const { &C::CARRIERS };
         for &i in &carriers[..*count] {
             let [of_up, of_pull, of_own, _, _] = &self.0[i];
@@ -151,7 +150,6 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
             let [of_torque, of_cosine] = load::<T, V>(of_own);
             (of_cosine * c)
                 .plus_product(of_torque, x)
-                .plus_product(V::load_quad(&sums, i), V::load_quad(&along, 0))
                 .plus_product(of_torque, torque)
                 .store_quad(&mut answers, i);
             if i > 0 {
@@ -184,16 +182,18 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
         }
         let (mut s, mut y) = (*force, *force);
         for m in 0..M {
-            let [mut of_s, mut of_y] = [[Quad::splat(T::from_f64(0.0))]; 2];
+            let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
                 if first + l < N {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
+                    along[0].0[l] = sums[first + l].0[1];
                 }
             }
             s[m] = P::load_quad(&of_s, place);
-            y[m] = P::load_quad(&of_y, place);
+            // E last, for which no link waits.
+            y[m] = P::load_quad(&of_y, place) + P::load_quad(&along, place);
         }
         [s, y]
     }
