@@ -178,8 +178,10 @@ impl Strips {
         for &Range { start, end } in strips.iter().rev() {
             let from = attachments.len();
             // The root has no parent.
-            for child in start.max(1)..end {
-                let parent = parents[child] as usize;
+            let first = start.max(1);
+            let own = parents.get(first..end).unwrap_or_default();
+            for (child, &parent) in (first..).zip(own) {
+                let parent = parent as usize;
                 let first = !has_child[parent];
                 match attachments
                     .get_mut(from..)

@@ -356,16 +356,13 @@ where
 /// # Safety
 /// They may be read there.
 #[inline(always)]
-unsafe fn constant<N: Scalar, T: Simd<N>, V: Simd<T>>(
+unsafe fn constant<N: Scalar, T: Scalar + Simd<N>, V: Simd<T>>(
     constants: Cells<N>,
     column: usize,
     at: usize,
-) -> V
-where
-    T: Scalar,
-{
+) -> V {
     let start = constants.place(at, column);
-    match T::LANES {
+    match <T as Simd<N>>::LANES {
         // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
         1 => unsafe { V::read(start.cast()) },
         // SAFETY: the caller's.

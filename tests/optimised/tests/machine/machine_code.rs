@@ -14,6 +14,18 @@ use std::hint::black_box;
 use std::process::Command;
 use std::sync::LazyLock;
 
+/// A tree of any shape in loops, with children at two places of a link.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk: rod(mass = 0.12, length = 0.3) [
+        hook: rod(mass = 0.12, length = 0.3, at = 0.1),
+        arm: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+            mass_ratio = 0.5, length_ratio = 0.7),
+    ],
+)]
+struct Bush;
+
 #[inline(never)]
 fn paper_kernel(model: &Paper, theta: &[f64; 3], omega: &[f64; 3]) -> [f64; 3] {
     model.accelerations(theta, omega)
@@ -98,6 +110,7 @@ fn runs_in_kernels<P: Cast<f64> + Sync>(model: &P) {
 #[test]
 fn kernels_are_compiled_for_their_instructions() {
     runs_in_kernels(&Paper::new());
+    runs_in_kernels(&Bush::new());
     let parameters = DrivenLoopsParameters {
         push: -0.1,
         pace: 3.0,
