@@ -104,7 +104,7 @@ impl Heights {
         }
         let mut order: Vec<usize> = (0..links).filter(|&place| sizes[place] > most).collect();
         let above = order.len();
-        let (mut strips, mut parts) = (Vec::new(), Vec::new());
+        let (mut strips, mut parts) = (Vec::new(), Vec::<Part>::new());
         let mut next = Vec::from_iter((links > 0).then_some(0));
         while let Some(place) = next.pop() {
             let (start, strip) = (order.len(), strips.len());
@@ -130,10 +130,17 @@ impl Heights {
                     end += links.len();
                 }
             }
-            parts.push(Part {
+            let part = Part {
                 links: start..order.len(),
                 strips: strip..strips.len(),
-            });
+            };
+            // As many subtrees as fit are one part.
+            match parts.last_mut() {
+                Some(last) if part.links.end - last.links.start <= most => {
+                    (last.links.end, last.strips.end) = (part.links.end, part.strips.end);
+                }
+                _ => parts.push(part),
+            }
         }
         parts.push(Part {
             links: 0..above,

@@ -178,9 +178,9 @@ impl Strips {
         for &Range { start, end } in strips.iter().rev() {
             let from = attachments.len();
             // The root has no parent.
-            let first = start.max(1);
-            let own = parents.get(first..end).unwrap_or_default();
-            for (child, &parent) in (first..).zip(own) {
+            let children = start.max(1)..end;
+            let own = parents.get(children.clone()).unwrap_or_default();
+            for (child, &parent) in children.zip(own) {
                 let parent = parent as usize;
                 let first = !has_child[parent];
                 match attachments
