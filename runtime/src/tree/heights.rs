@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::strips::Part;
+use super::strips::SmallSubtrees;
 
 /// The links, from the root on, by height: the distance to the deepest leaf below.
 ///
@@ -18,7 +18,7 @@ pub(super) struct Heights {
     /// Neighbours that are a strip, each behind those of its parents.
     pub(super) strips: Vec<Range<usize>>,
     /// What goes up at once, the last one first.
-    pub(super) parts: Vec<Part>,
+    pub(super) subtrees: Vec<SmallSubtrees>,
     /// Number of links at the front whose motions are formed before all others.
     pub(super) above: usize,
 }
@@ -76,7 +76,7 @@ impl Heights {
         Self {
             parents: order.iter().map(|&link| places[parent(link)]).collect(),
             order: order.iter().map(|&link| link as u32).collect(),
-            parts: alloc::vec![Part {
+            subtrees: alloc::vec![SmallSubtrees {
                 links: 0..links,
                 strips: 0..ranges.len(),
             }],
@@ -104,7 +104,7 @@ impl Heights {
         }
         let mut order: Vec<usize> = (0..links).filter(|&place| sizes[place] > most).collect();
         let above = order.len();
-        let (mut strips, mut parts) = (Vec::new(), Vec::<Part>::new());
+        let (mut strips, mut subtrees) = (Vec::new(), Vec::<SmallSubtrees>::new());
         let mut next = Vec::from_iter((links > 0).then_some(0));
         while let Some(place) = next.pop() {
             let (start, strip) = (order.len(), strips.len());
@@ -130,19 +130,19 @@ impl Heights {
                     end += links.len();
                 }
             }
-            let part = Part {
+            let some = SmallSubtrees {
                 links: start..order.len(),
                 strips: strip..strips.len(),
             };
-            // As many subtrees as fit are one part.
-            match parts.last_mut() {
-                Some(last) if part.links.end - last.links.start <= most => {
-                    (last.links.end, last.strips.end) = (part.links.end, part.strips.end);
+            // As many as fit side by side are taken together.
+            match subtrees.last_mut() {
+                Some(last) if some.links.end - last.links.start <= most => {
+                    (last.links.end, last.strips.end) = (some.links.end, some.strips.end);
                 }
-                _ => parts.push(part),
+                _ => subtrees.push(some),
             }
         }
-        parts.push(Part {
+        subtrees.push(SmallSubtrees {
             links: 0..above,
             strips: strips.len()..strips.len(),
         });
@@ -154,7 +154,7 @@ impl Heights {
             parents: order.iter().map(|&place| places[parent(place)]).collect(),
             order: order.iter().map(|&place| self.order[place]).collect(),
             strips,
-            parts,
+            subtrees,
             above,
         }
     }

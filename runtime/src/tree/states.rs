@@ -125,12 +125,12 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
             }
         };
         if rises && by_link {
-            for part in own.block.strips.parts().iter().rev() {
-                let links = [Generation::of_links(part.links.clone())];
+            for some in own.block.strips.subtrees().iter().rev() {
+                let links = [Generation::of_links(some.links.clone())];
                 form::<E, T, V>(&mut own, &links, [order, parents], &theta, &omega, &outside);
                 if let Some(view) = own.view() {
                     let passes = Passes::<E, T, V, V>::of(&view);
-                    passes.within(part.strips.clone()).up();
+                    passes.within(some.strips.clone()).up();
                 }
             }
         } else if rises {

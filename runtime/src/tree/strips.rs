@@ -57,10 +57,10 @@ pub(super) struct Attachment {
     pub(super) first: bool,
 }
 
-/// Part of a tree of any shape: links whose motions are formed at once, if they have not
-/// been before, and the strips that go up then.
+/// Small subtrees of a tree of any shape, side by side: links whose motions are formed at
+/// once, if they have not been before, and the strips that go up then.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Part {
+pub(super) struct SmallSubtrees {
     pub(super) links: Range<usize>,
     pub(super) strips: Range<usize>,
 }
@@ -75,7 +75,7 @@ pub(super) struct Strips {
     list: Vec<Strip>,
     attachments: Vec<Attachment>,
     /// Of a tree of any shape: what goes up at once, the last one first.
-    parts: Vec<Part>,
+    subtrees: Vec<SmallSubtrees>,
     reach: Reach,
     branching: usize,
 }
@@ -148,7 +148,7 @@ impl Strips {
         Self {
             list,
             attachments: Vec::new(),
-            parts: Vec::new(),
+            subtrees: Vec::new(),
             reach,
             branching,
         }
@@ -160,15 +160,15 @@ impl Strips {
         let Heights {
             parents,
             strips,
-            parts,
+            subtrees,
             above,
             ..
         } = heights;
         let links = parents.len();
-        // Sums of one part stand where those of others did, behind those of the links above.
+        // Sums of some subtrees stand where those of others did, behind those of the links above.
         let mut slots: Vec<usize> = (0..links).collect();
-        for part in parts.iter().filter(|part| part.links.start >= *above) {
-            for (slot, own) in (*above..).zip(&mut slots[part.links.clone()]) {
+        for some in subtrees.iter().filter(|some| some.links.start >= *above) {
+            for (slot, own) in (*above..).zip(&mut slots[some.links.clone()]) {
                 *own = slot;
             }
         }
@@ -223,7 +223,7 @@ impl Strips {
         Self {
             list,
             attachments,
-            parts: parts.clone(),
+            subtrees: subtrees.clone(),
             reach: Reach {
                 own: links + widest,
                 slot: links + widest,
@@ -234,8 +234,8 @@ impl Strips {
     }
 
     #[inline(always)]
-    pub(super) fn parts(&self) -> &[Part] {
-        &self.parts
+    pub(super) fn subtrees(&self) -> &[SmallSubtrees] {
+        &self.subtrees
     }
 
     #[inline(always)]
