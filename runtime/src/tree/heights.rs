@@ -116,30 +116,19 @@ impl Heights {
                 children[place].sort_unstable_by_key(|&child| (heights[child], child));
                 next.append(&mut children[place]);
             } else {
-                let mut inner = start;
                 order.push(place);
-                while let Some(&place) = order.get(inner) {
-                    order.append(&mut children[place]);
-                    inner += 1;
-                }
-                order[start..].sort_unstable();
-                let mut end = start;
-                let of_one_height = |&one: &usize, &other: &usize| heights[one] == heights[other];
-                for links in order[start..].chunk_by(of_one_height) {
-                    strips.push(end..end + links.len());
-                    end += links.len();
-                }
+                lay_down(&mut order, start, &mut children, &heights, &mut strips);
             }
-            let some = SmallSubtrees {
+            let own = SmallSubtrees {
                 links: start..order.len(),
                 strips: strip..strips.len(),
             };
             // As many as fit side by side are taken together.
             match subtrees.last_mut() {
-                Some(last) if some.links.end - last.links.start <= most => {
-                    (last.links.end, last.strips.end) = (some.links.end, some.strips.end);
+                Some(last) if own.links.end - last.links.start <= most => {
+                    (last.links.end, last.strips.end) = (own.links.end, own.strips.end);
                 }
-                _ => subtrees.push(some),
+                _ => subtrees.push(own),
             }
         }
         subtrees.push(SmallSubtrees {
@@ -157,5 +146,26 @@ impl Heights {
             subtrees,
             above,
         }
+    }
+}
+
+/// Lays down the links below the last one, which stands at `start`, by height, and their strips.
+fn lay_down(
+    order: &mut Vec<usize>,
+    start: usize,
+    children: &mut [Vec<usize>],
+    heights: &[usize],
+    strips: &mut Vec<Range<usize>>,
+) {
+    let mut inner = start;
+    while let Some(&place) = order.get(inner) {
+        order.append(&mut children[place]);
+        inner += 1;
+    }
+    order[start..].sort_unstable();
+    let mut end = start;
+    for links in order[start..].chunk_by(|&one, &other| heights[one] == heights[other]) {
+        strips.push(end..end + links.len());
+        end += links.len();
     }
 }
