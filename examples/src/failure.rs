@@ -104,6 +104,14 @@ pub enum Failure {
         /// The system's error.
         source: io::Error,
     },
+    /// Another run writes into the output folder.
+    #[error("another run{holder} writes into {}: wait until it ends, or name another folder by `--output`", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Its program and process in brackets, if they could be read.
+        holder: String,
+    },
     /// A file could not be written.
     #[error("cannot write {}", path.display())]
     File {

@@ -84,7 +84,7 @@ impl<'j> Checkpoint<'j> {
         })?;
         // Ctrl-C waits for the file to be whole.
         let ledger = locked(&self.job.ledger);
-        replace(path, "", &bytes).map_err(|source| Failure::File {
+        replace(path, &bytes).map_err(|source| Failure::File {
             path: path.clone(),
             source,
         })?;
@@ -96,7 +96,6 @@ impl<'j> Checkpoint<'j> {
     /// Takes the checkpoint away: its run has ended, and its results are there.
     pub fn discard(self) {
         if let Some(path) = self.path {
-            let _ = fs::remove_file(path.with_file_name(format!(".{CHECKPOINT}.part")));
             let _ = fs::remove_file(path);
         }
     }

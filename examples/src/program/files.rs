@@ -22,15 +22,49 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Replaces a file by these bytes: whoever reads it finds the old one or the new one,
-/// even after the power has failed. `writer` tells processes apart that write at once.
-pub(super) fn replace(path: &Path, writer: &str, bytes: &[u8]) -> io::Result<()> {
+/// Path of the file `path` while this process writes it.
+fn part_of(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let part = path.with_file_name(format!(".{name}{writer}.part"));
+    path.with_file_name(format!(".{name}.{}.part", std::process::id()))
+}
+
+/// Returns true for the name of a file that some process writes, or has left half written.
+pub(super) fn is_part(name: &str) -> bool {
+    let inner = name
+        .strip_prefix('.')
+        .and_then(|name| name.strip_suffix(".part"));
+    let number = |(name, process): (&str, &str)| {
+        !name.is_empty() && !process.is_empty() && process.bytes().all(|b| b.is_ascii_digit())
+    };
+    inner
+        .and_then(|inner| inner.rsplit_once('.'))
+        .is_some_and(number)
+}
+
+/// Replaces a file by these bytes: whoever reads it finds the old one or the new one,
+/// even after the power has failed.
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    whole(path, bytes, |part| fs::rename(part, path))
+}
+
+/// Makes a file of these bytes where there is none: of several processes that do so at once, one does.
+///
+/// # Errors
+/// [`io::ErrorKind::AlreadyExists`] for the others, which then find the whole file.
+pub(super) fn create(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    whole(path, bytes, |part| {
+        fs::hard_link(part, path)?;
+        fs::remove_file(part)
+    })
+}
+
+/// Writes a part as a whole and gives it its name.
+fn whole(path: &Path, bytes: &[u8], name: impl FnOnce(&Path) -> io::Result<()>) -> io::Result<()> {
+    let part = part_of(path);
     let written = File::create(&part).and_then(|mut file| {
         file.write_all(bytes)?;
         file.sync_all()?;
-        fs::rename(&part, path)
+        name(&part)
     });
     if written.is_err() {
         let _ = fs::remove_file(&part);
@@ -51,7 +85,8 @@ pub struct Part {
 
 impl Part {
     pub(super) fn create(folder: &Path, name: &str, ledger: &SharedLedger) -> io::Result<Self> {
-        let part = folder.join(format!(".{name}.part"));
+        let path = folder.join(name);
+        let part = part_of(&path);
         // Known as soon as it is there: who ends the process now removes it.
         let mut parts = locked(ledger);
         let file = File::create(&part)?;
@@ -60,7 +95,7 @@ impl Part {
         Ok(Self {
             file: BufWriter::new(file),
             part,
-            path: folder.join(name),
+            path,
             ledger: Arc::clone(ledger),
             finished: false,
         })
@@ -107,9 +142,24 @@ impl Drop for Part {
 
 #[cfg(test)]
 mod tests {
-    use super::{Part, SharedLedger, locked};
+    use super::{Part, SharedLedger, create, is_part, locked, replace};
     use std::fs;
     use std::io::Write;
+
+    #[test]
+    fn of_several_that_make_a_file_one_does() {
+        let folder = std::env::temp_dir().join(format!("made-once-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("a.json");
+        create(&path, b"first").unwrap();
+        let second = create(&path, b"second").unwrap_err();
+        assert_eq!(second.kind(), std::io::ErrorKind::AlreadyExists);
+        assert_eq!(fs::read(&path).unwrap(), b"first");
+        replace(&path, b"third").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"third");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn a_file_is_whole_or_absent() {
@@ -122,7 +172,10 @@ mod tests {
         };
         let mut part = Part::create(&folder, "a.csv", &ledger).unwrap();
         part.write_all(b"half").unwrap();
-        assert_eq!(names(), [".a.csv.part"]);
+        let [only] = &names()[..] else {
+            panic!("one file is written");
+        };
+        assert!(is_part(&only.to_string_lossy()), "{only:?}");
         drop(part);
         assert!(names().is_empty() && locked(&ledger).parts.is_empty());
         let mut part = Part::create(&folder, "a.csv", &ledger).unwrap();

@@ -14,6 +14,7 @@ use serde_json::{Map, Value, json};
 use super::checkpoint::CHECKPOINT;
 use super::files::{Ledger, Part, SharedLedger, locked, replace};
 use super::interrupt::Interruption;
+use super::lock::FolderLock;
 use super::progress::Progress;
 use super::sealed::RunIdentity;
 use crate::failure::Failure;
@@ -43,6 +44,8 @@ pub(super) struct Record {
     folder: Option<PathBuf>,
     /// True if the folder was not there before.
     made: bool,
+    /// No other run writes into the folder until the record is written.
+    lock: Option<FolderLock>,
     arguments: Map<String, Value>,
     report: Map<String, Value>,
     closed: bool,
@@ -70,6 +73,7 @@ impl Record {
         files.retain(|file| file != RECORD);
         let goes_on = folder.join(CHECKPOINT).exists();
         if files.is_empty() && !goes_on {
+            self.lock = None;
             if self.made {
                 let _ = fs::remove_dir(folder);
             }
@@ -99,9 +103,10 @@ impl Record {
             "files": files,
         });
         let path = folder.join(RECORD);
-        replace(&path, "", format!("{record:#}\n").as_bytes())
+        replace(&path, format!("{record:#}\n").as_bytes())
             .map_err(|source| Failure::File { path, source })?;
         ledger.files.push(RECORD.to_owned());
+        self.lock = None;
         Ok(Some(left))
     }
 }
@@ -126,25 +131,31 @@ impl Job {
     /// cannot be made costs none.
     ///
     /// # Errors
-    /// [`Failure::Folder`].
+    /// [`Failure::Folder`]; [`Failure::Busy`] while another run writes there.
     pub fn start(
         program: &str,
         folder: Option<PathBuf>,
         arguments: Map<String, Value>,
     ) -> Result<Self, Failure> {
-        let mut made = false;
+        let (mut made, mut lock) = (false, None);
         if let Some(path) = &folder {
             made = !path.exists();
-            fs::create_dir_all(path).map_err(|source| Failure::Folder {
+            let source = |source| Failure::Folder {
                 path: path.clone(),
                 source,
-            })?;
+            };
+            if path.is_file() {
+                return Err(source(io::Error::other("it is a file")));
+            }
+            fs::create_dir_all(path).map_err(source)?;
+            lock = Some(FolderLock::take(path, program)?);
         }
         let ledger = SharedLedger::default();
         let record = Record {
             program: program.to_owned(),
             folder: folder.clone(),
             made,
+            lock,
             arguments,
             report: Map::new(),
             closed: false,

@@ -4,6 +4,7 @@
 //! - [`command_line`]: options, `--output` and `--repeat`,
 //! - [`job`]: one run: what it prints, its files, its `run.json`,
 //! - [`files`]: files that are whole or absent,
+//! - `lock`: one run at a time in a folder,
 //! - [`progress`]: a bar on a terminal.
 //!
 //! A program ends with 0 where it is done, 1 after a failure, 2 for a wrong
@@ -15,6 +16,7 @@ pub mod command_line;
 pub mod files;
 mod interrupt;
 pub mod job;
+mod lock;
 pub mod progress;
 pub mod sealed;
 pub mod sweep;

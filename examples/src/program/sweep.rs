@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use super::files::replace;
+use super::files::create;
 use super::job::Job;
 use super::sealed::{SealError, open, seal};
 use crate::failure::Failure;
@@ -174,16 +174,14 @@ fn agree(job: &Job, folder: &Path, shards: u32, items: usize) -> Result<(), Fail
     });
     let expected = format!("{manifest:#}\n");
     let path = folder.join(MANIFEST);
+    // Of shards that begin together one writes it, and the others find it.
+    match create(&path, expected.as_bytes()) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        made => return made.map_err(|source| Failure::File { path, source }),
+    }
     match fs::read_to_string(&path) {
         Ok(found) if found == expected => Ok(()),
         Ok(found) => Err(SweepError::Manifest { found, expected }.into()),
-        // Shards that begin together write the same.
-        Err(error) if error.kind() == io::ErrorKind::NotFound => replace(
-            &path,
-            &format!(".{}", std::process::id()),
-            expected.as_bytes(),
-        )
-        .map_err(|source| Failure::File { path, source }),
         Err(source) => Err(Failure::Unread { path, source }),
     }
 }

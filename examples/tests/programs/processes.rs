@@ -302,6 +302,74 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
     }
 }
 
+/// Two runs with other arguments, started together with one folder: what is there at the end is
+/// one of them as it is alone, and who was refused says who had it.
+#[test]
+fn two_runs_never_mix_in_a_folder() {
+    const ANGLES: [&str; 2] = ["20", "30"];
+    let run = |angle: &str, folder: &Path| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_branched-double"));
+        command.args(["--duration", "1", "--rate", "50", "--angles", angle]);
+        command.arg("--output").arg(folder).stdin(Stdio::null());
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command
+    };
+    let contents = |folder: &Path| {
+        let read = |name: String| (fs::read(folder.join(&name)).unwrap(), name);
+        names(folder).into_iter().map(read).collect::<Vec<_>>()
+    };
+    let alone = ANGLES.map(|angle| {
+        let folder = folder(&format!("alone-{angle}"));
+        assert!(run(angle, &folder).status().unwrap().success());
+        contents(&folder)
+    });
+    assert!(alone[0] != alone[1]);
+    let mut refusals = 0;
+    for pair in 0..50 {
+        let folder = folder(&format!("together-{pair}"));
+        let started = ANGLES.map(|angle| run(angle, &folder).spawn().unwrap());
+        let [first, second] = started.map(|child| child.wait_with_output().unwrap());
+        let found = contents(&folder);
+        let kept = match [&first, &second].map(|output| output.status.code()) {
+            [Some(0), Some(1)] => &alone[0],
+            [Some(1), Some(0)] => &alone[1],
+            // One had ended before the other began, and left its own files there as well.
+            [Some(0), Some(0)] => {
+                let record = found.iter().find(|(_, name)| name == "run.json").unwrap();
+                let last = alone.iter().find(|run| run.contains(record));
+                assert!(last.unwrap().iter().all(|file| found.contains(file)));
+                continue;
+            }
+            other => panic!("{other:?}: {} {}", stderr(&first), stderr(&second)),
+        };
+        assert!(found == *kept);
+        refusals += 1;
+        let refused = [&first, &second].map(stderr).concat();
+        assert!(refused.contains(": another run"), "{refused}");
+        assert!(refused.contains("--output"), "{refused}");
+        assert_eq!(refused.lines().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+    assert!(refusals > 0, "no two runs met");
+}
+
+/// A run that was killed leaves its folder free, and what it had half written goes.
+#[test]
+fn a_killed_run_gives_its_folder_back() {
+    let folder = folder("killed");
+    let mut command = PROGRAMS[0].command(&folder);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    while !folder.join(".running").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let output = PROGRAMS[0].command(&folder).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_whole(&folder, &["finished"]);
+}
+
 #[test]
 fn a_run_is_repeated_from_its_record() {
     repeated(quick().take(4));
