@@ -25,6 +25,20 @@ pub enum Quantity {
     Drive,
 }
 
+/// Largest error bar of a balance that says something, in parts of the motor's power.
+const LARGEST_BAR: f64 = 0.1;
+
+/// What the powers of motor and friction say of the integration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// They are equal within three error bars, which are a tenth of the motor's power at most.
+    Closed,
+    /// They differ by more than three error bars: the steps are too long.
+    Lost,
+    /// The error bars are too wide to say, or there are none.
+    Undecided,
+}
+
 /// The state of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
@@ -163,10 +177,15 @@ impl Findings {
         }
     }
 
-    /// True if what the motor gives is what friction takes, within three bars.
-    pub fn is_balanced(&self) -> bool {
-        self.loss
-            .is_ok_and(|loss| loss.mean.abs() <= 3.0 * loss.error)
+    /// Returns whether friction takes what the motor gives.
+    pub fn balance(&self) -> Balance {
+        match (&self.loss, &self.input) {
+            (Ok(loss), _) if loss.mean.abs() > 3.0 * loss.error => Balance::Lost,
+            (Ok(loss), Ok(input)) if loss.error <= LARGEST_BAR * input.mean.abs() => {
+                Balance::Closed
+            }
+            _ => Balance::Undecided,
+        }
     }
 
     /// True if the transient has ended and the energy does not drift.

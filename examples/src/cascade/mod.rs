@@ -20,7 +20,7 @@ pub mod scene;
 pub mod together;
 
 pub use arguments::Arguments;
-pub use findings::Findings;
+pub use findings::{Balance, Findings};
 
 use crate::failure::Failure;
 use crate::program::{Checkpoint, Job, sweep};
@@ -74,7 +74,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             job.write("tree.svg", film.to_svg()?.as_bytes())?;
         }
         job.report("steady", findings.is_steady());
-        job.report("balanced", findings.is_balanced());
+        job.report("balanced", findings.balance() == Balance::Closed);
     }
     Checkpoint::new(job, 0.0).discard();
     Ok(())

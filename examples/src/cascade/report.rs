@@ -4,10 +4,11 @@ use branched_pendulum::analysis::statistics::{Average, StatisticsError};
 use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
-use super::findings::{Findings, Scale};
+use super::findings::{Balance, Findings, Scale};
 use super::motion::{Followed, QUANTITIES};
 use crate::failure::Failure;
 use crate::program::Job;
+use crate::program::command_line::plain;
 
 /// Everything that is printed, as Markdown.
 pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -> String {
@@ -15,7 +16,7 @@ pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -
     let windows = arguments.windows();
     let mut text = format!(
         "{} rods in {} generations, {} starts of {:.1} s each; torque {} N m at {} Hz{} on the root, \
-         friction {} N m s in the youngest pivots, {} times as much as in those above; {} steps a period.\n\n",
+         friction {} N m s in the youngest pivots{}; {} steps a period.\n\n",
         shape.links(),
         shape.generations,
         starts.len(),
@@ -26,13 +27,16 @@ pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -
             0.0 => String::new(),
             width => format!(" ± {width} Hz"),
         },
-        arguments.friction,
-        arguments.friction_ratio,
+        plain(arguments.friction),
+        match arguments.friction_ratio {
+            1e6.. => " alone".to_owned(),
+            ratio => format!(", {} times as much as in those above", plain(ratio)),
+        },
         arguments.steps,
     );
     text.push_str(&steadiness(arguments, findings));
     text.push_str(&energies(arguments, findings));
-    text.push_str(&balance(findings));
+    text.push_str(&balance(arguments, findings));
     text
 }
 
@@ -69,6 +73,7 @@ fn energies(arguments: &Arguments, findings: &Findings) -> String {
         "| scale | degrees of freedom | energy (J) | bar | per degree of freedom (J) | τ (s) |\n\
          |---|---:|---:|---:|---:|---:|\n"
             .to_owned();
+    let mut missing = Missing::default();
     for (scale, state) in findings.scales.iter().enumerate() {
         let freedoms = shape.degrees_of_freedom(scale);
         text += &format!("| {} | {freedoms} |", name(scale));
@@ -86,10 +91,12 @@ fn energies(arguments: &Arguments, findings: &Findings) -> String {
                 text += &format!(" asleep ({energy:.0e}) | | | |\n");
             }
             Scale::Unsettled(error) => {
-                text += &format!(" not settled: {error} | | | |\n");
+                text += " – | | | |\n";
+                missing.add(format!("scale {scale}"), error);
             }
         }
     }
+    text += &missing.told(arguments);
     match findings.law {
         Some(law) => {
             text += &format!(
@@ -119,22 +126,29 @@ pub fn name(scale: usize) -> String {
 }
 
 /// Input, fluxes, dissipation.
-fn balance(findings: &Findings) -> String {
-    let watts = |average: &Result<Average, StatisticsError>| match average {
+fn balance(arguments: &Arguments, findings: &Findings) -> String {
+    let mut missing = Missing::default();
+    let mut watts = |name: &str, average: &Result<Average, StatisticsError>| match average {
         Ok(average) => milli(average),
-        Err(error) => error.to_string(),
+        Err(error) => {
+            missing.add(name.to_owned(), error);
+            "–".to_owned()
+        }
     };
     let mut text = format!(
         "Motor: {} mW; friction: {} mW; the one less the other {} mW: {}.\n\n\
          | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W |\n\
          |---|---:|---:|---:|---:|\n",
-        watts(&findings.input),
-        watts(&findings.dissipation),
-        watts(&findings.loss),
-        if findings.is_balanced() {
-            "balanced"
-        } else {
-            "NOT balanced, take more `--steps`"
+        watts("the motor", &findings.input),
+        watts("friction", &findings.dissipation),
+        watts("the balance", &findings.loss),
+        match findings.balance() {
+            Balance::Closed => "balanced".to_owned(),
+            Balance::Lost => "NOT balanced, take more `--steps`".to_owned(),
+            Balance::Undecided => format!(
+                "undecided, since the bar is above a tenth of the motor's power; take {}",
+                longer(arguments)
+            ),
         },
     );
     for (index, flux) in findings.fluxes.iter().enumerate() {
@@ -153,10 +167,40 @@ fn balance(findings: &Findings) -> String {
                     .replace('-', "−"))
                 )
             }
-            Err(error) => text += &format!(" {error} | | | |\n"),
+            Err(error) => {
+                text += " – | | | |\n";
+                missing.add(format!("the flux into scale {}", index + 1), error);
+            }
         }
     }
-    text
+    text + &missing.told(arguments)
+}
+
+/// A run that may be long enough where this one is not.
+fn longer(arguments: &Arguments) -> String {
+    format!("at least `--duration {}`", 2.0 * arguments.duration)
+}
+
+/// Averages that a run is too short for, by their reasons.
+#[derive(Debug, Default)]
+struct Missing(Vec<(String, StatisticsError)>);
+
+impl Missing {
+    fn add(&mut self, name: String, error: &StatisticsError) {
+        self.0.push((name, *error));
+    }
+
+    /// The reasons, a line each, and what to do.
+    fn told(&self, arguments: &Arguments) -> String {
+        let mut text = String::new();
+        for (name, error) in &self.0 {
+            text += &format!("\nNo average of {name}: {error}.");
+        }
+        if !text.is_empty() {
+            text += &format!("\nTake {}.\n\n", longer(arguments));
+        }
+        text
+    }
 }
 
 /// A power in mW with its error.
