@@ -41,10 +41,13 @@ impl<'a> Entry<'a> {
 /// A number as programs write it, with Fortran's `D` and with marks between thousands where
 /// no other reading is possible.
 fn number(cell: &str, decimal: DecimalMark) -> Option<f64> {
-    if decimal == DecimalMark::Point
-        && let Ok(value) = cell.parse()
-    {
-        return Some(value);
+    let usual = match decimal {
+        DecimalMark::Point => cell.parse().ok(),
+        DecimalMark::Comma if cell.contains('.') => None,
+        DecimalMark::Comma => cell.replacen(',', ".", 1).parse().ok(),
+    };
+    if usual.is_some() {
+        return usual;
     }
     let (mark, other) = match decimal {
         DecimalMark::Point => ('.', ','),

@@ -220,7 +220,7 @@ impl Header {
 fn trimmed(line: &TextLine) -> TextLine {
     let used = line.cells.iter().rposition(|cell| !cell.is_empty());
     let cells = &line.cells[..used.map_or(0, |last| last + 1)];
-    let skip = usize::from(cells.first().is_some_and(|cell| cell == "#"));
+    let skip = usize::from(cells.first().is_some_and(|cell| cell == "#" || cell == "%"));
     TextLine {
         number: line.number,
         cells: cells[skip..].to_vec(),
@@ -272,7 +272,7 @@ fn is_units(line: &TextLine) -> bool {
 /// A name with its unit: `theta [rad]`, `theta (rad)`, `theta/rad`, `theta_rad`, `theta, rad`.
 /// Braces behind `_` are those of a subscript: `v_{x}` is `v_x`.
 fn column(text: &str) -> Column {
-    let text = text.trim().trim_start_matches('#').trim();
+    let text = text.trim().trim_start_matches(['#', '%']).trim();
     if let Some((name, rest)) = text.split_once("_{")
         && let Some((subscript, rest)) = rest.split_once('}')
     {

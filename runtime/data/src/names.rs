@@ -19,12 +19,15 @@ pub(crate) enum Meaning {
 }
 
 const ANGLE: &[&str] = &[
-    "theta", "θ", "ϑ", "phi", "φ", "ϕ", "psi", "ψ", "angle", "angles", "winkel", "ángulo",
+    "theta", "th", "θ", "ϑ", "phi", "φ", "ϕ", "psi", "ψ", "angle", "angles", "winkel", "ángulo",
     "angulo", "angolo",
 ];
 const COORDINATE: &str = "a coordinate";
 const VELOCITY: &str = "a velocity";
 const ACCELERATION: &str = "an acceleration";
+const FORCE: &str = "a force";
+const MOMENTUM: &str = "a momentum";
+const ENERGY: &str = "an energy or a power";
 
 const OTHERS: [(&str, &[&str]); 9] = [
     (COORDINATE, &["x", "y", "z", "posx", "posy", "xpos", "ypos"]),
@@ -82,22 +85,25 @@ const OTHERS: [(&str, &[&str]); 9] = [
             "effort",
         ],
     ),
-    ("a force", &["force", "forces", "kraft", "fx", "fy"]),
+    (FORCE, &["force", "forces", "kraft", "fx", "fy"]),
     (
         "a current or a voltage",
         &["current", "currents", "courant", "strom", "voltage", "pwm"],
     ),
-    ("a momentum", &["momentum", "momenta", "impulse"]),
-    (
-        "an energy or a power",
-        &["energy", "energies", "power", "energie"],
-    ),
+    (MOMENTUM, &["momentum", "momenta", "impulse"]),
+    (ENERGY, &["energy", "energies", "power", "energie"]),
     ("a score", &["likelihood", "score", "confidence"]),
 ];
 
 /// Letters that say something beside others only, an acceleration beside a velocity, a rate
-/// beside an angle; and the letter with which they are names in a row.
-const LETTERS: [(&str, &str, &str); 2] = [("a", ACCELERATION, "b"), ("w", VELOCITY, "u")];
+/// or an energy beside an angle; and the letter with which they are names in a row.
+const LETTERS: [(&str, &str, &str); 5] = [
+    ("a", ACCELERATION, "b"),
+    ("w", VELOCITY, "u"),
+    ("e", ENERGY, "d"),
+    ("p", MOMENTUM, "q"),
+    ("f", FORCE, "g"),
+];
 
 /// Words of a name in small letters, without the numbers behind them.
 fn words(name: &str) -> Vec<String> {
@@ -143,7 +149,7 @@ impl Meaning {
         match Unit::named(&column.unit) {
             Some(Unit::Time(_)) => return Self::Time,
             Some(Unit::Angle(_)) => return Self::Angle,
-            Some(Unit::Other) => return Self::OtherUnit,
+            Some(Unit::Length | Unit::Other) => return Self::OtherUnit,
             None if !column.unit.is_empty() => return Self::OtherUnit,
             None if is_time(&column.name) => return Self::Time,
             None => {}
@@ -262,7 +268,14 @@ fn coordinate(name: &str) -> Option<(String, &'static str)> {
 
 /// Points of which both coordinates are columns.
 pub(crate) fn tracks(columns: &[Column]) -> Vec<Track> {
-    let coordinates: Vec<_> = columns.iter().map(|c| coordinate(&c.name)).collect();
+    let is_length =
+        |column: &&Column| matches!(Unit::named(&column.unit), None | Some(Unit::Length));
+    let coordinate = |column| {
+        Some(column)
+            .filter(is_length)
+            .and_then(|c| coordinate(&c.name))
+    };
+    let coordinates: Vec<_> = columns.iter().map(coordinate).collect();
     let find = |point: &str, axis: &str| {
         let mut all = coordinates.iter();
         all.position(|c| c.as_ref().is_some_and(|(p, a)| p == point && *a == axis))

@@ -67,6 +67,8 @@ pub(crate) enum Unit {
     Time(f64),
     /// Of an angle.
     Angle(AngleUnit),
+    /// Of a length, in a picture or in space.
+    Length,
     /// Of something else that stands in tables of motions.
     Other,
 }
@@ -74,7 +76,7 @@ pub(crate) enum Unit {
 /// What stands in place of a unit where cells name pictures by their numbers.
 pub(crate) const FRAME: &str = "frame";
 
-const UNITS: [(&[&str], Unit); 13] = [
+const UNITS: [(&[&str], Unit); 14] = [
     (
         &["s", "sec", "second", "seconds", "Sekunden", "secondes"],
         Unit::Time(1.0),
@@ -117,12 +119,13 @@ const UNITS: [(&[&str], Unit); 13] = [
         &["turn", "turns", "rev", "revs", "revolutions"],
         Unit::Angle(AngleUnit::Turns),
     ),
+    (&["m", "mm", "cm", "px", "pixel", "pixels"], Unit::Length),
     (
         &[
             "rad/s", "rad/sec", "deg/s", "°/s", "mrad/s", "rad/s²", "rad/s^2", "rad/s2", "deg/s²",
-            "deg/s^2", "°/s²", "°/s^2", "rpm", "Hz", "m", "mm", "cm", "px", "pixel", "pixels",
-            "m/s", "mm/s", "cm/s", "px/s", "m/s²", "m/s^2", "m/s2", "g", "kg", "N", "Nm", "N m",
-            "N·m", "N*m", "mNm", "A", "mA", "V", "mV", "J", "mJ", "W", "mW",
+            "deg/s^2", "°/s²", "°/s^2", "rpm", "Hz", "m/s", "mm/s", "cm/s", "px/s", "m/s²",
+            "m/s^2", "m/s2", "g", "kg", "N", "Nm", "N m", "N·m", "N*m", "mNm", "A", "mA", "V",
+            "mV", "J", "mJ", "W", "mW",
         ],
         Unit::Other,
     ),

@@ -68,6 +68,10 @@ fn names_of_other_quantities_are_no_angles() {
         ("t,x,theta", "x", "a coordinate"),
         ("t,x_cart,arm", "x_cart", "a coordinate"),
         ("t,arm,z", "z", "a coordinate"),
+        ("time,x1,v1,x2,v2", "x1", "a coordinate"),
+        ("t,th1,th2,w1,w2", "w1", "a velocity"),
+        ("t,theta1,theta2,E", "E", "an energy or a power"),
+        ("t,phi,p", "p", "a momentum"),
         ("t,arm,accel", "accel", "an acceleration"),
         ("t,arm,likelihood", "likelihood", "a score"),
     ] {
@@ -80,8 +84,16 @@ fn names_of_other_quantities_are_no_angles() {
         assert_eq!(error, expected);
         assert_eq!(by_columns(&text, &[column]).unwrap().links.len(), 1);
     }
+    // Components of a rate are no points either.
+    let text = rows("t,Gyroscope x (rad/s),Gyroscope y (rad/s)", 2);
+    let error = by_columns(&text, &[]).unwrap_err();
+    assert!(
+        error.contains("`Gyroscope x` is in `rad/s`, which is no unit"),
+        "{error}"
+    );
     for header in [
         "t,a,b",
+        "t,p,q",
         "t,upper,lower",
         "t,pos1,pos2",
         "t,q1,q2",
