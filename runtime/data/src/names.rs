@@ -105,9 +105,18 @@ const LETTERS: [(&str, &str, &str); 5] = [
     ("f", FORCE, "g"),
 ];
 
-/// Words of a name in small letters, without the numbers behind them.
+/// Words of a name in small letters, without the numbers behind them; `jointVel` are two.
 fn words(name: &str) -> Vec<String> {
-    let apart = name.split(|c: char| !c.is_alphanumeric());
+    let mut spaced = String::with_capacity(name.len());
+    let mut before = ' ';
+    for letter in name.chars() {
+        if letter.is_uppercase() && before.is_alphanumeric() && !before.is_uppercase() {
+            spaced.push(' ');
+        }
+        spaced.push(letter);
+        before = letter;
+    }
+    let apart = spaced.split(|c: char| !c.is_alphanumeric());
     let words = apart.map(|word| {
         let digit = |c: char| c.is_ascii_digit() || ('\u{2080}'..='\u{2089}').contains(&c);
         word.trim_end_matches(digit).to_lowercase()

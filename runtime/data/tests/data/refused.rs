@@ -72,6 +72,9 @@ fn names_of_other_quantities_are_no_angles() {
         ("t,th1,th2,w1,w2", "w1", "a velocity"),
         ("t,theta1,theta2,E", "E", "an energy or a power"),
         ("t,phi,p", "p", "a momentum"),
+        ("t,jointPos,jointVel", "jointVel", "a velocity"),
+        ("t,theta1,theta1Dot", "theta1Dot", "a velocity"),
+        ("t,angle,AngVel", "AngVel", "a velocity"),
         ("t,arm,accel", "accel", "an acceleration"),
         ("t,arm,likelihood", "likelihood", "a score"),
     ] {
