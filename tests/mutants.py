@@ -24,13 +24,14 @@ GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
+DATA = ["-p", "branched-pendulum-data", "--test", "data"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
 CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
 
-C, R = "codegen/src", "runtime/src"
+C, R, D = "codegen/src", "runtime/src", "runtime/data/src"
 
 # Name, file, text, mutant, test binary, test.
 EXPRESSIONS = [
@@ -126,6 +127,16 @@ EXPRESSIONS = [
     ("frequencies in radians", f"{R}/analysis/modes.rs",
      "squared.sqrt() / TAU", "squared.sqrt()", RUNTIME,
      "modes::the_paper_s_frequencies_to_seven_digits"),
+    ("degrees are gradians", f"{D}/units.rs", "PI / 180.0", "PI / 200.0", DATA,
+     "cells::units_of_angles_are_radians"),
+    ("hours of a clock are minutes", f"{D}/cell.rs",
+     "3600.0 * whole(hours, 24)?", "60.0 * whole(hours, 24)?", DATA,
+     "cells::numbers_are_read_as_they_are_written"),
+    ("links point from the origin", f"{D}/markers.rs",
+     "([c - a, d - b], one.min(other))", "([c, d], one.min(other))", DATA, "points::"),
+    ("the first of repeated rows counts as the last", f"{D}/timing.rs",
+     "is_kept[first..row].fill(false)", "is_kept[row] = false", DATA,
+     "headers::repeated_times_leave_the_row_that_counts"),
 ]
 
 CONSTANTS = [
@@ -138,6 +149,9 @@ CONSTANTS = [
      "0.5538640526394373", "0.5538640526404373", LIBRARY, "verner98"),
     ("a node of Gauss in the 12th digit", f"{R}/integrate/fixed/gauss/tables.rs",
      "nodes: &[0.2113248654051871,", "nodes: &[0.2113248654061871,", LIBRARY, "gauss::tables"),
+    ("minutes are seconds", f"{D}/units.rs",
+     '(&["min", "minutes"], Unit::Time(60.0))', '(&["min", "minutes"], Unit::Time(1.0))', DATA,
+     "cells::units_of_time_are_seconds"),
 ]
 
 SWITCH = """

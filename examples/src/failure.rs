@@ -73,7 +73,7 @@ pub enum Failure {
     #[error("the measurements could not be read")]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
-    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`", path.display())]
+    #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`, or the place of a pivot without a dot by `--pivot`", path.display())]
     Links {
         /// The file.
         path: PathBuf,

@@ -1,41 +1,52 @@
 //! Files of measured angles, as programs that analyse them take them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use branched_pendulum_data::{AngleColumns, AngleUnit, AngleZero, Clock, Recording, Table};
+use branched_pendulum_data::{
+    AngleColumns, AngleUnit, AngleZero, Clock, LinkMarkers, Markers, Recording, Repeated, Table,
+    TableOptions, read_angles,
+};
 use clap::{Args, ValueEnum};
 
 use crate::failure::Failure;
 use crate::program::command_line::{number, parts};
 
-/// A file of angles against time, and what is known of it.
+/// A file of angles or of dots against time, and what is known of it.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
 pub struct MeasuredFile {
     /// file of measurements; without it they are simulated
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// columns of the angles of the links, parent first; all but the time without it
+    /// columns of the angles of the links, parent first; all that may be angles without it
     #[arg(long, value_name = "A,B,...", value_parser = names, default_value = "")]
     // By its full path, clap takes it for one value.
     pub columns: ::std::vec::Vec<String>,
     /// unit of angles whose columns do not name it
-    #[arg(long, value_enum, value_name = "UNIT")]
-    pub unit: Option<Unit>,
+    #[arg(long, value_name = "UNIT", value_parser = unit())]
+    pub unit: Option<AngleUnit>,
     /// direction of angle 0; detected without it
     #[arg(long, value_enum, value_name = "WAY")]
     pub zero: Option<Zero>,
+    /// dots of the links, UPPER:LOWER for each, in place of angles; a place that does not move
+    /// is `origin` or X,Y, as in `origin:a,a:b`
+    #[arg(verbatim_doc_comment, long, value_name = "U:L,...", value_parser = pairs, default_value = "")]
+    pub dots: ::std::vec::Vec<(String, String)>,
+    /// place of the pivot, X,Y or `origin`, where no dot is at it: the dots of the file are the
+    /// ends of a chain of links from it, in their order
+    #[arg(verbatim_doc_comment, long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
+    pub pivot: Option<[f64; 2]>,
+    /// y of dots grows downwards, as rows of a picture
+    #[arg(long)]
+    pub y_down: bool,
+    /// column of the times; found by its name without it
+    #[arg(long, value_name = "COLUMN", conflicts_with = "frame_rate")]
+    pub time: Option<String>,
     /// pictures a second, 1 to 1e5; needed for files that number them
     #[arg(long, value_name = "HZ", value_parser = number(1.0..=1e5, "Hz"))]
     pub frame_rate: Option<f64>,
-}
-
-/// Unit of angles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Unit {
-    /// Radians.
-    Rad,
-    /// Degrees.
-    Deg,
+    /// drops rows that repeat a time, but for the one that counts: the first without a value
+    #[arg(long, value_enum, value_name = "COUNTS", num_args = 0..=1, default_missing_value = "first")]
+    pub drop_repeated: Option<Counts>,
 }
 
 /// Direction of angle 0.
@@ -47,46 +58,238 @@ pub enum Zero {
     Up,
 }
 
+/// The row that counts of those with one time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Counts {
+    /// The first.
+    First,
+    /// The last.
+    Last,
+}
+
 impl MeasuredFile {
-    /// Where the times of the file come from.
-    pub fn clock(&self) -> Clock {
-        self.frame_rate.map_or(Clock::Detect, Clock::FrameRate)
+    /// Reads `file` with what is known of it, as a pendulum of so many links.
+    ///
+    /// # Errors
+    /// [`Failure::Reading`] or [`Failure::Links`].
+    pub fn read(&self, file: &Path, links: usize) -> Result<Recording, Failure> {
+        self.angles(Table::read(file, &TableOptions::default())?, links)
     }
 
-    /// How the angles stand in the columns of the file.
-    pub fn angle_columns(&self) -> AngleColumns {
-        AngleColumns {
-            clock: self.clock(),
+    /// Takes the angles of so many links out of a table.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn angles(&self, table: Table, links: usize) -> Result<Recording, Failure> {
+        let clock = self.clock();
+        let table = match self.drop_repeated {
+            None => table,
+            Some(Counts::First) => table.without_repeated_times(&clock, Repeated::First)?,
+            Some(Counts::Last) => table.without_repeated_times(&clock, Repeated::Last)?,
+        };
+        let columns = AngleColumns {
+            clock: clock.clone(),
             columns: self.columns.clone(),
-            unit: self.unit.map(|unit| match unit {
-                Unit::Rad => AngleUnit::Radians,
-                Unit::Deg => AngleUnit::Degrees,
-            }),
+            unit: self.unit,
             zero: self.zero.map(|zero| match zero {
                 Zero::Down => AngleZero::Down,
                 Zero::Up => AngleZero::Up,
             }),
             ..AngleColumns::default()
+        };
+        let dots = self.dots.iter().cloned();
+        let markers = Markers {
+            clock,
+            links: dots
+                .map(|(upper, lower)| LinkMarkers { upper, lower })
+                .collect(),
+            pivot: self.pivot,
+            y_down: self.y_down.then_some(true),
+            ..Markers::default()
+        };
+        let recording = read_angles(&table, &columns, &markers)?;
+        match recording.links.len() {
+            found if found == links => Ok(recording),
+            found => Err(Failure::Links {
+                path: table.path().to_path_buf(),
+                found,
+                needed: links,
+            }),
+        }
+    }
+
+    fn clock(&self) -> Clock {
+        match (&self.time, self.frame_rate) {
+            (Some(column), _) => Clock::Column(column.clone()),
+            (None, Some(rate)) => Clock::FrameRate(rate),
+            (None, None) => Clock::Detect,
+        }
+    }
+
+    /// Refuses options of a file where there is none, and of angles beside those of dots.
+    ///
+    /// # Errors
+    /// A sentence about the options.
+    pub fn check(&self) -> Result<(), String> {
+        let of_columns = [
+            ("--columns", !self.columns.is_empty()),
+            ("--unit", self.unit.is_some()),
+            ("--zero", self.zero.is_some()),
+        ];
+        let of_dots = [
+            ("--dots", !self.dots.is_empty()),
+            ("--pivot", self.pivot.is_some()),
+            ("--y-down", self.y_down),
+        ];
+        let of_rows = [
+            ("--time", self.time.is_some()),
+            ("--frame-rate", self.frame_rate.is_some()),
+            ("--drop-repeated", self.drop_repeated.is_some()),
+        ];
+        let given = |options: &[(&'static str, bool)]| {
+            let mut given = options.iter().filter(|(_, is_given)| *is_given);
+            given.next().map(|(option, _)| *option)
+        };
+        let (columns, dots) = (given(&of_columns), given(&of_dots));
+        if let (Some(columns), Some(dots)) = (columns, dots) {
+            return Err(format!(
+                "{dots} is of dots and {columns} of columns of angles: angles come from one of them"
+            ));
+        }
+        if self.pivot.is_some() && !self.dots.is_empty() {
+            return Err(
+                "--pivot beside --dots: name its place among them, as in `0,0:a,a:b`".into(),
+            );
+        }
+        match columns.or(dots).or(given(&of_rows)) {
+            Some(option) if self.file.is_none() => Err(format!(
+                "{option} is of a file of measurements, and none is given"
+            )),
+            _ => Ok(()),
         }
     }
 }
 
-/// Refuses a recording of another number of links.
-///
-/// # Errors
-/// [`Failure::Links`].
-pub fn check_links(table: &Table, recording: &Recording, needed: usize) -> Result<(), Failure> {
-    let found = recording.links.len();
-    if found == needed {
-        return Ok(());
-    }
-    Err(Failure::Links {
-        path: table.path().to_path_buf(),
-        found,
-        needed,
+fn names(text: &str) -> Result<Vec<String>, String> {
+    Ok(parts(text).map(str::to_owned).collect())
+}
+
+/// Reads the short name of a unit of angles.
+fn unit() -> impl clap::builder::TypedValueParser<Value = AngleUnit> {
+    use clap::builder::TypedValueParser;
+    let words = AngleUnit::ALL.map(|(word, _)| word);
+    clap::builder::PossibleValuesParser::new(words).map(|word| {
+        let found = AngleUnit::ALL.iter().find(|(own, _)| *own == word);
+        found.map_or(AngleUnit::Radians, |(_, unit)| *unit)
     })
 }
 
-fn names(text: &str) -> Result<Vec<String>, String> {
-    Ok(parts(text).map(str::to_owned).collect())
+/// Reads a place, X,Y or `origin`.
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    let place = match text.split_once(',') {
+        Some((x, y)) => number(x).zip(number(y)).map(|(x, y)| [x, y]),
+        None => (text == "origin").then_some([0.0; 2]),
+    };
+    place.ok_or_else(|| "two numbers with a comma between, X,Y, or `origin`".to_owned())
+}
+
+/// Reads pairs of dots; the comma of a place X,Y parts no pairs.
+fn pairs(text: &str) -> Result<Vec<(String, String)>, String> {
+    let mut before = String::new();
+    let mut pairs = Vec::new();
+    for part in parts(text) {
+        let Some((upper, lower)) = part.split_once(':') else {
+            before = format!("{before}{part},");
+            continue;
+        };
+        if upper.is_empty() || lower.is_empty() {
+            before = part.to_owned();
+            break;
+        }
+        pairs.push((std::mem::take(&mut before) + upper, lower.to_owned()));
+    }
+    match before.is_empty() {
+        true => Ok(pairs),
+        false => Err("two names with a colon between for each link: UPPER:LOWER".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::MeasuredFile;
+    use branched_pendulum_data::AngleUnit;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        measured: MeasuredFile,
+    }
+
+    fn read(line: &str) -> Result<MeasuredFile, String> {
+        let words = ["program"].into_iter().chain(line.split_whitespace());
+        let line = Line::try_parse_from(words).map_err(|error| error.to_string())?;
+        line.measured.check().map(|()| line.measured)
+    }
+
+    #[test]
+    fn options_of_files_are_read() {
+        let pair = |upper: &str, lower: &str| (upper.to_owned(), lower.to_owned());
+        let named = read("a.csv --columns a,b,c --unit mrad --time clock --drop-repeated last");
+        let named = named.unwrap();
+        assert_eq!(named.columns, ["a", "b", "c"]);
+        assert_eq!(named.unit, Some(AngleUnit::Milliradians));
+        assert_eq!(named.time.as_deref(), Some("clock"));
+        assert_eq!(named.drop_repeated, Some(super::Counts::Last));
+        assert_eq!(
+            read("a.csv --drop-repeated").unwrap().drop_repeated,
+            Some(super::Counts::First)
+        );
+        let dots = read("a.csv --dots 0.5,-1:m1,m1:m2,origin:m3").unwrap().dots;
+        assert_eq!(
+            dots,
+            [pair("0.5,-1", "m1"), pair("m1", "m2"), pair("origin", "m3")]
+        );
+        let dots = read("a.csv --dots top:mid,left:end").unwrap().dots;
+        assert_eq!(dots, [pair("top", "mid"), pair("left", "end")]);
+        assert_eq!(
+            read("a.csv --pivot -1.5,2").unwrap().pivot,
+            Some([-1.5, 2.0])
+        );
+        assert_eq!(read("a.csv --pivot origin").unwrap().pivot, Some([0.0; 2]));
+    }
+
+    /// An option that cannot apply is refused, never dropped.
+    #[test]
+    fn options_that_cannot_apply_are_refused() {
+        for (line, message) in [
+            ("a.csv --dots top,mid", "two names with a colon"),
+            ("a.csv --dots top:mid,end", "two names with a colon"),
+            ("a.csv --pivot 1", "X,Y, or `origin`"),
+            ("a.csv --pivot nan,0", "X,Y, or `origin`"),
+            ("a.csv --unit turns", "possible values"),
+            ("a.csv --drop-repeated mean", "possible values"),
+            ("a.csv --time t --frame-rate 60", "cannot be used with"),
+            (
+                "a.csv --columns a --dots a:b",
+                "angles come from one of them",
+            ),
+            (
+                "a.csv --columns a --pivot 0,0",
+                "angles come from one of them",
+            ),
+            ("a.csv --unit deg --y-down", "angles come from one of them"),
+            ("a.csv --pivot 0,0 --dots a:b", "name its place among them"),
+            ("--columns a", "--columns is of a file"),
+            ("--unit deg", "--unit is of a file"),
+            ("--pivot 0,0", "--pivot is of a file"),
+            ("--frame-rate 60", "--frame-rate is of a file"),
+            ("--drop-repeated", "--drop-repeated is of a file"),
+        ] {
+            let error = read(line).unwrap_err();
+            assert!(error.contains(message), "{line}: {error}");
+        }
+    }
 }

@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 
 use crate::branched_double::Friction;
 use crate::measured_file::MeasuredFile;
-use crate::program::command_line::{number, parts};
+use crate::program::command_line::number;
 
 /// From measured angles of a pendulum to its energy and power with their errors: of the
 /// paper's pendulum H_d and W, of a chain of two links H and the power of friction. The
@@ -29,13 +29,6 @@ pub struct Arguments {
     /// takes every Nth row of the file
     #[arg(long, value_name = "N", default_value = "1", value_parser = rows)]
     pub every: usize,
-    /// dots of the links, UPPER:LOWER for each, in place of angles
-    #[arg(long, value_name = "U:L,...", value_parser = pairs, default_value = "")]
-    // By its full path, clap takes it for one value.
-    pub dots: ::std::vec::Vec<(String, String)>,
-    /// y of dots grows downwards, as rows of a picture
-    #[arg(long)]
-    pub y_down: bool,
     /// use the equations of motion: smaller errors if they hold
     #[arg(long)]
     pub model: bool,
@@ -106,13 +99,11 @@ impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
 
     fn check(&self) -> Result<(), String> {
+        self.measured.check()?;
         if self.pendulum == Tree::Chain && self.measured.file.is_none() {
             return Err("a camera is simulated before the branched pendulum alone: \
                  --pendulum chain needs a file"
                 .to_owned());
-        }
-        if !self.dots.is_empty() && !self.measured.columns.is_empty() {
-            return Err("--dots take the place of --columns".to_owned());
         }
         if self.pendulum == Tree::Chain && !self.friction.is_zero() {
             return Err("friction of the chain stands among its --parameters".to_owned());
@@ -131,16 +122,6 @@ fn rows(text: &str) -> Result<usize, String> {
     }
 }
 
-fn pairs(text: &str) -> Result<Vec<(String, String)>, String> {
-    let pair = |part: &str| match part.split_once(':') {
-        Some((upper, lower)) if !upper.is_empty() && !lower.is_empty() => {
-            Ok((upper.to_owned(), lower.to_owned()))
-        }
-        _ => Err("two names with a colon between for each link: UPPER:LOWER".to_owned()),
-    };
-    parts(text).map(pair).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use clap::Parser;
@@ -149,27 +130,12 @@ mod tests {
     use crate::program::command_line as program;
 
     #[test]
-    fn links_are_named_between_commas() {
-        let parse = |option: &str, value: &str| {
-            Arguments::try_parse_from(["analyse", "swing.csv", option, value])
-        };
-        let named = parse("--columns", "a,b,c").unwrap();
-        assert_eq!(named.measured.columns, ["a", "b", "c"]);
-        let dots = parse("--dots", "top:mid,left:end,right:tip").unwrap().dots;
-        let pair = |upper: &str, lower: &str| (upper.to_owned(), lower.to_owned());
-        assert_eq!(
-            dots,
-            [
-                pair("top", "mid"),
-                pair("left", "end"),
-                pair("right", "tip")
-            ]
-        );
-        assert!(parse("--dots", "top,mid").is_err());
-        assert!(parse("--every", "0").is_err());
+    fn lists_are_one_option() {
+        assert!(Arguments::try_parse_from(["analyse", "swing.csv", "--every", "0"]).is_err());
         // All of a list stands in the record of a run.
         let words = ["analyse", "swing.csv", "--columns", "a,b,c"].map(Into::into);
         let read = program::parse::<Arguments>(words).unwrap();
+        assert_eq!(read.arguments.measured.columns, ["a", "b", "c"]);
         assert_eq!(read.values["columns"], "a,b,c");
     }
 }

@@ -1,12 +1,11 @@
 //! The angles to be analysed: out of a file, or of a simulated camera.
 
-use branched_pendulum_data::{Finding, LinkMarkers, Markers, Table, TableOptions};
+use branched_pendulum_data::{Finding, Table, TableOptions};
 
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
 use super::motion::Record;
 use crate::failure::Failure;
-use crate::measured_file::check_links;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;
@@ -29,23 +28,8 @@ impl<const N: usize> Source<N> {
     ///
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
-        let measured = &arguments.measured;
-        let recording = if arguments.dots.is_empty() && table.tracks().is_empty() {
-            measured.angle_columns().read(table)?
-        } else {
-            let links = arguments.dots.iter().cloned();
-            let markers = Markers {
-                clock: measured.clock(),
-                links: links
-                    .map(|(upper, lower)| LinkMarkers { upper, lower })
-                    .collect(),
-                y_down: arguments.y_down.then_some(true),
-                ..Markers::default()
-            };
-            markers.read(table)?
-        };
-        check_links(table, &recording, N)?;
+    pub fn read(table: Table, arguments: &Arguments) -> Result<Self, Failure> {
+        let recording = arguments.measured.angles(table, N)?;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
         let rows = (0..recording.times.len()).step_by(arguments.every);
@@ -62,7 +46,7 @@ impl<const N: usize> Source<N> {
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
     pub fn open(file: &std::path::Path, arguments: &Arguments) -> Result<Self, Failure> {
-        Self::read(&Table::read(file, &TableOptions::default())?, arguments)
+        Self::read(Table::read(file, &TableOptions::default())?, arguments)
     }
 
     /// The angles with their times.

@@ -83,6 +83,10 @@ impl Default for Arguments {
 
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
+
+    fn check(&self) -> Result<(), String> {
+        self.measured.check()
+    }
 }
 
 fn laws(text: &str) -> Result<Vec<Law>, String> {

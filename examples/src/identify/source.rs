@@ -2,7 +2,7 @@
 
 use branched_pendulum::analysis::identification::AngleRecord;
 use branched_pendulum::prelude::{AbsoluteAngles, Dop853, Integrator, Options, State};
-use branched_pendulum_data::{Finding, Table, TableOptions};
+use branched_pendulum_data::Finding;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
@@ -10,7 +10,6 @@ use rand_xoshiro::rand_core::SeedableRng;
 use super::arguments::Arguments;
 use super::scene::{Described, simulated};
 use crate::failure::Failure;
-use crate::measured_file::check_links;
 
 /// Pictures a second of a simulated record.
 const RATE: f64 = 100.0;
@@ -43,9 +42,7 @@ impl Measurement {
         let measured = &arguments.measured;
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let table = Table::read(file, &TableOptions::default())?;
-                let recording = measured.angle_columns().read(&table)?;
-                check_links(&table, &recording, M::LINKS)?;
+                let recording = measured.read(file, M::LINKS)?;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
                 let angles = angles.map(|link| (0..count).map(|index| link.angle(index)).collect());

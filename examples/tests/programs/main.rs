@@ -10,6 +10,7 @@ mod cascade;
 mod command_lines;
 mod growth;
 mod integration_speed;
+mod measured;
 #[cfg(unix)]
 mod processes;
 mod solvers;

@@ -2,21 +2,15 @@
 
 use std::f64::consts::PI;
 
+use super::angle_unit;
+use super::circle;
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding};
-use super::header::is_frame;
+use super::names::{Meaning, quoted};
 use super::recording::{LinkSeries, Recording, Sample};
 use super::table::Table;
 use super::timing::{Clock, Times};
-
-/// Unit of angles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AngleUnit {
-    /// Radians.
-    Radians,
-    /// Degrees.
-    Degrees,
-}
+use super::units::AngleUnit;
 
 /// Direction of a link at angle 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,10 +27,10 @@ pub struct AngleColumns {
     /// Where the times come from.
     pub clock: Clock,
     /// Columns of the links, by name, in the order of the model; empty for all columns but
-    /// that of the time.
+    /// those of times and frames, of text and of other units.
     pub columns: Vec<String>,
-    /// Unit; without it that of the header, or radians where the values are a few turns at
-    /// most.
+    /// Unit; without it that of the header or the cells, or radians, told as doubtful, where
+    /// the values stay within a turn.
     pub unit: Option<AngleUnit>,
     /// Direction of angle 0; without it up where the links are on the whole nearer to half a
     /// turn, else down.
@@ -70,26 +64,28 @@ impl AngleColumns {
     /// Takes the angles out of a table.
     ///
     /// # Errors
-    /// [`ReadError`]: columns that do not exist, a time that does not ascend, frames without
-    /// a rate, a unit that cannot be made out.
+    /// [`ReadError`]: columns that do not exist, are named twice or hold something else, a
+    /// time that does not ascend, frames without a rate, a unit that cannot be made out.
     pub fn read(&self, table: &Table) -> Result<Recording, ReadError> {
         let times = Times::read(table, &self.clock)?;
         let mut findings = Vec::new();
         let columns = self.find_columns(table, times.column, &mut findings)?;
         self.check_parents(table, columns.len())?;
-        let unit = self.unit_of(table, &columns, &mut findings)?;
+        let values: Vec<&[Option<f64>]> = columns
+            .iter()
+            .map(|&column| table.values(column))
+            .collect::<Result<_, _>>()?;
+        let unit = angle_unit::read(self.unit, table, &columns, &mut findings)?.radians();
+        let sample = |value: &Option<f64>| match value {
+            Some(value) => Sample::Measured(unit * value),
+            None => Sample::Missing,
+        };
         let mut links: Vec<LinkSeries> = columns
             .iter()
-            .map(|&column| LinkSeries {
+            .zip(values)
+            .map(|(&column, values)| LinkSeries {
                 name: table.columns()[column].name.clone(),
-                samples: table
-                    .values(column)
-                    .iter()
-                    .map(|value| match value {
-                        Some(value) => Sample::Measured(unit * value),
-                        None => Sample::Missing,
-                    })
-                    .collect(),
+                samples: values.iter().map(sample).collect(),
                 marker_distance: None,
             })
             .collect();
@@ -121,84 +117,75 @@ impl AngleColumns {
         findings: &mut Vec<Finding>,
     ) -> Result<Vec<usize>, ReadError> {
         if !self.columns.is_empty() {
-            return self.columns.iter().map(|name| table.column(name)).collect();
+            return self.named_columns(table, time);
         }
-        let others = table
-            .columns()
-            .iter()
-            .enumerate()
-            .filter(|(index, column)| Some(*index) != time && !is_frame(&column.name));
-        let columns: Vec<usize> = others.map(|(index, _)| index).collect();
+        let all = table.columns();
+        let (mut columns, mut aside) = (Vec::new(), Vec::new());
+        for (index, column) in all.iter().enumerate() {
+            match Meaning::of(column, all) {
+                Meaning::Time | Meaning::Frame => {}
+                _ if Some(index) == time => {}
+                Meaning::OtherUnit => aside.push(index),
+                _ if !table.has_numbers(index) => aside.push(index),
+                Meaning::OtherName(quantity) => {
+                    let name = column.name.clone();
+                    return Err(table.refused(ReadErrorKind::NotAngle { name, quantity }));
+                }
+                Meaning::Angle | Meaning::Unsaid => columns.push(index),
+            }
+        }
         if columns.is_empty() {
-            let what = "no columns are left for angles".to_owned();
-            return Err(table.refused(ReadErrorKind::Nothing { what }));
+            return Err(
+                match aside.iter().find(|&&index| table.has_numbers(index)) {
+                    Some(&index) => angle_unit::refused(table, index),
+                    None => {
+                        let what = "no columns are left for angles".to_owned();
+                        table.refused(ReadErrorKind::Nothing { what })
+                    }
+                },
+            );
         }
-        let names: Vec<String> = columns
-            .iter()
-            .map(|&c| format!("`{}`", table.columns()[c].name))
-            .collect();
-        let text = format!("angles of the links, in this order: {}", names.join(", "));
+        for pair in columns.windows(2) {
+            let [x, y] = [table.values(pair[0])?, table.values(pair[1])?];
+            if let Some(radius) = circle::radius(x, y) {
+                let what = format!(
+                    "columns `{}` and `{}` lie on a circle of radius {radius:.4}, as the \
+                     coordinates of a point do; name the columns of the angles, or the points",
+                    all[pair[0]].name, all[pair[1]].name
+                );
+                return Err(table.refused(ReadErrorKind::Option { what }));
+            }
+        }
+        let names = |columns: &[usize]| {
+            let names: Vec<&str> = columns.iter().map(|&c| all[c].name.as_str()).collect();
+            quoted(&names)
+        };
+        if !aside.is_empty() {
+            let text = format!("no angles, by units or as text: {}", names(&aside));
+            findings.push(Finding::new(Basis::Detected, text));
+        }
+        let text = format!("angles of the links, in this order: {}", names(&columns));
         findings.push(Finding::new(Basis::Assumed, text));
         Ok(columns)
     }
 
-    /// Radians of one unit of the columns.
-    fn unit_of(
-        &self,
-        table: &Table,
-        columns: &[usize],
-        findings: &mut Vec<Finding>,
-    ) -> Result<f64, ReadError> {
-        let (basis, unit) = match self.unit {
-            Some(unit) => (Basis::Given, unit),
-            None => self.find_unit(table, columns)?,
-        };
-        let (word, scale) = match unit {
-            AngleUnit::Radians => ("radians", 1.0),
-            AngleUnit::Degrees => ("degrees", PI / 180.0),
-        };
-        findings.push(Finding::new(basis, format!("angles in {word}")));
-        Ok(scale)
-    }
-
-    fn find_unit(&self, table: &Table, columns: &[usize]) -> Result<(Basis, AngleUnit), ReadError> {
-        let mut found = None;
-        for &column in columns {
-            let own = &table.columns()[column];
-            let unit = match own.unit.as_str() {
-                "" => continue,
-                "rad" | "radians" => AngleUnit::Radians,
-                "deg" | "degree" | "degrees" | "°" => AngleUnit::Degrees,
-                _ => {
-                    return Err(table.refused(ReadErrorKind::Unit {
-                        name: own.name.clone(),
-                        unit: own.unit.clone(),
-                        quantity: "an angle",
-                    }));
-                }
+    fn named_columns(&self, table: &Table, time: Option<usize>) -> Result<Vec<usize>, ReadError> {
+        let mut columns = Vec::with_capacity(self.columns.len());
+        for name in &self.columns {
+            let column = table.column(name)?;
+            let what = if columns.contains(&column) {
+                format!("column `{name}` is named twice; each link has one of its own")
+            } else if Some(column) == time {
+                format!("column `{name}` is the time; name the columns of the angles")
+            } else if table.values(column)?.iter().all(Option::is_none) {
+                format!("column `{name}` holds no number")
+            } else {
+                columns.push(column);
+                continue;
             };
-            if found.is_some_and(|other| other != unit) {
-                let what = "columns of angles in degrees beside some in radians".to_owned();
-                return Err(table.refused(ReadErrorKind::Option { what }));
-            }
-            found = Some(unit);
+            return Err(table.refused(ReadErrorKind::Option { what }));
         }
-        if let Some(unit) = found {
-            return Ok((Basis::Detected, unit));
-        }
-        // Swings stay within some turns, and few are within two degrees.
-        const TURNS_RAD: f64 = 4.0 * PI;
-        let size = |column: usize| {
-            let values = table.values(column).iter().flatten();
-            values.fold(0.0_f64, |largest, value| largest.max(value.abs()))
-        };
-        let largest = columns.iter().map(|&column| (size(column), column));
-        let (largest, column) = largest.fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
-        if largest <= TURNS_RAD {
-            return Ok((Basis::Assumed, AngleUnit::Radians));
-        }
-        let name = table.columns()[column].name.clone();
-        Err(table.refused(ReadErrorKind::AngleUnit { name, largest }))
+        Ok(columns)
     }
 
     /// Angles from the downward vertical, in the model's sense.
@@ -244,6 +231,18 @@ impl AngleColumns {
                 add(&mut rest[0].samples, &before[parent].samples);
             }
         }
+    }
+
+    /// Returns true if something is said that columns of angles alone have.
+    pub(crate) fn is_asked_for(&self) -> bool {
+        let Self {
+            columns,
+            unit,
+            zero,
+            relative_to,
+            ..
+        } = self;
+        !columns.is_empty() || unit.is_some() || zero.is_some() || !relative_to.is_empty()
     }
 
     fn parent(&self, link: usize) -> Option<usize> {

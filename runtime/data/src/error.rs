@@ -4,6 +4,8 @@ use core::fmt;
 use std::io;
 use std::path::PathBuf;
 
+use super::cell::hint;
+
 /// A place in a file: line and column counted from 1, and the column's name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
@@ -88,6 +90,14 @@ pub enum ReadErrorKind {
         /// Kind of the bytes.
         what: &'static str,
     },
+    /// Text that is no table of numbers.
+    #[error("is no table of numbers but {what}; {remedy}")]
+    NotTable {
+        /// Kind of the text.
+        what: &'static str,
+        /// How a table is made of it.
+        remedy: &'static str,
+    },
     /// Nothing but blank lines.
     #[error("is empty")]
     Empty,
@@ -113,6 +123,14 @@ pub enum ReadErrorKind {
     NotFinite {
         /// The cell.
         text: String,
+    },
+    /// A number with another unit than those above it, or than the header's.
+    #[error("`{text}` is not in the unit of its column ({})", if unit.is_empty() { "none" } else { unit })]
+    CellUnit {
+        /// The cell.
+        text: String,
+        /// Unit of the column.
+        unit: String,
     },
     /// A row with more or fewer cells than the header.
     #[error("{found} cells where the table has {expected} columns")]
@@ -174,7 +192,7 @@ pub enum ReadErrorKind {
     #[error("the time is missing")]
     TimeMissing,
     /// A time that is not later than the one before.
-    #[error("time {time} s does not come after {previous} s")]
+    #[error("time {time} s does not come after {previous} s{}", repeated(*previous, *time))]
     TimeOrder {
         /// Time of the row before.
         previous: f64,
@@ -196,6 +214,17 @@ pub enum ReadErrorKind {
         name: String,
         /// Largest magnitude.
         largest: f64,
+    },
+    /// A column that nobody named as one of angles is called like something else.
+    #[error(
+        "column `{name}` is called like {quantity}, not like an angle; name the columns of the \
+         angles, or the points"
+    )]
+    NotAngle {
+        /// The column.
+        name: String,
+        /// What its name is one of.
+        quantity: &'static str,
     },
     /// An angle of more than 10^6 rad.
     #[error("an angle of `{name}` is {value} rad")]
@@ -233,18 +262,10 @@ impl ReadErrorKind {
     }
 }
 
-/// Likely meaning of a cell.
-fn hint(text: &str) -> &'static str {
-    let digits = text.chars().filter(char::is_ascii_digit).count();
-    let marks = text.chars().filter(|c| matches!(c, '.' | ',')).count();
-    if text.starts_with('"') {
-        " (a quotation mark that is not closed?)"
-    } else if digits > 0 && marks > 1 {
-        " (are thousands separated?)"
-    } else if digits > 0 && text.contains(',') {
-        " (decimal commas in a file of decimal points?)"
-    } else if digits > 0 && text.contains('.') {
-        " (decimal points in a file of decimal commas?)"
+/// What helps where a time stands in two rows.
+fn repeated(previous: f64, time: f64) -> &'static str {
+    if time == previous {
+        "; say which row of one time counts, the first or the last"
     } else {
         ""
     }

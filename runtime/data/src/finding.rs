@@ -13,6 +13,8 @@ pub enum Basis {
     Assumed,
     /// Samples that were marked, or changed by whole turns.
     Marked,
+    /// It may be wrong, and much with it: the caller should look, and say so where he can.
+    Doubtful,
 }
 
 impl fmt::Display for Basis {
@@ -22,6 +24,7 @@ impl fmt::Display for Basis {
             Self::Detected => "detected",
             Self::Assumed => "assumed",
             Self::Marked => "marked",
+            Self::Doubtful => "doubtful",
         })
     }
 }

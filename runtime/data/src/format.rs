@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::cell::Entry;
+
 /// Separator of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
@@ -54,15 +56,6 @@ pub(crate) struct TextLine {
     pub(crate) cells: Vec<String>,
 }
 
-/// A cell of a table of numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Entry {
-    Number(f64),
-    Missing,
-    Infinite,
-    Text,
-}
-
 impl Format {
     /// All of them, the more distinct first: what is between cells is least likely to be
     /// something else where it is a tab.
@@ -81,7 +74,9 @@ impl Format {
     }
 
     /// Returns the format in which most of the lines from the last backwards hold numbers
-    /// in at least two columns, among those that agree with what is given.
+    /// alone, or that with most numbers where columns of text stand beside them, or with most
+    /// cells that begin with a digit where none are numbers; among those that agree with what
+    /// is given.
     pub(crate) fn detect(
         text: &str,
         delimiter: Option<Delimiter>,
@@ -94,31 +89,43 @@ impl Format {
             .collect();
         // A tail is read: the head of a file may be prose. Half of a short file may be.
         let sample = &lines[lines.len().saturating_sub(SAMPLE)..];
-        let score = |format: Self| {
-            let numeric = |line: &&&str| {
-                let cells = format.split(line);
-                let numbers = cells
-                    .iter()
-                    .filter(|cell| matches!(format.entry(cell), Entry::Number(_)));
-                cells.len() >= 2
-                    && numbers.count() >= 1
-                    && cells.iter().all(|cell| format.entry(cell) != Entry::Text)
-            };
-            sample.iter().filter(numeric).count()
+        let agrees = |format: &&Self| {
+            delimiter.is_none_or(|given| given == format.delimiter)
+                && decimal.is_none_or(|given| given == format.decimal)
         };
-        let mut best = None;
-        for format in Self::ALL {
-            if delimiter.is_some_and(|given| given != format.delimiter)
-                || decimal.is_some_and(|given| given != format.decimal)
-            {
-                continue;
-            }
-            let lines = score(format);
-            if lines > best.map_or(0, |(most, _)| most) {
-                best = Some((lines, format));
-            }
-        }
+        let candidates = || Self::ALL.iter().filter(agrees).copied();
+        let by = |worth: fn(Self, &[&str]) -> usize| {
+            let score = |format: Self| {
+                let cut = sample.iter().map(|line| format.split(line));
+                let lines = cut.filter(|cells| cells.len() >= 2);
+                lines.map(|cells| worth(format, &cells)).sum::<usize>()
+            };
+            let scored = candidates().map(|format| (score(format), format));
+            // The first of the best.
+            let best = scored.rev().max_by_key(|(score, _)| *score);
+            best.filter(|(score, _)| *score > 0)
+        };
+        let best = by(|format, cells| usize::from(format.is_row(cells)))
+            .or_else(|| by(Self::numbers_beside_text))
+            .or_else(|| by(|_, cells| cells.iter().filter(|cell| begins_as_number(cell)).count()));
         best.map(|(_, format)| format)
+    }
+
+    /// Returns true for cells that are numbers or missing, one number at least.
+    pub(crate) fn is_row(self, cells: &[impl AsRef<str>]) -> bool {
+        let entries = || cells.iter().map(|cell| self.entry(cell.as_ref()));
+        cells.len() >= 2
+            && entries().any(Entry::is_number)
+            && entries().all(|entry| entry != Entry::Text)
+    }
+
+    /// The number of numbers, where at least two stand beside each other.
+    fn numbers_beside_text(self, cells: &[&str]) -> usize {
+        let numbers = cells.iter().filter(|cell| self.entry(cell).is_number());
+        match numbers.count() {
+            0 | 1 => 0,
+            several => several,
+        }
     }
 
     /// Cuts one line without quotes into trimmed cells.
@@ -168,25 +175,15 @@ impl Format {
         Ok(lines)
     }
 
-    pub(crate) fn entry(self, cell: &str) -> Entry {
-        const MISSING: [&str; 9] = ["", "nan", "na", "n/a", "-", "--", "none", "null", "?"];
-        let cell = cell.trim();
-        if MISSING.iter().any(|word| word.eq_ignore_ascii_case(cell)) {
-            return Entry::Missing;
-        }
-        let plain = match self.decimal {
-            DecimalMark::Point => cell.to_owned(),
-            DecimalMark::Comma if cell.contains('.') => return Entry::Text,
-            DecimalMark::Comma => cell.replacen(',', ".", 1),
-        };
-        // Minus signs of typography, as spreadsheets write them.
-        let plain = plain.replace('\u{2212}', "-");
-        match plain.parse::<f64>() {
-            Ok(value) if value.is_finite() => Entry::Number(value),
-            Ok(_) => Entry::Infinite,
-            Err(_) => Entry::Text,
-        }
+    pub(crate) fn entry(self, cell: &str) -> Entry<'_> {
+        Entry::read(cell, self.decimal)
     }
+}
+
+/// Returns true for what might have been meant as a number.
+pub(crate) fn begins_as_number(cell: &str) -> bool {
+    let rest = cell.trim_start_matches(['+', '-', '\u{2212}', '.', ',', '[', '(']);
+    rest.starts_with(|c: char| c.is_ascii_digit())
 }
 
 fn unquoted(cell: &str) -> &str {

@@ -2,6 +2,8 @@
 
 use super::error::{Place, ReadErrorKind};
 use super::format::TextLine;
+use super::names::{is_time, tracks};
+use super::units::{Unit, bare};
 use super::write::Column;
 
 /// Programs whose tables are known by their headers.
@@ -34,6 +36,8 @@ pub struct Track {
 pub(crate) struct Header {
     pub(crate) kind: FileKind,
     pub(crate) columns: Vec<Column>,
+    /// The names as they stand in the file, units included.
+    pub(crate) written: Vec<String>,
     pub(crate) tracks: Vec<Track>,
     /// Number of lines above the names.
     pub(crate) preamble: usize,
@@ -58,34 +62,37 @@ impl Refused {
 impl Header {
     /// Reads the lines above the first row of `width` cells with numbers.
     pub(crate) fn read(above: &[TextLine], width: usize) -> Result<Self, Refused> {
-        let above: &[TextLine] = &above.iter().map(trimmed).collect::<Vec<_>>();
-        if let Some(start) = above.iter().position(|line| starts(line, "scorer")) {
-            return Self::deep_lab_cut(&above[start..], width, start);
-        }
+        let above = above.iter().filter(|line| !is_note_on_format(line));
+        let above: &[TextLine] = &above.map(trimmed).collect::<Vec<_>>();
+        let wide = |names: Vec<(Column, String)>, preamble: &[TextLine]| {
+            Self::new(FileKind::Wide, names, preamble.len())
+        };
+        let as_written = |name: &String| (column(name), name.clone());
         let header = match above {
-            [] => Self::wide(
-                (1..=width).map(|i| Column::new(format!("column {i}"), "")),
-                0,
-            ),
-            [.., tracks, quantities] if is_tracker(tracks, quantities) => {
-                let preamble = above.len() - 2;
-                let multi = above.iter().any(|line| starts(line, "#multi:"));
-                Self::tracker(
-                    tracks,
-                    quantities,
-                    preamble - usize::from(multi && preamble > 0),
+            [] => {
+                let names = (1..=width).map(|i| format!("column {i}"));
+                wide(
+                    names.map(|n| (Column::new(n.clone(), ""), n)).collect(),
+                    &[],
                 )
+            }
+            _ if above.iter().any(|line| starts(line, "scorer")) => {
+                let start = above.iter().position(|line| starts(line, "scorer"));
+                let start = start.unwrap_or_default();
+                Self::deep_lab_cut(&above[start..], width, start)?
+            }
+            [rest @ .., tracks, quantities] if is_tracker(tracks, quantities) => {
+                let multi = rest.iter().any(|line| starts(line, "#multi:"));
+                Self::tracker(tracks, quantities, rest.len() - usize::from(multi))
             }
             [rest @ .., names, units]
                 if is_units(units) && names.cells.len() == units.cells.len() =>
             {
-                let columns = names.cells.iter().zip(&units.cells);
-                let columns = columns.map(|(name, unit)| Column::new(name, bare(unit)));
-                Self::wide(columns, rest.len())
+                let names = names.cells.iter().zip(&units.cells);
+                let names = names.map(|(n, unit)| (Column::new(n, bare(unit)), n.clone()));
+                wide(names.collect(), rest)
             }
-            [rest @ .., names] => {
-                Self::wide(names.cells.iter().map(|name| column(name)), rest.len())
-            }
+            [rest @ .., names] => wide(names.cells.iter().map(as_written).collect(), rest),
         };
         match above.last() {
             Some(line) if header.columns.len() != width => Err(wrong_width(line, width)),
@@ -96,51 +103,59 @@ impl Header {
         }
     }
 
-    fn wide(columns: impl IntoIterator<Item = Column>, preamble: usize) -> Self {
-        let columns: Vec<Column> = columns.into_iter().collect();
+    /// Columns with their names as they are written. Where two names differ in their units
+    /// alone, the units are parts of the names.
+    fn new(kind: FileKind, named: Vec<(Column, String)>, preamble: usize) -> Self {
+        let (mut columns, written): (Vec<Column>, Vec<String>) = named.into_iter().unzip();
+        let names: Vec<String> = columns.iter().map(|column| column.name.clone()).collect();
+        for (index, column) in columns.iter_mut().enumerate() {
+            let mut others = names.iter().zip(&written).enumerate();
+            let is_shared = others.any(|(other, (name, text))| {
+                other != index && *name == names[index] && *text != written[index]
+            });
+            if is_shared {
+                column.name.clone_from(&written[index]);
+            } else if column.name.is_empty() && names[..index].iter().any(String::is_empty) {
+                column.name = format!("column {}", index + 1);
+            }
+        }
         Self {
-            kind: FileKind::Wide,
-            tracks: tracks_by_suffix(&columns),
+            kind,
+            tracks: tracks(&columns),
             columns,
+            written,
             preamble,
         }
     }
 
     /// A name stands above the first of its track's columns; the time has none.
     fn tracker(tracks: &TextLine, quantities: &TextLine, preamble: usize) -> Self {
-        let single = tracks.cells.iter().filter(|cell| !cell.is_empty()).count() == 1;
-        let mut track = String::new();
-        let mut columns: Vec<Column> = Vec::new();
-        for (index, quantity) in quantities.cells.iter().enumerate() {
-            let above = tracks.cells.get(index).map_or("", String::as_str);
-            if !above.is_empty() {
-                track = above.trim_start_matches('#').replace('_', " ");
-            } else if single && index == 1 && track.is_empty() {
-                track = tracks
-                    .cells
-                    .iter()
-                    .find(|cell| !cell.is_empty())
-                    .cloned()
-                    .unwrap_or_default();
-            }
-            let Column { name, unit } = column(quantity);
-            columns.push(match is_time(&name) || track.is_empty() {
-                true => Column { name, unit },
-                false => Column {
-                    name: format!("{track} {name}"),
-                    unit,
-                },
+        let mut names = tracks.cells.iter().filter(|cell| !cell.is_empty());
+        let single = names.next().filter(|_| names.next().is_none());
+        // A single name may stand above the time.
+        let mut track = single.map_or("", String::as_str);
+        let named = quantities
+            .cells
+            .iter()
+            .enumerate()
+            .map(|(index, quantity)| {
+                let above = tracks.cells.get(index).map_or("", String::as_str);
+                if !above.is_empty() {
+                    track = above;
+                }
+                let own = column(quantity);
+                if is_time(&own.name) || track.is_empty() {
+                    return (own, quantity.clone());
+                }
+                let track = track.trim_start_matches('#');
+                let name = format!("{} {}", track.replace('_', " "), own.name);
+                (Column::new(name, own.unit), format!("{track} {quantity}"))
             });
-        }
-        Self {
-            kind: FileKind::Tracker,
-            tracks: tracks_by_suffix(&columns),
-            columns,
-            preamble,
-        }
+        Self::new(FileKind::Tracker, named.collect(), preamble)
     }
 
-    /// Rows `scorer`, `individuals` (where there are several), `bodyparts`, `coords`.
+    /// Rows `scorer`, `individuals` (where there are several), `bodyparts`, `coords`. Columns
+    /// without a coordinate name folders, but for the last of them, which is the frame's.
     fn deep_lab_cut(above: &[TextLine], width: usize, preamble: usize) -> Result<Self, Refused> {
         let row = |word: &str| above.iter().find(|line| starts(line, word));
         let needed = |word: &str| {
@@ -160,27 +175,23 @@ impl Header {
                 return Err(wrong_width(line, width));
             }
         }
-        let mut columns = vec![Column::new("frame", "")];
-        for index in 1..width {
-            let mut name = String::new();
-            if let Some(individuals) = individuals {
-                name = format!("{} ", individuals.cells[index]);
-            }
-            let unit = match coordinates.cells[index].as_str() {
-                "likelihood" => "",
-                _ => "px",
+        let leading = coordinates.cells.iter().skip(1);
+        let leading = leading.take_while(|cell| cell.is_empty()).count();
+        let named = (0..width).map(|index| {
+            let (name, unit) = match index {
+                _ if index < leading => (format!("folder {}", index + 1), ""),
+                _ if index == leading => ("frame".to_owned(), ""),
+                _ => {
+                    let animal = individuals.map_or("", |line| &line.cells[index]);
+                    let coordinate = coordinates.cells[index].as_str();
+                    let unit = if coordinate == "likelihood" { "" } else { "px" };
+                    let name = format!("{animal} {} {coordinate}", parts.cells[index]);
+                    (name.trim_start().to_owned(), unit)
+                }
             };
-            name += &format!("{} {}", parts.cells[index], coordinates.cells[index]);
-            columns.push(Column::new(name, unit));
-        }
-        let header = Self {
-            kind: FileKind::DeepLabCut,
-            tracks: tracks_by_suffix(&columns),
-            columns,
-            preamble,
-        };
-        header.check_names(above)?;
-        Ok(header)
+            (Column::new(name.clone(), unit), name)
+        });
+        Ok(Self::new(FileKind::DeepLabCut, named.collect(), preamble))
     }
 
     fn check_names(&self, above: &[TextLine]) -> Result<(), Refused> {
@@ -209,7 +220,7 @@ impl Header {
 fn trimmed(line: &TextLine) -> TextLine {
     let used = line.cells.iter().rposition(|cell| !cell.is_empty());
     let cells = &line.cells[..used.map_or(0, |last| last + 1)];
-    let skip = usize::from(cells.first().is_some_and(|cell| cell == "#"));
+    let skip = usize::from(cells.first().is_some_and(|cell| cell == "#" || cell == "%"));
     TextLine {
         number: line.number,
         cells: cells[skip..].to_vec(),
@@ -229,52 +240,28 @@ fn starts(line: &TextLine, word: &str) -> bool {
         .is_some_and(|cell| cell.eq_ignore_ascii_case(word))
 }
 
-/// Tracks stand over quantities, of which the first is the time and another an x.
+/// Tracks stand over quantities, of which the first is the time. A single name at the start
+/// of its line is a title, unless the coordinates of a point are below.
 fn is_tracker(tracks: &TextLine, quantities: &TextLine) -> bool {
     let Some((first, rest)) = quantities.cells.split_first() else {
         return false;
     };
     let names = tracks.cells.iter().filter(|cell| !cell.is_empty()).count();
+    let has = |axis: &str| rest.iter().any(|cell| column(cell).name == axis);
     is_time(&column(first).name)
         && rest.iter().any(|cell| !cell.is_empty())
         && names >= 1
-        && (names == 1 || tracks.cells[0].is_empty())
+        && (tracks.cells[0].is_empty() || names == 1 && has("x") && has("y"))
 }
 
-/// Returns true for names of the time.
-pub(crate) fn is_time(name: &str) -> bool {
-    let name = name.trim().to_ascii_lowercase();
-    matches!(
-        name.as_str(),
-        "t" | "time" | "zeit" | "temps" | "tiempo" | "timestamp" | "seconds"
-    )
+/// Lines above the names that only say how the file is written: `sep=;`.
+fn is_note_on_format(line: &TextLine) -> bool {
+    let first = line.cells.first().map_or("", String::as_str);
+    first.to_ascii_lowercase().starts_with("sep=")
 }
-
-/// Returns true for names of the number of a frame.
-pub(crate) fn is_frame(name: &str) -> bool {
-    let name = name.trim().to_ascii_lowercase();
-    matches!(
-        name.as_str(),
-        "frame"
-            | "frames"
-            | "step"
-            | "index"
-            | "sample"
-            | "n"
-            | "i"
-            | "frame number"
-            | "frame_number"
-            | ""
-    )
-}
-
-const UNITS: [&str; 22] = [
-    "s", "ms", "µs", "us", "min", "sec", "seconds", "rad", "radians", "mrad", "deg", "degrees",
-    "degree", "°", "rad/s", "deg/s", "m", "mm", "cm", "px", "pixel", "pixels",
-];
 
 fn is_unit(text: &str) -> bool {
-    UNITS.contains(&bare(text).as_str())
+    Unit::named(text).is_some()
 }
 
 fn is_units(line: &TextLine) -> bool {
@@ -282,61 +269,44 @@ fn is_units(line: &TextLine) -> bool {
     cells.peek().is_some() && cells.all(|cell| is_unit(cell))
 }
 
-/// A unit without its brackets.
-fn bare(unit: &str) -> String {
-    let unit = unit.trim().trim_matches(['[', ']', '(', ')']);
-    // The sign of micro and the Greek letter look alike.
-    unit.replace('μ', "µ")
-}
-
 /// A name with its unit: `theta [rad]`, `theta (rad)`, `theta/rad`, `theta_rad`, `theta, rad`.
+/// Braces behind `_` are those of a subscript: `v_{x}` is `v_x`.
 fn column(text: &str) -> Column {
-    let text = text.trim().trim_start_matches('#').trim();
+    let text = text.trim().trim_start_matches(['#', '%']).trim();
+    if let Some((name, rest)) = text.split_once("_{")
+        && let Some((subscript, rest)) = rest.split_once('}')
+    {
+        return column(&format!("{name}_{subscript}{rest}"));
+    }
     for (open, close) in [('[', ']'), ('(', ')'), ('{', '}')] {
-        if let Some((name, rest)) = text.split_once(open)
+        if let Some((name, rest)) = text.rsplit_once(open)
             && let Some(unit) = rest.trim_end().strip_suffix(close)
             && !name.trim().is_empty()
+            // Longer words in parentheses belong to the name: `theta (left)`.
+            && (open == '[' || is_unit(unit) || unit.chars().count() < 3)
         {
             return Column::new(name.trim(), bare(unit));
         }
     }
-    for mark in ['/', ',', '_', ' '] {
-        if let Some((name, unit)) = text.rsplit_once(mark)
-            && is_unit(unit)
-            // `x_m` is a name; `x_mm` is one in millimetres.
-            && (mark == '/' || bare(unit).chars().count() > 1)
-            && !name.trim().is_empty()
-        {
-            return Column::new(name.trim(), bare(unit));
+    // The unit behind a slash may hold one itself: `omega/rad/s`.
+    let slashes = text.match_indices('/').map(|(at, _)| (at, '/'));
+    let others = [',', '_', ' '];
+    let others = others
+        .iter()
+        .filter_map(|&mark| Some((text.rfind(mark)?, mark)));
+    for (at, mark) in slashes.chain(others) {
+        let (name, unit) = (text[..at].trim(), bare(&text[at + 1..]));
+        let is_clear = mark == '/' || is_no_word(&unit) || is_time(name);
+        if is_unit(&unit) && is_clear && !name.is_empty() {
+            return Column::new(name, unit);
         }
     }
     Column::new(text, "")
 }
 
-/// Tracks whose columns are `NAME x` and `NAME y`, with `_` or `.` between as well.
-fn tracks_by_suffix(columns: &[Column]) -> Vec<Track> {
-    let find = |name: &str, suffix: &str| {
-        columns.iter().position(|column| {
-            split_suffix(&column.name)
-                .is_some_and(|(track, quantity)| track == name && quantity == suffix)
-        })
-    };
-    let tracks = columns.iter().enumerate().filter_map(|(x, column)| {
-        let (name, quantity) = split_suffix(&column.name)?;
-        if quantity != "x" {
-            return None;
-        }
-        Some(Track {
-            name: name.to_owned(),
-            x,
-            y: find(name, "y")?,
-            likelihood: find(name, "likelihood"),
-        })
-    });
-    tracks.collect()
-}
-
-fn split_suffix(name: &str) -> Option<(&str, &str)> {
-    let at = name.rfind([' ', '_', '.'])?;
-    Some((name[..at].trim_end(), &name[at + 1..]))
+/// Returns true for units that nobody takes for a part of a name: `x_m` is a name, `x_mm`
+/// one in millimetres; `theta_min` is the least one.
+fn is_no_word(unit: &str) -> bool {
+    let words = ["min", "turn", "turns", "rev", "revs"];
+    (unit.chars().count() > 1 || unit == "°") && !words.contains(&unit)
 }

@@ -6,9 +6,11 @@
 //! found and what it assumed ([`Finding`]):
 //!
 //! 1. [`Table::read`] makes out how the file is written: delimiter, decimal mark, header,
-//!    units, whether Tracker or DeepLabCut wrote it. Its cells are numbers or missing.
+//!    units, whether Tracker or DeepLabCut wrote it. A cell that is no number is told where
+//!    its column is used.
 //! 2. [`AngleColumns`] or [`Markers`] take the angles out of it, as a [`Recording`]: in
-//!    radians from the vertical, over seconds, without jumps of a turn, outliers marked.
+//!    radians from the vertical, over seconds, without jumps of a turn, outliers marked;
+//!    [`read_angles`] chooses between them.
 //!
 //! ```
 //! use branched_pendulum_data::{AngleColumns, Table, TableOptions};
@@ -31,19 +33,28 @@
 //! # Ok::<(), branched_pendulum_data::ReadError>(())
 //! ```
 
+mod angle_source;
+mod angle_unit;
 mod angles;
+mod cell;
+mod circle;
 mod error;
 mod finding;
 mod format;
 mod header;
 mod markers;
+mod names;
 mod outliers;
 mod recording;
+mod rows;
 mod table;
+mod text;
 mod timing;
+mod units;
 mod write;
 
-pub use angles::{AngleColumns, AngleUnit, AngleZero};
+pub use angle_source::read_angles;
+pub use angles::{AngleColumns, AngleZero};
 pub use error::{Place, ReadError, ReadErrorKind};
 pub use finding::{Basis, Finding};
 pub use format::{DecimalMark, Delimiter};
@@ -51,5 +62,6 @@ pub use header::{FileKind, Track};
 pub use markers::{Gravity, LinkMarkers, Markers};
 pub use recording::{LinkSeries, Recording, Sample};
 pub use table::{Table, TableOptions};
-pub use timing::{Clock, Gap, Timing};
+pub use timing::{Clock, Gap, Repeated, Timing};
+pub use units::AngleUnit;
 pub use write::{Cell, Column, CsvError, CsvWriter};

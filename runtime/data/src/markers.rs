@@ -1,5 +1,7 @@
 //! Angles from points that a camera followed.
 
+use std::iter;
+
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding};
 use super::header::{FileKind, Track};
@@ -10,7 +12,8 @@ use super::timing::{Clock, Times};
 /// The two points by which a link is followed, by the names of their tracks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkMarkers {
-    /// The one nearer to the link's pivot.
+    /// The one nearer to the link's pivot; a place that does not move is `origin`, or `X,Y` in
+    /// the units of the file.
     pub upper: String,
     /// The one farther from it. At angle 0 it is right below the other.
     pub lower: String,
@@ -36,8 +39,12 @@ pub struct Markers {
     /// Where the times come from.
     pub clock: Clock,
     /// The links, in the order of the model; empty for one link for each two tracks, in the
-    /// order of the file.
+    /// order of the file, or for a chain from the pivot on where that is given.
     pub links: Vec<LinkMarkers>,
+    /// Place of the pivot that does not move, in the units of the file, where no track is at
+    /// it: each track in the order of the file ends a link, the first one at the pivot, each
+    /// other at the track before.
+    pub pivot: Option<[f64; 2]>,
     /// Direction of gravity.
     pub gravity: Gravity,
     /// True if y grows downwards, as rows of a picture do; without it so in DeepLabCut's
@@ -57,6 +64,7 @@ impl Default for Markers {
         Self {
             clock: Clock::Detect,
             links: Vec::new(),
+            pivot: None,
             gravity: Gravity::Axis,
             y_down: None,
             mirrored: false,
@@ -66,7 +74,7 @@ impl Default for Markers {
     }
 }
 
-/// A vector from marker to marker with the smaller likelihood of the two.
+/// A vector, from marker to marker or from the origin, with the smaller likelihood of its ends.
 type Arrow = Option<([f64; 2], f64)>;
 
 impl Markers {
@@ -84,8 +92,8 @@ impl Markers {
         let times = Times::read(table, &self.clock)?;
         let pairs = self.pairs(table, &mut findings)?;
         let mut arrows = Vec::with_capacity(pairs.len());
-        for (upper, lower) in &pairs {
-            arrows.push(arrows_of(table, upper, lower)?);
+        for [upper, lower] in &pairs {
+            arrows.push(arrows_of(table, *upper, *lower)?);
         }
         let down = self.down(table, &arrows, &mut findings)?;
         if self.mirrored {
@@ -95,8 +103,10 @@ impl Markers {
             ));
         }
         let links = pairs.iter().zip(&arrows);
-        let links = links
-            .map(|((upper, lower), arrows)| self.series(&upper.name, &lower.name, arrows, down));
+        let links = links.map(|([upper, lower], arrows)| {
+            let name = format!("{} to {}", upper.name(), lower.name());
+            self.series(name, arrows, down)
+        });
         let links: Vec<LinkSeries> = links.collect();
         for link in &links {
             if let Some([mean, deviation]) = link.marker_distance {
@@ -115,26 +125,60 @@ impl Markers {
         &self,
         table: &'a Table,
         findings: &mut Vec<Finding>,
-    ) -> Result<Vec<(&'a Track, &'a Track)>, ReadError> {
+    ) -> Result<Vec<[Point<'a>; 2]>, ReadError> {
+        let refused = |what| Err(table.refused(ReadErrorKind::Option { what }));
+        if let Some(place) = self
+            .pivot
+            .filter(|place| !place.iter().all(|x| x.is_finite()))
+        {
+            return refused(format!("a pivot at ({}, {})", place[0], place[1]));
+        }
         if !self.links.is_empty() {
-            let pairs = self.links.iter();
-            return pairs
-                .map(|link| Ok((table.track(&link.upper)?, table.track(&link.lower)?)))
-                .collect();
+            if self.pivot.is_some() {
+                let what = "the pivot beside named points; a link from it is `X,Y` to a point";
+                return refused(what.to_owned());
+            }
+            let mut pairs = Vec::with_capacity(self.links.len());
+            for LinkMarkers { upper, lower } in &self.links {
+                let pair = [Point::named(table, upper)?, Point::named(table, lower)?];
+                if pairs.contains(&pair) {
+                    return refused(format!(
+                        "the link from `{upper}` to `{lower}` is named twice"
+                    ));
+                }
+                pairs.push(pair);
+            }
+            return Ok(pairs);
         }
-        let (pairs, rest) = table.tracks().as_chunks::<2>();
-        if pairs.is_empty() || !rest.is_empty() {
-            let what = format!(
-                "{} tracks; a link needs two, from its pivot outwards: name those of each",
-                table.tracks().len()
-            );
-            return Err(table.refused(ReadErrorKind::Nothing { what }));
-        }
-        for [upper, lower] in pairs {
-            let text = format!("a link from `{}` to `{}`", upper.name, lower.name);
+        let tracks: Vec<Point<'a>> = table.tracks().iter().map(Point::Track).collect();
+        let pairs: Vec<[Point<'a>; 2]> = match (self.pivot, tracks.as_chunks::<2>()) {
+            (Some(place), _) if !tracks.is_empty() => {
+                let uppers = iter::once(Point::Fixed(place)).chain(tracks.iter().copied());
+                uppers.zip(&tracks).map(|(a, b)| [a, *b]).collect()
+            }
+            (None, (pairs @ [_, ..], [])) => pairs.to_vec(),
+            _ => {
+                let what = format!(
+                    "{} tracks; a link needs two, from its pivot outwards: name those of each, \
+                     or give the place of the pivot",
+                    tracks.len()
+                );
+                return Err(table.refused(ReadErrorKind::Nothing { what }));
+            }
+        };
+        for [upper, lower] in &pairs {
+            let text = format!("a link from `{}` to `{}`", upper.name(), lower.name());
             findings.push(Finding::new(Basis::Assumed, text));
         }
-        Ok(pairs.iter().map(|[upper, lower]| (upper, lower)).collect())
+        Ok(pairs)
+    }
+
+    /// Returns true if something is said that points alone have.
+    pub(crate) fn is_asked_for(&self) -> bool {
+        !self.links.is_empty()
+            || self.pivot.is_some()
+            || self.y_down.is_some()
+            || self.gravity != Gravity::Axis
     }
 
     /// Direction of gravity in the file, of length 1, and the direction to its right as a
@@ -176,13 +220,7 @@ impl Markers {
         Ok([[x, y], right])
     }
 
-    fn series(
-        &self,
-        upper: &str,
-        lower: &str,
-        arrows: &[Arrow],
-        [down, right]: [[f64; 2]; 2],
-    ) -> LinkSeries {
+    fn series(&self, name: String, arrows: &[Arrow], [down, right]: [[f64; 2]; 2]) -> LinkSeries {
         let along = |[x, y]: [f64; 2], [a, b]: [f64; 2]| x * a + y * b;
         let sense = if self.mirrored { -1.0 } else { 1.0 };
         let samples = arrows.iter().map(|arrow| match arrow {
@@ -204,7 +242,7 @@ impl Markers {
         let mean = distances.iter().sum::<f64>() / count;
         let square = distances.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / count;
         LinkSeries {
-            name: format!("{upper} to {lower}"),
+            name,
             samples: samples.collect(),
             marker_distance: (count > 0.0).then(|| [mean, square.sqrt()]),
         }
@@ -221,29 +259,78 @@ fn mean_direction(arrows: &[Arrow]) -> [f64; 2] {
     sum
 }
 
-fn arrows_of(table: &Table, upper: &Track, lower: &Track) -> Result<Vec<Arrow>, ReadError> {
-    let value = |column: usize, row: usize| table.values(column)[row];
-    let likelihood = |track: &Track, row: usize| {
-        // Points without one are certain; a missing one is not.
-        track
+/// An end of a link: a track, or a place that does not move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Point<'a> {
+    Track(&'a Track),
+    Fixed([f64; 2]),
+}
+
+impl<'a> Point<'a> {
+    /// The track of that name, or the place that it gives.
+    fn named(table: &'a Table, name: &str) -> Result<Self, ReadError> {
+        match (table.track(name), place(name)) {
+            (Err(_), Some(place)) => Ok(Self::Fixed(place)),
+            (track, _) => track.map(Self::Track),
+        }
+    }
+
+    fn name(self) -> String {
+        match self {
+            Self::Track(track) => track.name.clone(),
+            Self::Fixed([0.0, 0.0]) => "origin".to_owned(),
+            Self::Fixed([x, y]) => format!("{x},{y}"),
+        }
+    }
+
+    /// The point in each row, with its likelihood. One without a likelihood is certain; one
+    /// whose likelihood is missing is not.
+    fn places(self, table: &Table) -> Result<Vec<Arrow>, ReadError> {
+        let track = match self {
+            Self::Track(track) => track,
+            Self::Fixed(place) => return Ok(vec![Some((place, 1.0)); table.rows()]),
+        };
+        let likelihood = track
             .likelihood
-            .map_or(1.0, |column| value(column, row).unwrap_or(0.0))
-    };
-    let arrow = |row: usize| {
-        let from = [value(upper.x, row)?, value(upper.y, row)?];
-        let to = [value(lower.x, row)?, value(lower.y, row)?];
-        let likely = likelihood(upper, row).min(likelihood(lower, row));
-        Some(([to[0] - from[0], to[1] - from[1]], likely))
-    };
-    let arrows: Vec<Arrow> = (0..table.rows()).map(arrow).collect();
+            .map(|column| table.values(column))
+            .transpose()?;
+        let points = table.values(track.x)?.iter().zip(table.values(track.y)?);
+        let places = points.enumerate().map(|(row, (x, y))| {
+            let likelihood = likelihood.map_or(1.0, |all| all[row].unwrap_or(0.0));
+            Some(([(*x)?, (*y)?], likelihood))
+        });
+        Ok(places.collect())
+    }
+}
+
+/// A place as text: `origin`, or `X,Y`.
+fn place(text: &str) -> Option<[f64; 2]> {
+    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    match text.split_once(',') {
+        Some((x, y)) => Some([number(x)?, number(y)?]),
+        None => (text == "origin").then_some([0.0; 2]),
+    }
+}
+
+fn arrows_of(table: &Table, upper: Point<'_>, lower: Point<'_>) -> Result<Vec<Arrow>, ReadError> {
+    let ends = upper.places(table)?.into_iter().zip(lower.places(table)?);
+    let arrows = ends.map(|(upper, lower)| {
+        let (([a, b], one), ([c, d], other)) = (upper?, lower?);
+        Some(([c - a, d - b], one.min(other)))
+    });
+    let arrows: Vec<Arrow> = arrows.collect();
     let same = arrows
         .iter()
         .position(|arrow| matches!(arrow, Some(([0.0, 0.0], _))));
     match same {
-        Some(row) => {
-            let what = format!("`{}` and `{}` are at one place", upper.name, lower.name);
-            Err(table.refused_at(ReadErrorKind::Nothing { what }, row, Some(lower.x)))
-        }
         None => Ok(arrows),
+        Some(row) => {
+            let what = format!("`{}` and `{}` are at one place", upper.name(), lower.name());
+            let column = match lower {
+                Point::Track(track) => Some(track.x),
+                Point::Fixed(_) => None,
+            };
+            Err(table.refused_at(ReadErrorKind::Nothing { what }, row, column))
+        }
     }
 }

@@ -115,6 +115,8 @@ impl Recording {
                 findings.push(Finding::new(Basis::Marked, text));
             }
         }
+        // Doubts come first.
+        findings.sort_by_key(|finding| finding.basis != Basis::Doubtful);
         Ok(Self {
             times: seconds,
             links,

@@ -3,10 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::cell::Entry;
 use super::error::{Place, ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding};
-use super::format::{DecimalMark, Delimiter, Entry, Format, TextLine};
+use super::format::{DecimalMark, Delimiter, Format, TextLine};
 use super::header::{FileKind, Header, Track};
+use super::names;
+use super::names::quoted;
+use super::rows;
+use super::text;
+use super::units::{Unit, bare};
 use super::write::Column;
 
 /// Knowledge of a caller about a file; fields that are `None` are detected.
@@ -24,25 +30,50 @@ pub struct Table {
     path: PathBuf,
     kind: FileKind,
     columns: Vec<Column>,
+    /// Names as they stand in the file, units included.
+    written: Vec<String>,
     tracks: Vec<Track>,
     values: Vec<Vec<Option<f64>>>,
+    /// Of each column the first cell that is no number, if there is one.
+    faults: Vec<Option<Fault>>,
     lines: Vec<u64>,
     findings: Vec<Finding>,
+}
+
+/// A cell that is neither a number nor missing; it matters where its column is used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Fault {
+    line: u64,
+    text: String,
+    why: Why,
+}
+
+/// Where the unit of a column stands: in the header, or in each of its cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum UnitFrom {
+    Nowhere,
+    Header,
+    Cells,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Why {
+    NoNumber,
+    Infinite,
+    OtherUnit,
 }
 
 impl Table {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`ReadError`] with line and column: a file that cannot be opened, that is no text or
-    /// has no numbers, a cell that is neither a number nor missing, a row of another number
-    /// of cells.
+    /// [`ReadError`] with line and column: a file that cannot be opened, that is no text, no
+    /// table or has no numbers, a row of another number of cells, two columns of one name.
     pub fn read(path: impl AsRef<Path>, options: &TableOptions) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let refused = |kind: ReadErrorKind| kind.at(path, None);
         let bytes = fs::read(path).map_err(|source| refused(ReadErrorKind::Io(source)))?;
-        let (text, finding) =
-            decoded(bytes).map_err(|what| refused(ReadErrorKind::NotText { what }))?;
+        let (text, finding) = text::decoded(bytes).map_err(refused)?;
         let mut table = Self::parse(path, &text, options)?;
         table.findings.splice(0..0, finding);
         Ok(table)
@@ -59,22 +90,21 @@ impl Table {
     ) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let refused = |kind: ReadErrorKind, place| kind.at(path, place);
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if text.trim().is_empty() {
-            return Err(refused(ReadErrorKind::Empty, None));
-        }
-        let format = Format::detect(text, options.delimiter, options.decimal)
+        let text = text::plain(text).map_err(|kind| refused(kind, None))?;
+        let format = Format::detect(&text, options.delimiter, options.decimal)
             .ok_or_else(|| refused(ReadErrorKind::NoNumbers, None))?;
-        let mut lines = format.lines(text).map_err(|error| {
+        let mut lines = format.lines(&text).map_err(|error| {
             let place = error
                 .position()
                 .map(|position| Place::line(position.line()));
             let what = error.to_string();
             refused(ReadErrorKind::Header { what }, place)
         })?;
-        let first = lines.iter().position(|line| is_row(line, format));
-        let first = first.ok_or_else(|| refused(ReadErrorKind::NoNumbers, None))?;
-        let width = width(&lines[first..]);
+        let Some(first) = rows::first_row(&lines, format) else {
+            let (kind, place) = rows::no_rows(&lines, format);
+            return Err(refused(kind, place));
+        };
+        let width = rows::width(&lines[first..], lines[..first].last());
         let rows = lines.split_off(first);
         let header =
             Header::read(&lines, width).map_err(|error| refused(*error.kind, error.place))?;
@@ -82,20 +112,32 @@ impl Table {
             path: path.to_path_buf(),
             kind: header.kind,
             values: vec![Vec::with_capacity(rows.len()); width],
+            faults: vec![None; width],
             columns: header.columns,
+            written: header.written,
             tracks: header.tracks,
             lines: Vec::with_capacity(rows.len()),
             findings: Vec::new(),
         };
+        let units = table.columns.iter().map(|c| match c.unit.as_str() {
+            "" => UnitFrom::Nowhere,
+            _ => UnitFrom::Header,
+        });
+        let mut units: Vec<UnitFrom> = units.collect();
         for row in &rows {
-            table.push(row, format)?;
+            table.push(row, format, &mut units)?;
         }
         table.describe(format, options, header.preamble, lines.is_empty());
         Ok(table)
     }
 
     /// Appends a row of a file.
-    fn push(&mut self, row: &TextLine, format: Format) -> Result<(), ReadError> {
+    fn push(
+        &mut self,
+        row: &TextLine,
+        format: Format,
+        units: &mut [UnitFrom],
+    ) -> Result<(), ReadError> {
         let width = self.columns.len();
         let surplus = row.cells.get(width..).unwrap_or_default();
         let found = row.cells.len();
@@ -104,27 +146,39 @@ impl Table {
             let expected = width;
             return Err(ReadErrorKind::CellCount { expected, found }.at(&self.path, place));
         }
-        for (index, (cell, values)) in row.cells.iter().zip(&mut self.values).enumerate() {
-            // A quotation mark that is not closed takes the lines below in.
-            let text = || match cell.split_once('\n') {
-                Some((first, _)) => format!("\"{first}…"),
-                None => cell.clone(),
-            };
-            let refused = match format.entry(cell) {
-                Entry::Number(value) => {
-                    values.push(Some(value));
-                    continue;
+        for (index, cell) in row.cells.iter().take(width).enumerate() {
+            let column = &mut self.columns[index];
+            let (value, why) = match format.entry(cell) {
+                Entry::Number { value, unit } => {
+                    if units[index] == UnitFrom::Nowhere {
+                        units[index] = UnitFrom::Cells;
+                        column.unit = bare(unit);
+                    }
+                    let own = || Unit::named(unit);
+                    let fits = unit == column.unit
+                        || unit.is_empty() && units[index] == UnitFrom::Header
+                        || own().is_some() && own() == Unit::named(&column.unit);
+                    match fits {
+                        true => (Some(value), None),
+                        false => (None, Some(Why::OtherUnit)),
+                    }
                 }
-                Entry::Missing => {
-                    values.push(None);
-                    continue;
-                }
-                Entry::Infinite => ReadErrorKind::NotFinite { text: text() },
-                Entry::Text => ReadErrorKind::Number { text: text() },
+                Entry::Missing => (None, None),
+                Entry::Infinite => (None, Some(Why::Infinite)),
+                Entry::Text => (None, Some(Why::NoNumber)),
             };
-            let name = &self.columns[index].name;
-            let place = Place::cell(row.number, index, Some(name));
-            return Err(refused.at(&self.path, Some(place)));
+            self.values[index].push(value);
+            if let Some(why) = why {
+                self.faults[index].get_or_insert_with(|| Fault {
+                    line: row.number,
+                    // A quotation mark that is not closed takes the lines below in.
+                    text: match cell.split_once('\n') {
+                        Some((first, _)) => format!("\"{first}…"),
+                        None => cell.clone(),
+                    },
+                    why,
+                });
+            }
         }
         self.lines.push(row.number);
         Ok(())
@@ -133,33 +187,30 @@ impl Table {
     fn describe(&mut self, format: Format, options: &TableOptions, preamble: usize, bare: bool) {
         let given = options.delimiter.is_some() && options.decimal.is_some();
         let basis = if given { Basis::Given } else { Basis::Detected };
-        let mut tell = |basis, text: String| self.findings.push(Finding::new(basis, text));
-        tell(basis, format.to_string());
+        let mut told = vec![Finding::new(basis, format.to_string())];
+        let mut tell = |text: String| told.push(Finding::new(Basis::Detected, text));
         match self.kind {
             FileKind::Wide => {}
-            FileKind::Tracker => tell(Basis::Detected, "an export of Tracker".to_owned()),
-            FileKind::DeepLabCut => tell(Basis::Detected, "a table of DeepLabCut".to_owned()),
+            FileKind::Tracker => tell("an export of Tracker".to_owned()),
+            FileKind::DeepLabCut => tell("a table of DeepLabCut".to_owned()),
         }
         if preamble > 0 {
             let plural = if preamble == 1 { "line" } else { "lines" };
-            tell(
-                Basis::Detected,
-                format!("{preamble} {plural} above the names of the columns"),
-            );
+            tell(format!(
+                "{preamble} {plural} above the names of the columns"
+            ));
         }
         if bare {
-            tell(Basis::Detected, "no names of columns".to_owned());
+            tell("no names of columns".to_owned());
         }
-        for (column, values) in self.columns.iter().zip(&self.values) {
-            let missing = values.iter().filter(|value| value.is_none()).count();
-            if missing > 0 {
-                let (name, rows) = (&column.name, values.len());
-                tell(
-                    Basis::Detected,
-                    format!("`{name}`: {missing} of {rows} values are missing"),
-                );
+        for (index, column) in self.columns.iter().enumerate() {
+            let missing = self.values[index].iter().filter(|v| v.is_none()).count();
+            if missing > 0 && self.faults[index].is_none() {
+                let (name, rows) = (&column.name, self.rows());
+                tell(format!("`{name}`: {missing} of {rows} values are missing"));
             }
         }
+        self.findings = told;
     }
 
     /// The file.
@@ -177,7 +228,7 @@ impl Table {
         &self.columns
     }
 
-    /// Points whose two coordinates are columns.
+    /// Points whose two coordinates are columns; a single one without a name is `point`.
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
     }
@@ -187,9 +238,50 @@ impl Table {
         self.lines.len()
     }
 
-    /// The values of a column, `None` where they are missing; none for an index beyond.
-    pub fn values(&self, column: usize) -> &[Option<f64>] {
-        self.values.get(column).map_or(&[], Vec::as_slice)
+    /// Returns the values of a column, `None` where they are missing; none for an index beyond.
+    ///
+    /// # Errors
+    /// [`ReadErrorKind::Number`], [`ReadErrorKind::NotFinite`] or [`ReadErrorKind::CellUnit`]
+    /// with the place of the first cell of the column that is no number.
+    pub fn values(&self, column: usize) -> Result<&[Option<f64>], ReadError> {
+        if let Some(Some(fault)) = self.faults.get(column) {
+            let Column { name, unit } = &self.columns[column];
+            let text = fault.text.clone();
+            let kind = match fault.why {
+                Why::NoNumber => ReadErrorKind::Number { text },
+                Why::Infinite => ReadErrorKind::NotFinite { text },
+                Why::OtherUnit => {
+                    let unit = unit.clone();
+                    ReadErrorKind::CellUnit { text, unit }
+                }
+            };
+            let place = Place::cell(fault.line, column, Some(name));
+            return Err(kind.at(&self.path, Some(place)));
+        }
+        Ok(self.values.get(column).map_or(&[], Vec::as_slice))
+    }
+
+    /// Returns true for a column with a number in it.
+    pub(crate) fn has_numbers(&self, column: usize) -> bool {
+        self.values[column].iter().any(Option::is_some)
+    }
+
+    /// The same table without some of its rows.
+    pub(crate) fn keeping(mut self, is_kept: &[bool]) -> Self {
+        fn keep<T>(all: &mut Vec<T>, is_kept: &[bool]) {
+            let mut kept = is_kept.iter();
+            all.retain(|_| kept.next() != Some(&false));
+        }
+        for values in &mut self.values {
+            keep(values, is_kept);
+        }
+        keep(&mut self.lines, is_kept);
+        self
+    }
+
+    /// Adds a statement about the table.
+    pub(crate) fn tell(&mut self, finding: Finding) {
+        self.findings.push(finding);
     }
 
     /// Facts detected and assumed.
@@ -197,36 +289,48 @@ impl Table {
         &self.findings
     }
 
-    /// Returns the index of the column with that name.
+    /// Returns the index of the column with that name: with its unit as it stands in the
+    /// header or without, with `_` or blanks.
     ///
     /// # Errors
     /// [`ReadErrorKind::Unknown`] with the names that there are.
     pub fn column(&self, name: &str) -> Result<usize, ReadError> {
-        let index = self.columns.iter().position(|column| column.name == name);
-        index.ok_or_else(|| {
-            let known = self
-                .columns
-                .iter()
-                .map(|column| column.name.clone())
-                .collect();
-            self.unknown("column", name, known)
-        })
+        let columns = self.columns.iter().map(|column| column.name.as_str());
+        let written = self.written.iter().map(String::as_str);
+        called(name, columns.clone())
+            .or_else(|| called(name, written))
+            .ok_or_else(|| self.unknown("column", name, columns))
     }
 
-    /// Returns the track with that name.
+    /// Returns the track with that name, with `_` or blanks.
     ///
     /// # Errors
-    /// [`ReadErrorKind::Unknown`] with the names that there are.
+    /// [`ReadErrorKind::Unknown`] with the names that there are, or
+    /// [`ReadErrorKind::Nothing`] where there are none.
     pub fn track(&self, name: &str) -> Result<&Track, ReadError> {
-        let track = self.tracks.iter().find(|track| track.name == name);
-        track.ok_or_else(|| {
-            let known = self.tracks.iter().map(|track| track.name.clone()).collect();
-            self.unknown("track", name, known)
-        })
+        let names = self.tracks.iter().map(|track| track.name.as_str());
+        if let Some(index) = called(name, names.clone()) {
+            return Ok(&self.tracks[index]);
+        }
+        if self.tracks.is_empty() {
+            let columns: Vec<&str> = self.written.iter().map(String::as_str).collect();
+            let what = format!(
+                "there is no track `{name}`, nor another: the columns {} hold no NAME_x beside \
+                 a NAME_y",
+                quoted(&columns)
+            );
+            return Err(self.refused(ReadErrorKind::Nothing { what }));
+        }
+        Err(self.unknown("track", name, names))
     }
 
-    fn unknown(&self, what: &'static str, name: &str, known: Vec<String>) -> ReadError {
-        let name = name.to_owned();
+    fn unknown<'a>(
+        &self,
+        what: &'static str,
+        name: &str,
+        known: impl Iterator<Item = &'a str>,
+    ) -> ReadError {
+        let (name, known) = (name.to_owned(), known.map(str::to_owned).collect());
         self.refused(ReadErrorKind::Unknown { what, name, known })
     }
 
@@ -255,42 +359,14 @@ impl Table {
     }
 }
 
-/// Returns true for a line of numbers and missing values.
-fn is_row(line: &TextLine, format: Format) -> bool {
-    let entries = || line.cells.iter().map(|cell| format.entry(cell));
-    line.cells.len() >= 2
-        && entries().any(|entry| matches!(entry, Entry::Number(_)))
-        && entries().all(|entry| entry != Entry::Text)
-}
-
-/// Number of columns: that of the first row, without empty cells at its end that end all rows.
-fn width(rows: &[TextLine]) -> usize {
-    let used = |line: &TextLine| {
-        line.cells
-            .iter()
-            .rposition(|cell| !cell.is_empty())
-            .map_or(0, |last| last + 1)
-    };
-    let most = rows.iter().map(used).max().unwrap_or(0);
-    let first = rows.first().map_or(0, |line| line.cells.len());
-    most.min(first)
-}
-
-/// Text out of bytes: UTF-8, or Latin-1 where it is none.
-fn decoded(bytes: Vec<u8>) -> Result<(String, Option<Finding>), &'static str> {
-    match bytes.as_slice() {
-        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err("UTF-16"),
-        [b'P', b'K', 3, 4, ..] => return Err("a zip archive (a spreadsheet?)"),
-        [0x89, b'H', b'D', b'F', ..] => return Err("HDF5"),
-        bytes if bytes.contains(&0) => return Err("binary data"),
-        _ => {}
-    }
-    Ok(match String::from_utf8(bytes) {
-        Ok(text) => (text, None),
-        Err(error) => {
-            let text = error.into_bytes().into_iter().map(char::from).collect();
-            let finding = Finding::new(Basis::Detected, "characters in Latin-1");
-            (text, Some(finding))
-        }
+/// The place of a name among others: as it stands, or else with blanks for `_` where this
+/// leaves one.
+fn called<'a>(name: &str, mut names: impl Iterator<Item = &'a str> + Clone) -> Option<usize> {
+    let alike = names.clone().enumerate();
+    let mut alike = alike.filter(|(_, other)| names::plain(other) == names::plain(name));
+    let exact = names.position(|other| other == name);
+    exact.or_else(|| match (alike.next(), alike.next()) {
+        (Some((index, _)), None) => Some(index),
+        _ => None,
     })
 }

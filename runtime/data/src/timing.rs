@@ -2,8 +2,11 @@
 
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding};
-use super::header::{FileKind, is_frame, is_time};
+use super::header::FileKind;
+use super::names::{Meaning, is_frame, is_time};
 use super::table::Table;
+use super::units::Unit;
+use super::write::Column;
 
 /// Where the times of a table come from.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -87,36 +90,20 @@ const ROWS: usize = 3;
 impl Times {
     pub(crate) fn read(table: &Table, clock: &Clock) -> Result<Self, ReadError> {
         if table.rows() < ROWS {
+            // A quotation mark that is not closed takes rows in.
+            for column in 0..table.columns().len() {
+                table.values(column)?;
+            }
             let (found, needed) = (table.rows(), ROWS);
             return Err(table.refused(ReadErrorKind::TooFewRows { found, needed }));
         }
         let mut findings = Vec::new();
-        let (column, scale) = match clock {
-            Clock::FrameRate(rate) => frames(table, *rate, &mut findings)?,
-            Clock::Column(name) => {
-                let column = table.column(name)?;
-                (
-                    Some(column),
-                    unit(table, column, Basis::Given, &mut findings)?,
-                )
-            }
-            Clock::Detect => {
-                let column = time_column(table)?;
-                (
-                    Some(column),
-                    unit(table, column, Basis::Detected, &mut findings)?,
-                )
-            }
-        };
+        let (column, scale) = source(table, clock, &mut findings)?;
         let mut seconds: Vec<f64> = Vec::with_capacity(table.rows());
-        for row in 0..table.rows() {
-            let value = match column {
-                Some(column) => table.values(column)[row].ok_or_else(|| {
-                    table.refused_at(ReadErrorKind::TimeMissing, row, Some(column))
-                })?,
-                None => row as f64,
-            };
-            let time = value * scale;
+        for (row, time) in raw(table, column)?.into_iter().enumerate() {
+            let time =
+                time.ok_or_else(|| table.refused_at(ReadErrorKind::TimeMissing, row, column))?;
+            let time = time * scale;
             if let Some(&previous) = seconds.last()
                 && !(time > previous && time.is_finite())
             {
@@ -143,6 +130,73 @@ impl Times {
     }
 }
 
+/// The column that the times stand in, none for one a row, and their unit in seconds.
+fn source(
+    table: &Table,
+    clock: &Clock,
+    findings: &mut Vec<Finding>,
+) -> Result<(Option<usize>, f64), ReadError> {
+    let (column, basis) = match clock {
+        Clock::FrameRate(rate) => return frames(table, *rate, findings),
+        Clock::Column(name) => (table.column(name)?, Basis::Given),
+        Clock::Detect => (time_column(table)?, Basis::Detected),
+    };
+    Ok((Some(column), unit(table, column, basis, findings)?))
+}
+
+/// Times of the rows, in the unit of their column.
+fn raw(table: &Table, column: Option<usize>) -> Result<Vec<Option<f64>>, ReadError> {
+    Ok(match column {
+        Some(column) => table.values(column)?.to_vec(),
+        None => (0..table.rows()).map(|row| Some(row as f64)).collect(),
+    })
+}
+
+/// Which row counts of those with one time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repeated {
+    /// The first.
+    First,
+    /// The last.
+    Last,
+}
+
+impl Table {
+    /// Returns the table with one row of those that follow each other with one time.
+    ///
+    /// # Errors
+    /// Those of a time that cannot be made out.
+    pub fn without_repeated_times(
+        mut self,
+        clock: &Clock,
+        counts: Repeated,
+    ) -> Result<Self, ReadError> {
+        let (column, _) = source(&self, clock, &mut Vec::new())?;
+        let times = raw(&self, column)?;
+        let mut is_kept = vec![true; times.len()];
+        let mut first = 0;
+        for row in 1..times.len() {
+            if times[row].is_none() || times[row] != times[row - 1] {
+                first = row;
+                continue;
+            }
+            match counts {
+                Repeated::First => is_kept[row] = false,
+                Repeated::Last => is_kept[first..row].fill(false),
+            }
+        }
+        let dropped = is_kept.iter().filter(|kept| !**kept).count();
+        let word = match counts {
+            Repeated::First => "first",
+            Repeated::Last => "last",
+        };
+        let plural = if dropped == 1 { "row" } else { "rows" };
+        let text = format!("{dropped} {plural} dropped that repeat a time; the {word} counts");
+        self.tell(Finding::new(Basis::Given, text));
+        Ok(self.keeping(&is_kept))
+    }
+}
+
 /// The column that numbers frames, if there is one, and the time of a frame.
 fn frames(
     table: &Table,
@@ -152,17 +206,17 @@ fn frames(
     if !(rate.is_finite() && rate > 0.0) {
         return Err(table.refused(ReadErrorKind::FrameRate { value: rate }));
     }
-    let column = table
-        .columns()
-        .iter()
-        .position(|column| is_frame(&column.name));
-    let text = match column {
-        Some(column) => {
-            let name = &table.columns()[column].name;
-            format!("`{name}` counts frames, {rate} a second")
-        }
+    let columns = table.columns();
+    let counts = |&column: &usize| is_frame(&columns[column]) && table.has_numbers(column);
+    let column = (0..columns.len()).find(counts);
+    let mut text = match column {
+        Some(column) => format!("`{}` counts frames, {rate} a second", columns[column].name),
         None => format!("each row is a frame, {rate} a second"),
     };
+    let of_time = |column: &&Column| Meaning::of(column, columns) == Meaning::Time;
+    if let Some(time) = columns.iter().find(of_time) {
+        text += &format!(", whatever `{}` says", time.name);
+    }
     findings.push(Finding::new(Basis::Given, text));
     Ok((column, 1.0 / rate))
 }
@@ -176,7 +230,7 @@ fn time_column(table: &Table) -> Result<usize, ReadError> {
     if let Some(column) = named {
         return Ok(column);
     }
-    let frame = table.columns().iter().find(|column| is_frame(&column.name));
+    let frame = table.columns().iter().find(|column| is_frame(column));
     if let Some(column) = frame {
         let name = column.name.clone();
         return Err(table.refused(ReadErrorKind::FrameNumbers { name }));
@@ -193,13 +247,10 @@ fn time_column(table: &Table) -> Result<usize, ReadError> {
 }
 
 fn seconds(unit: &str) -> Option<f64> {
-    Some(match unit {
-        "s" | "sec" | "seconds" => 1.0,
-        "ms" => 1e-3,
-        "µs" | "us" => 1e-6,
-        "min" => 60.0,
-        _ => return None,
-    })
+    match Unit::named(unit) {
+        Some(Unit::Time(seconds)) => Some(seconds),
+        _ => None,
+    }
 }
 
 /// The unit of a column of times, in seconds. Whole numbers may be frames, some of them
@@ -212,7 +263,7 @@ fn unit(
 ) -> Result<f64, ReadError> {
     let (name, unit) = (&table.columns()[column].name, &table.columns()[column].unit);
     if unit.is_empty() {
-        let mut values = table.values(column).iter().flatten();
+        let mut values = table.values(column)?.iter().flatten();
         if values.all(|value| value.fract() == 0.0) {
             let name = name.clone();
             return Err(table.refused(ReadErrorKind::WholeTimes { name }));

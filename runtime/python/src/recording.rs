@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use branched_pendulum_data::{
     AngleColumns, AngleUnit, AngleZero, Clock, DecimalMark, Delimiter, Gravity, LinkMarkers,
-    Markers, ReadErrorKind, Recording as Angles, Sample, Table, TableOptions,
+    Markers, ReadErrorKind, Recording as Angles, Repeated, Sample, Table, TableOptions,
+    read_angles,
 };
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -142,6 +143,13 @@ fn choice<T: Copy>(name: &str, word: Option<&str>, choices: &[(&str, T)]) -> PyR
     })
 }
 
+/// A place: two numbers, or "origin".
+#[derive(FromPyObject)]
+pub(crate) enum Pivot {
+    Place([f64; 2]),
+    Word(String),
+}
+
 /// Where a picture's downward vertical comes from.
 #[derive(FromPyObject)]
 pub(crate) enum Plumb {
@@ -154,14 +162,18 @@ pub(crate) enum Plumb {
 ///
 /// How the file is written is detected: delimiter (else "," ";" "tab" or "space"), decimal mark
 /// (else "." or ","), header, units. `time` is the name of the column of times, `frame_rate`
-/// (Hz) is needed where rows are frames. Statements about what was detected and what assumed
-/// are in `findings`.
+/// (Hz) is needed where rows are frames; of rows that repeat a time `drop_repeated` ("first" or
+/// "last") counts. Statements about what was detected and what assumed are in `findings`, those
+/// that are doubtful first.
 ///
-/// Of columns: `columns` are those of the links, the parent first, by default all but the
-/// time; `unit` is "rad" or "deg", `zero` is "down" or "up", the direction of angle 0;
+/// Of columns: `columns` are those of the links, the parent first, as the header has them, with
+/// their units or without, by default all that may be angles; `unit` is "rad", "deg", "mrad",
+/// "arcmin", "arcsec", "gon" or "turn", `zero` is "down" or "up", the direction of angle 0;
 /// `relative_to` has for each link the index of the one that its angle is measured from, None
 /// for the vertical. Of dots: `dots` has a pair of names for each link, the one nearer to its
-/// pivot first; `y_down=True` where y grows downwards; `gravity` is "axis" (the camera is
+/// pivot first, which may be a place that does not move, "origin" or "x,y"; `pivot` is the place,
+/// (x, y) or "origin", of a pivot without a dot, from which the dots of the file are the ends of
+/// a chain of links; `y_down=True` where y grows downwards; `gravity` is "axis" (the camera is
 /// level), "first link" (its mean direction), or a direction x, y; `likelihood` is the
 /// smallest that is used. `mirrored=True` turns angles round. `outliers` is the deviation from
 /// neighbours, in usual ones, beyond which samples are marked, by default 25; None marks none.
@@ -171,7 +183,8 @@ pub(crate) enum Plumb {
 #[pyfunction]
 #[pyo3(signature = (path, *, columns = None, dots = None, unit = None, zero = None,
     relative_to = None, mirrored = false, time = None, frame_rate = None, outliers = Some(25.0),
-    likelihood = 0.9, y_down = None, gravity = None, delimiter = None, decimal = None))]
+    likelihood = 0.9, y_down = None, gravity = None, delimiter = None, decimal = None,
+    pivot = None, drop_repeated = None))]
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn read(
     py: Python<'_>,
@@ -190,6 +203,8 @@ pub(crate) fn read(
     gravity: Option<Plumb>,
     delimiter: Option<&str>,
     decimal: Option<&str>,
+    pivot: Option<Pivot>,
+    drop_repeated: Option<&str>,
 ) -> PyResult<Recording> {
     let clock = match (time, frame_rate) {
         (Some(_), Some(_)) => {
@@ -211,25 +226,26 @@ pub(crate) fn read(
         delimiter: choice("delimiter", delimiter, &delimiters)?,
         decimal: choice("decimal", decimal, &marks)?,
     };
-    let units = [("rad", AngleUnit::Radians), ("deg", AngleUnit::Degrees)];
+    let counts = [("first", Repeated::First), ("last", Repeated::Last)];
+    let counts = choice("drop_repeated", drop_repeated, &counts)?;
     let zeros = [("down", AngleZero::Down), ("up", AngleZero::Up)];
     let of_columns = AngleColumns {
         clock: clock.clone(),
         columns: columns.unwrap_or_default(),
-        unit: choice("unit", unit, &units)?,
+        unit: choice("unit", unit, &AngleUnit::ALL)?,
         zero: choice("zero", zero, &zeros)?,
         relative_to: relative_to.unwrap_or_default(),
         mirrored,
         outliers,
     };
-    let chosen = match (&dots, &of_columns.columns[..]) {
-        (Some(_), [_, ..]) => {
-            let text = "angles come from dots or from columns: give dots= or columns=";
-            return Err(PyValueError::new_err(text));
-        }
-        (Some(_), []) => Some(true),
-        (None, [_, ..]) => Some(false),
-        (None, []) => None,
+    if dots.is_some() && !of_columns.columns.is_empty() {
+        let text = "angles come from dots or from columns: give dots= or columns=";
+        return Err(PyValueError::new_err(text));
+    }
+    let pivot = match pivot {
+        None => None,
+        Some(Pivot::Place(place)) => Some(place),
+        Some(Pivot::Word(word)) => choice("pivot", Some(&word), &[("origin", [0.0; 2])])?,
     };
     let links = dots.unwrap_or_default().into_iter();
     let links = links.map(|(upper, lower)| LinkMarkers { upper, lower });
@@ -242,8 +258,9 @@ pub(crate) fn read(
         }
     };
     let of_dots = Markers {
-        clock,
+        clock: clock.clone(),
         links: links.collect(),
+        pivot,
         gravity,
         y_down,
         mirrored,
@@ -251,11 +268,11 @@ pub(crate) fn read(
         outliers,
     };
     let angles = py.detach(|| {
-        let table = Table::read(&path, &options)?;
-        match chosen.unwrap_or(!table.tracks().is_empty()) {
-            true => of_dots.read(&table),
-            false => of_columns.read(&table),
+        let mut table = Table::read(&path, &options)?;
+        if let Some(counts) = counts {
+            table = table.without_repeated_times(&clock, counts)?;
         }
+        read_angles(&table, &of_columns, &of_dots)
     });
     Recording::of(py, angles.map_err(|error| refused(py, error))?)
 }

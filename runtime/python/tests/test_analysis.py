@@ -42,6 +42,36 @@ def test_columns_are_read_and_told(tmp_path):
     assert other.theta[0] == pytest.approx([np.radians(-5) - np.pi, np.radians(5) - np.pi])
 
 
+def test_tables_are_read_as_they_are(tmp_path):
+    """Columns that are named win over points, a pivot is a place, a time is named, repeated rows go."""
+    path = tmp_path / "swing.csv"
+    path.write_text(
+        "clock,theta1_deg,theta2_mrad,m1_x,m1_y,note\n"
+        "0,9,20,0.3,-0.4,go\n0,9,20,0.3,-0.4,\n0.5,18,30,0.4,-0.3,\n1.5D+00,27,40,0.5,0,on\n"
+    )
+    options = {"time": "clock", "drop_repeated": "last"}
+    named = bp.data.read(path, columns=["theta1_deg"], **options)
+    np.testing.assert_array_equal(named.t, [0, 0.5, 1.5])
+    np.testing.assert_allclose(named.theta[:, 0], np.radians([9, 18, 27]), rtol=1e-15)
+    assert named.names == ["theta1"]
+    of_point = np.arctan2([0.3, 0.4, 0.5], [0.4, 0.3, 0])
+    for way in [{"pivot": "origin"}, {"pivot": (0, 0)}, {"dots": [("origin", "m1")]}]:
+        read = bp.data.read(path, **way, **options)
+        np.testing.assert_allclose(read.theta[:, 0], of_point, rtol=1e-15)
+    with pytest.raises(bp.data.ReadError, match="stand beside points"):
+        bp.data.read(path, **options)
+    with pytest.raises(bp.data.ReadError, match="say which row of one time counts") as error:
+        bp.data.read(path, columns=["theta1"], time="clock")
+    assert error.value.line == 3
+    with pytest.raises(bp.data.ReadError, match="asked for together"):
+        bp.data.read(path, columns=["theta1"], pivot="origin", **options)
+    path.write_text("t,x,y\n0.0,0.3,-0.4\n0.1,0.4,-0.3\n0.2,0.5,0\n")
+    with pytest.raises(bp.data.ReadError, match="give the place of the pivot"):
+        bp.data.read(path)
+    path.write_text("t,a\n0.00,0.81\n0.01,0.82\n0.02,0.83\n")
+    assert bp.data.read(path).findings[0].startswith("doubtful: angles in radians")
+
+
 def test_mistakes_in_files_have_places(tmp_path):
     path = tmp_path / "swing.csv"
     path.write_text("t;a;b\n0;0,1;0,2\n0,01;1.5;0,3\n0,02;0,2;0,4\n")

@@ -1,13 +1,85 @@
 //! Files of numbers, written and read.
 
+mod cells;
+mod headers;
 mod malformed;
+mod points;
 mod reading;
+mod refused;
 mod writing;
 
-use branched_pendulum_data::{Table, TableOptions};
+use branched_pendulum_data::{
+    AngleColumns, Clock, LinkMarkers, Markers, ReadError, Recording, Table, TableOptions,
+    read_angles,
+};
 
 fn table(text: &str) -> Table {
-    Table::parse("swing.csv", text, &TableOptions::default()).unwrap()
+    parse(text).unwrap()
+}
+
+fn parse(text: &str) -> Result<Table, ReadError> {
+    Table::parse("swing.csv", text, &TableOptions::default())
+}
+
+/// What is read where nothing is said but the names of columns.
+fn by_columns(text: &str, columns: &[&str]) -> Result<Recording, String> {
+    let columns = AngleColumns {
+        columns: columns.iter().map(ToString::to_string).collect(),
+        outliers: None,
+        ..AngleColumns::default()
+    };
+    let table = parse(text).map_err(|error| error.to_string())?;
+    read_angles(&table, &columns, &Markers::default()).map_err(|error| error.to_string())
+}
+
+/// What is read of links between points, at 10 pictures a second where rows are such.
+fn by_points(text: &str, links: &[(&str, &str)]) -> Result<Recording, String> {
+    let table = parse(text).map_err(|error| error.to_string())?;
+    let has_time = table.columns()[0].name.starts_with('t');
+    let link = |(upper, lower): &(&str, &str)| LinkMarkers {
+        upper: (*upper).to_owned(),
+        lower: (*lower).to_owned(),
+    };
+    let markers = Markers {
+        clock: if has_time {
+            Clock::Detect
+        } else {
+            Clock::FrameRate(10.0)
+        },
+        links: links.iter().map(link).collect(),
+        outliers: None,
+        ..Markers::default()
+    };
+    read_angles(&table, &AngleColumns::default(), &markers).map_err(|error| error.to_string())
+}
+
+/// Angles of all links, a row a time.
+fn angles(recording: &Recording) -> Vec<Vec<Option<f64>>> {
+    let row = |index| {
+        recording
+            .links
+            .iter()
+            .map(|link| link.angle(index))
+            .collect()
+    };
+    (0..recording.times.len()).map(row).collect()
+}
+
+/// Asserts what was read: times and the angles of all links, to rounding.
+fn assert_read(recording: &Recording, times: &[f64], expected: &[&[f64]]) {
+    let close =
+        |found: f64, expected: f64| (found - expected).abs() <= 4e-15 * (1.0 + expected.abs());
+    assert_eq!(recording.times.len(), times.len());
+    for (found, expected) in recording.times.iter().zip(times) {
+        assert!(close(*found, *expected), "{found} s, not {expected} s");
+    }
+    for (found, expected) in angles(recording).iter().zip(expected) {
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(*expected) {
+            let found = found.unwrap();
+            assert!(close(found, *expected), "{found} rad, not {expected} rad");
+        }
+    }
 }
 
 /// 2 s of two angles at 100 Hz.

@@ -58,7 +58,7 @@ fn mutate(rounds: usize) {
                 clock: Clock::FrameRate(60.0),
                 ..Markers::default()
             };
-            let _ = markers.read(&table);
+            read += usize::from(markers.read(&table).is_ok());
             AngleColumns::default().read(&table)
         });
         match outcome {
@@ -160,7 +160,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.2,1\n0.2,1\n",
-            "a.csv, line 4, column 1 (`t`): time 0.2 s does not come after 0.2 s",
+            "a.csv, line 4, column 1 (`t`): time 0.2 s does not come after 0.2 s; say which row of one time counts, the first or the last",
         ),
         (
             "t,a\n0,1\n1,1\n2,1\n",
@@ -306,7 +306,7 @@ fn wrong_requests_name_what_there_is() {
     );
     assert_eq!(
         refused(Markers::default()),
-        "swing.csv: 1 tracks; a link needs two, from its pivot outwards: name those of each"
+        "swing.csv: 1 tracks; a link needs two, from its pivot outwards: name those of each, or give the place of the pivot"
     );
     let folder =
         std::env::temp_dir().join(format!("branched-pendulum-reading-{}", std::process::id()));

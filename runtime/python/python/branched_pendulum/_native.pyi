@@ -208,7 +208,7 @@ def read(
     *,
     columns: Sequence[str] | None = None,
     dots: Sequence[tuple[str, str]] | None = None,
-    unit: Literal["rad", "deg"] | None = None,
+    unit: Literal["rad", "deg", "mrad", "arcmin", "arcsec", "gon", "turn"] | None = None,
     zero: Literal["down", "up"] | None = None,
     relative_to: Sequence[int | None] | None = None,
     mirrored: bool = False,
@@ -220,6 +220,8 @@ def read(
     gravity: Literal["axis", "first link"] | tuple[float, float] | None = None,
     delimiter: Literal[",", ";", "tab", "space"] | None = None,
     decimal: Literal[".", ","] | None = None,
+    pivot: Literal["origin"] | tuple[float, float] | None = None,
+    drop_repeated: Literal["first", "last"] | None = None,
 ) -> Recording: ...
 
 @final

@@ -1,0 +1,239 @@
+//! Files of measurements as `analyse` and `identify` take them: options, refusals, and where
+//! both lead.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+use super::{folder, run, text};
+
+const ANALYSE: &str = env!("CARGO_BIN_EXE_analyse");
+const IDENTIFY: &str = env!("CARGO_BIN_EXE_identify");
+
+/// Angles of a chain of two links in a small swing, at 40 times.
+fn swing() -> Vec<(f64, [f64; 2])> {
+    let times = (0..40).map(|row| 0.02 * f64::from(row));
+    let angles = |time: f64| [0.3, 0.21].map(|size| size * (6.0 * time + size).cos());
+    times.map(|time| (time, angles(time))).collect()
+}
+
+/// Ends of two links of 0.25 and 0.2 m under a place.
+fn ends([x, y]: [f64; 2], [one, two]: [f64; 2]) -> [f64; 4] {
+    let a = [x + 0.25 * one.sin(), y - 0.25 * one.cos()];
+    [a[0], a[1], a[0] + 0.2 * two.sin(), a[1] - 0.2 * two.cos()]
+}
+
+/// Writes a file whose rows are those of the swing.
+fn file(name: &str, header: &str, row: impl Fn(f64, [f64; 2]) -> String) -> PathBuf {
+    let folder = folder(&format!("measured-{name}"));
+    fs::create_dir_all(&folder).unwrap();
+    let mut written = format!("{header}\n");
+    for (time, angles) in swing() {
+        writeln!(written, "{}", row(time, angles)).unwrap();
+    }
+    let path = folder.join("swing.csv");
+    fs::write(&path, written).unwrap();
+    path
+}
+
+/// Runs `analyse` on a chain; its exit code and what it prints.
+fn analyse(file: &std::path::Path, options: &[&str]) -> (Option<i32>, String) {
+    let output = file.with_file_name("output");
+    let mut words = vec![
+        file.to_str().unwrap(),
+        "--pendulum",
+        "chain",
+        "--draws",
+        "20",
+    ];
+    words.extend(["--output", output.to_str().unwrap()]);
+    words.extend(options);
+    let done = run(ANALYSE, &words);
+    let printed = format!("{}{}", text(&done.stdout), text(&done.stderr));
+    (done.status.code(), printed)
+}
+
+/// Asserts that the estimate of a run begins with the angles of the swing.
+fn assert_estimated(file: &std::path::Path) {
+    let estimate = fs::read_to_string(file.with_file_name("output").join("estimate.csv")).unwrap();
+    let row = estimate.lines().nth(10).unwrap();
+    let values: Vec<f64> = row
+        .split(',')
+        .take(3)
+        .map(|cell| cell.parse().unwrap())
+        .collect();
+    let (time, angles) = swing()[9];
+    assert!((values[0] - time).abs() < 1e-9, "{row}");
+    for (found, expected) in values[1..].iter().zip(angles) {
+        assert!((found - expected).abs() < 1e-3, "{row}: {expected}");
+    }
+}
+
+#[test]
+fn named_columns_win_over_points() {
+    let points = file(
+        "columns",
+        "t,theta1,theta2,wall_x,wall_y,door_x,door_y,note",
+        |time, [one, two]| {
+            format!(
+                "{time},{one},{two},0.1,0.2,0.3,{},Infinity",
+                0.4 + 0.01 * one
+            )
+        },
+    );
+    let (code, printed) = analyse(&points, &["--columns", "theta1,theta2"]);
+    assert_eq!(code, Some(0), "{printed}");
+    let doubt = printed.lines().nth(1).unwrap_or_default();
+    assert!(
+        doubt.contains("doubtful: angles in radians, since no column names a unit"),
+        "{printed}"
+    );
+    assert_estimated(&points);
+    let (code, printed) = analyse(&points, &[]);
+    assert_eq!(code, Some(1), "{printed}");
+    assert!(
+        printed.contains("columns of angles (`theta1`, `theta2`) stand beside points"),
+        "{printed}"
+    );
+}
+
+#[test]
+fn a_pivot_without_a_dot_is_named() {
+    for (name, header, pivot, options) in [
+        (
+            "origin",
+            "#multi:\n,mass A,,mass B,\nt,x,y,x,y",
+            [0.0, 0.0],
+            &["--pivot", "origin"][..],
+        ),
+        (
+            "place",
+            "t,x1,y1,x2,y2",
+            [-1.5, 0.5],
+            &["--pivot", "-1.5,0.5"],
+        ),
+        (
+            "dots",
+            "t;x_m1;y_m1;x_m2;y_m2",
+            [0.25, 2.0],
+            &["--dots", "0.25,2:m1,m1:m2"],
+        ),
+    ] {
+        let file = file(name, header, |time, angles| {
+            let row = [time].into_iter().chain(ends(pivot, angles));
+            let row: Vec<String> = row.map(|value| value.to_string()).collect();
+            row.join(if header.contains(';') { ";" } else { "," })
+        });
+        let (code, printed) = analyse(&file, options);
+        assert_eq!(code, Some(0), "{printed}");
+        assert_estimated(&file);
+        let (code, printed) = analyse(&file, &[]);
+        assert_eq!(code, Some(1), "{printed}");
+        assert!(printed.contains("--pivot"), "{printed}");
+    }
+}
+
+#[test]
+fn times_are_named_and_repeated_ones_dropped() {
+    let clock = file("time", "clock,a [mrad],b [mrad]", |time, [one, two]| {
+        let row = format!("{time},{},{}", 1e3 * one, 1e3 * two);
+        // The first row stands there twice, the second time without its angles.
+        if time == 0.0 {
+            format!("{row}\n{time},,")
+        } else {
+            row
+        }
+    });
+    let (code, printed) = analyse(&clock, &[]);
+    assert_eq!(code, Some(1), "{printed}");
+    assert!(
+        printed.contains("no column is the time; name it"),
+        "{printed}"
+    );
+    let (code, printed) = analyse(&clock, &["--time", "clock"]);
+    assert_eq!(code, Some(1), "{printed}");
+    assert!(
+        printed.contains("line 3, column 1 (`clock`): time 0 s does not come after 0 s"),
+        "{printed}"
+    );
+    for counts in [&["--drop-repeated"][..], &["--drop-repeated", "first"]] {
+        let options = [&["--time", "clock"], counts].concat();
+        let (code, printed) = analyse(&clock, &options);
+        assert_eq!(code, Some(0), "{printed}");
+        assert!(
+            printed.contains("given: 1 row dropped that repeat"),
+            "{printed}"
+        );
+        assert_estimated(&clock);
+    }
+}
+
+/// Both programs read alike: what one refuses the other does, in the same words.
+#[test]
+fn both_programs_refuse_alike() {
+    let of_points = file("positions", "t,x,y", |time, [one, _]| {
+        format!("{time},{},{}", 0.25 * one.sin(), -0.25 * one.cos())
+    });
+    let of_rates = file(
+        "rates",
+        "t,pos1,pos2,vel1,vel2,tau1,tau2",
+        |time, [one, two]| format!("{time},{one},{two},{two},{one},{two},{one}"),
+    );
+    let of_degrees = file("degrees", "t,a,b", |time, [one, two]| {
+        format!("{time},{:.3},{:.3}", one.to_degrees(), two.to_degrees())
+    });
+    for (file, options, expected) in [
+        (&of_points, &[][..], "1 tracks; a link needs two"),
+        (&of_rates, &[], "column `vel1` is called like a velocity"),
+        (&of_degrees, &[], "may be degrees or radians; say which"),
+        (
+            &of_degrees,
+            &["--columns", "a,a", "--unit", "deg"],
+            "column `a` is named twice",
+        ),
+        (
+            &of_degrees,
+            &["--columns", "a,t", "--unit", "deg"],
+            "column `t` is the time",
+        ),
+        (&of_rates, &["--y-down"], "0 tracks; a link needs two"),
+        (
+            &of_rates,
+            &["--columns", "pos1"],
+            "angles of 1 links where the pendulum has 2",
+        ),
+    ] {
+        for program in [ANALYSE, IDENTIFY] {
+            let output = file.with_file_name("refused");
+            let tree = if program == ANALYSE {
+                "--pendulum"
+            } else {
+                "--tree"
+            };
+            let mut words = vec![file.to_str().unwrap(), tree, "chain"];
+            words.extend(["--output", output.to_str().unwrap()]);
+            words.extend(options);
+            let done = run(program, &words);
+            let error = text(&done.stderr);
+            assert_eq!(done.status.code(), Some(1), "{options:?}: {error}");
+            assert!(error.contains(expected), "{options:?}: {error}");
+        }
+    }
+    for program in [ANALYSE, IDENTIFY] {
+        for (line, expected) in [
+            (
+                "a.csv --columns a --dots a:b",
+                "angles come from one of them",
+            ),
+            ("a.csv --time t --frame-rate 60", "cannot be used with"),
+            ("a.csv --pivot 1", "X,Y, or `origin`"),
+            ("--columns a,b", "--columns is of a file of measurements"),
+        ] {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            let done = run(program, &words);
+            let error = text(&done.stderr);
+            assert_eq!(done.status.code(), Some(2), "{line}: {error}");
+            assert!(error.contains(expected), "{line}: {error}");
+        }
+    }
+}

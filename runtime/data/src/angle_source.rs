@@ -1,0 +1,55 @@
+//! Whether angles stand in columns or follow from points.
+
+use super::angles::AngleColumns;
+use super::error::{ReadError, ReadErrorKind};
+use super::header::FileKind;
+use super::markers::Markers;
+use super::names::{Meaning, quoted};
+use super::recording::Recording;
+use super::table::Table;
+
+/// Takes the angles out of a table: out of its columns or its points, of whichever `columns`
+/// or `markers` say more than the clock, the sense of angles and what is an outlier. Where
+/// neither does, points are taken if the table has them.
+///
+/// # Errors
+/// Those of [`AngleColumns::read`] and [`Markers::read`]; [`ReadErrorKind::Option`] if both
+/// say more, or if neither does and the table has angles beside points.
+pub fn read_angles(
+    table: &Table,
+    columns: &AngleColumns,
+    markers: &Markers,
+) -> Result<Recording, ReadError> {
+    let refused = |what| Err(table.refused(ReadErrorKind::Option { what }));
+    match (columns.is_asked_for(), markers.is_asked_for()) {
+        (true, true) => refused(
+            "columns of angles (their names, unit, zero) and points (their names, pivot, \
+             vertical) are asked for together; angles come from one of them"
+                .to_owned(),
+        ),
+        (true, false) => columns.read(table),
+        (false, true) => markers.read(table),
+        (false, false) if table.tracks().is_empty() => columns.read(table),
+        (false, false) => {
+            let angles = angles_beside_points(table);
+            if angles.is_empty() {
+                return markers.read(table);
+            }
+            let points: Vec<&str> = table.tracks().iter().map(|t| t.name.as_str()).collect();
+            refused(format!(
+                "columns of angles ({}) stand beside points ({}); name the ones or the others",
+                quoted(&angles),
+                quoted(&points)
+            ))
+        }
+    }
+}
+
+/// Columns that say of themselves that they are angles; those of Tracker belong to its points.
+fn angles_beside_points(table: &Table) -> Vec<&str> {
+    let all = table.columns();
+    let is_angle = |column: &&_| Meaning::of(column, all) == Meaning::Angle;
+    let angles = all.iter().filter(is_angle);
+    let angles = angles.filter(|_| table.kind() != FileKind::Tracker);
+    angles.map(|column| column.name.as_str()).collect()
+}

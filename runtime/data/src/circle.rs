@@ -1,0 +1,39 @@
+//! Columns that are coordinates whatever they are called.
+
+/// Returns the radius of the circle on which pairs of values lie, if they do and are an arc
+/// of it: a point at a constant distance from its pivot. Angles of two links make no circle,
+/// but where both swing by as much, a quarter of a period apart.
+pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
+    /// Largest deviation (rms) from a circle, of its radius.
+    const DEVIATION: f64 = 0.01;
+    /// Smallest distance from the mean that tells an arc from a line, of the radius.
+    const EXTENT: f64 = 0.3;
+    const ROWS: usize = 8;
+    let points = xs.iter().zip(ys).filter_map(|(x, y)| Some(((*x)?, (*y)?)));
+    let points: Vec<(f64, f64)> = points.collect();
+    if points.len() < ROWS {
+        return None;
+    }
+    let mean = |of: &dyn Fn(f64, f64) -> f64| {
+        points.iter().map(|&(x, y)| of(x, y)).sum::<f64>() / points.len() as f64
+    };
+    let (x0, y0) = (mean(&|x, _| x), mean(&|_, y| y));
+    // The centre by least squares in x² + y², about the mean.
+    let moment = |i, j| mean(&move |x, y| (x - x0).powi(i) * (y - y0).powi(j));
+    let (xx, xy, yy) = (moment(2, 0), moment(1, 1), moment(0, 2));
+    let right = [
+        0.5 * (moment(3, 0) + moment(1, 2)),
+        0.5 * (moment(0, 3) + moment(2, 1)),
+    ];
+    let determinant = xx * yy - xy * xy;
+    let centre = [
+        (right[0] * yy - right[1] * xy) / determinant,
+        (right[1] * xx - right[0] * xy) / determinant,
+    ];
+    let radius = (centre[0].powi(2) + centre[1].powi(2) + xx + yy).sqrt();
+    let distance = |x: f64, y: f64| (x - x0 - centre[0]).hypot(y - y0 - centre[1]);
+    let deviation = mean(&|x, y| (distance(x, y) - radius).powi(2)).sqrt();
+    let extent = points.iter().map(|&(x, y)| (x - x0).hypot(y - y0));
+    let extent = extent.fold(0.0, f64::max);
+    (deviation < DEVIATION * radius && extent > EXTENT * radius).then_some(radius)
+}
