@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::ReadError;
-use crate::arrays::{frame, matrix};
+use crate::arrays::{frame, matrix, whole};
 
 /// Measured angles of links against time, as they were read from a file.
 #[pyclass(frozen, module = "branched_pendulum.data")]
@@ -177,10 +177,10 @@ pub(crate) fn read(
     py: Python<'_>,
     path: PathBuf,
     columns: Option<Vec<String>>,
-    dots: Option<Vec<(String, String)>>,
+    dots: Option<Vec<Vec<String>>>,
     unit: Option<&str>,
     zero: Option<&str>,
-    relative_to: Option<Vec<Option<usize>>>,
+    relative_to: Option<Vec<Option<i128>>>,
     mirrored: bool,
     time: Option<String>,
     frame_rate: Option<f64>,
@@ -213,12 +213,15 @@ pub(crate) fn read(
     };
     let units = [("rad", AngleUnit::Radians), ("deg", AngleUnit::Degrees)];
     let zeros = [("down", AngleZero::Down), ("up", AngleZero::Up)];
+    let relative_to = relative_to.into_iter().flatten();
+    let relative_to =
+        relative_to.map(|link| link.map(|link| whole("relative_to", link, 0)).transpose());
     let of_columns = AngleColumns {
         clock: clock.clone(),
         columns: columns.unwrap_or_default(),
         unit: choice("unit", unit, &units)?,
         zero: choice("zero", zero, &zeros)?,
-        relative_to: relative_to.unwrap_or_default(),
+        relative_to: relative_to.collect::<PyResult<_>>()?,
         mirrored,
         outliers,
     };
@@ -232,7 +235,13 @@ pub(crate) fn read(
         (None, []) => None,
     };
     let links = dots.unwrap_or_default().into_iter();
-    let links = links.map(|(upper, lower)| LinkMarkers { upper, lower });
+    let links = links.map(|pair| match <[String; 2]>::try_from(pair) {
+        Ok([upper, lower]) => Ok(LinkMarkers { upper, lower }),
+        Err(pair) => Err(PyValueError::new_err(format!(
+            "dots must have a pair of names for each link, got {}",
+            pair.len()
+        ))),
+    });
     let gravity = match gravity {
         None => Gravity::Axis,
         Some(Plumb::Direction(direction)) => Gravity::Along(direction),
@@ -243,7 +252,7 @@ pub(crate) fn read(
     };
     let of_dots = Markers {
         clock,
-        links: links.collect(),
+        links: links.collect::<PyResult<_>>()?,
         gravity,
         y_down,
         mirrored,
