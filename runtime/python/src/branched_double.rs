@@ -7,7 +7,7 @@ use branched_pendulum::{Transfer, TransferForms};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{AnyShape, Table, by_state};
+use crate::arrays::{Numbers, Table, by_state};
 use crate::motions::Model;
 use crate::pendulum::Pendulum;
 use crate::smoothing::Coordinates;
@@ -136,7 +136,7 @@ impl BranchedDouble {
     /// Returns symmetric coordinates (rad) and their momenta (kg m²/s) of each state of an
     /// array whose last axis is that of the components: θ of the parent, mean and half the
     /// difference of the children, then p of each.
-    fn canonical_variables<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn canonical_variables<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [[a, b, c], [p, q, r]] = self.canonical(state);
             [a, b, c, p, q, r]
@@ -144,7 +144,7 @@ impl BranchedDouble {
     }
 
     /// Returns the energy H_d (J) of the antiphase mode of each state.
-    fn antiphase_energy<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn antiphase_energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [coordinates, momenta] = self.canonical(state);
             [self.model.antiphase_energy(&coordinates, &momenta)]
@@ -154,7 +154,7 @@ impl BranchedDouble {
     /// Returns the energy transfer W (W) into the antiphase mode of each state, by one of the
     /// `FORMS`: "angle order 1" is the published one, "exact" leaves nothing out.
     #[pyo3(signature = (y, form = "exact"))]
-    fn transfer<'py>(&self, py: Python<'py>, y: AnyShape<'py>, form: &str) -> PyResult<Table<'py>> {
+    fn transfer<'py>(&self, py: Python<'py>, y: Numbers<'py>, form: &str) -> PyResult<Table<'py>> {
         let form = self::form(form)?;
         by_state(py, &y, 2 * LINKS, |state| {
             [self.transfer_by(form, state).total()]
@@ -167,7 +167,7 @@ impl BranchedDouble {
     fn transfer_parts<'py>(
         &self,
         py: Python<'py>,
-        y: AnyShape<'py>,
+        y: Numbers<'py>,
         form: &str,
     ) -> PyResult<Table<'py>> {
         let form = self::form(form)?;

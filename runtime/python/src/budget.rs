@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::AnyShape;
+use crate::arrays::{Numbers, axes_of_states};
 
 /// Energies by scale, and what changes them: dE/dt of a scale is what it receives from the
 /// others and the powers on it. Scale 0 is what all copies do together, scale s what those of
@@ -44,7 +44,7 @@ impl ScaleBudget {
     pub(crate) fn of(
         py: Python<'_>,
         tree: &PendulumTree,
-        states: &AnyShape<'_>,
+        states: &Numbers<'_>,
         times: &[f64],
     ) -> PyResult<Self> {
         let links = tree.links();
@@ -59,15 +59,11 @@ impl ScaleBudget {
             );
             return Err(PyValueError::new_err(text));
         }
-        let mut shape = states.shape().to_vec();
-        if shape.pop() != Some(2 * links) {
-            let text = format!("the last axis of y must have {} numbers", 2 * links);
-            return Err(PyValueError::new_err(text));
-        }
-        let numbers: Vec<f64> = states.as_array().iter().copied().collect();
+        let shape = axes_of_states(states, 2 * links)?;
+        let numbers = states.to_vec();
         let count = numbers.len() / (2 * links).max(1);
         if times.len() != 1 && times.len() != count {
-            let text = format!("{} times for {count} states", times.len());
+            let text = format!("t has {} times for {count} states in y", times.len());
             return Err(PyValueError::new_err(text));
         }
         let budgets = py.detach(|| {

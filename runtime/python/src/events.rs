@@ -8,35 +8,66 @@ use branched_pendulum::integrate::{
 };
 use branched_pendulum::system::State;
 use numpy::PyArray1;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::arrays::Number;
+use crate::failures::failed;
 use crate::motions::Motions;
-use crate::pendulum::failed;
 
 /// A function of Python whose zeros are looked for, as SciPy's: with `terminal` and
 /// `direction` as attributes.
 pub(crate) struct Watched<'py> {
+    name: String,
     function: Bound<'py, PyAny>,
     crossing: Crossing,
-    terminal: bool,
+    /// Number of the occurrence at which the motion ends; 0 for none.
+    terminal: u32,
 }
 
 impl<'py> Watched<'py> {
-    pub(crate) fn of(function: Bound<'py, PyAny>) -> PyResult<Self> {
-        let direction = match function.getattr_opt("direction")? {
-            Some(direction) => direction.extract::<f64>()?,
-            None => 0.0,
+    /// Those of one function, or of several in a list.
+    pub(crate) fn all(events: &Bound<'py, PyAny>) -> PyResult<Vec<Self>> {
+        if events.is_callable() {
+            return Ok(vec![Self::of("events".to_owned(), events.clone())?]);
+        }
+        let Ok(several) = events.try_iter() else {
+            let text = format!("events must be a function f(t, y) or a list of them, got {events}");
+            return Err(PyTypeError::new_err(text));
         };
-        let terminal = match function.getattr_opt("terminal")? {
-            Some(terminal) => terminal.is_truthy()?,
-            None => false,
+        let several = several.enumerate();
+        several
+            .map(|(index, function)| Self::of(format!("events[{index}]"), function?))
+            .collect()
+    }
+
+    fn of(name: String, function: Bound<'py, PyAny>) -> PyResult<Self> {
+        if !function.is_callable() {
+            let text = format!("{name} must be a function f(t, y), got {function}");
+            return Err(PyTypeError::new_err(text));
+        }
+        let attribute = |word: &str| -> PyResult<f64> {
+            match function.getattr_opt(word)? {
+                Some(value) if !value.is_none() => Ok(value.extract::<Number>()?.0),
+                _ => Ok(0.0),
+            }
         };
+        let (direction, terminal) = (attribute("direction")?, attribute("terminal")?);
+        if !(terminal >= 0.0 && terminal.fract() == 0.0) {
+            let text = format!(
+                "{name}.terminal must be True, False or a positive integer, got {terminal}"
+            );
+            return Err(PyValueError::new_err(text));
+        }
+        // More than a run can have end none.
+        let terminal = terminal as u32;
         let crossing = match direction {
             up if up > 0.0 => Crossing::Rising,
             down if down < 0.0 => Crossing::Falling,
             _ => Crossing::Either,
         };
         Ok(Self {
+            name,
             function,
             crossing,
             terminal,
@@ -45,7 +76,12 @@ impl<'py> Watched<'py> {
 
     fn value(&self, time: f64, state: &[f64]) -> PyResult<f64> {
         let state = PyArray1::from_slice(self.function.py(), state);
-        self.function.call1((time, state))?.extract()
+        let value = self.function.call1((time, state))?.extract::<Number>();
+        let value = value.map_err(|error| {
+            let reason = error.value(self.function.py());
+            PyTypeError::new_err(format!("the value of {}: {reason}", self.name))
+        });
+        Ok(value?.0)
     }
 }
 
@@ -86,7 +122,9 @@ pub(crate) fn find_events(
     let functions: Vec<_> = functions.collect();
     let events = functions.iter().zip(watched);
     let events: Vec<Event<'_, f64>> = events
-        .map(|(function, watched)| Event::new(watched.crossing, function))
+        .map(|(function, watched)| {
+            Event::new(watched.crossing, function).with_terminal(watched.terminal)
+        })
         .collect();
     let mut crossings = vec![(Vec::new(), Vec::new()); watched.len()];
     let mut visit = |occurrence: Occurrence<'_, f64>| {
@@ -94,13 +132,7 @@ pub(crate) fn find_events(
             times.push(occurrence.time);
             states.extend_from_slice(occurrence.state);
         }
-        match watched
-            .get(occurrence.event)
-            .is_some_and(|event| event.terminal)
-        {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        ControlFlow::Continue(())
     };
     let run = motions.events(method, start, end, &events, &mut visit);
     if let Some(error) = error.take() {

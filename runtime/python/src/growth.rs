@@ -8,6 +8,7 @@ use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::matrix;
+use crate::failures::Failures;
 use crate::motions::Motions;
 
 /// Growth of a small difference along motions, a row or a number for each of them. NaN where a
@@ -59,15 +60,19 @@ impl GrowthTask {
         self,
         py: Python<'_>,
         motions: &dyn Motions,
-        (one, other): (String, String),
+        pair: &[String],
         ensemble: &Ensemble<'_>,
     ) -> PyResult<Growth> {
+        let [one, other] = pair else {
+            let text = format!("pair must be two names of links, got {}", pair.len());
+            return Err(PyValueError::new_err(text));
+        };
         let names = motions.names();
         let place = |name: &String| {
             let found = names.iter().position(|own| own == name);
             found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
         };
-        let copies = motions.copies([place(&one)?, place(&other)?], &self.starts);
+        let copies = motions.copies([place(one)?, place(other)?], &self.starts);
         let Some(copies) = copies else {
             let text = format!("`{one}` and `{other}` are no copies that start alike");
             return Err(PyValueError::new_err(text));
@@ -77,16 +82,20 @@ impl GrowthTask {
                 motions.growth(&self, &copies, start)
             })
         });
-        let grown = grown.into_iter().map(|grown| match grown {
-            Ok(grown) => Ok(Some(grown)),
-            Err(GrowthError::Integration(_)) => Ok(None),
-            Err(error) => Err(PyValueError::new_err(error.to_string())),
-        });
-        Growth::of(
-            py,
-            self.horizons.clone(),
-            &grown.collect::<PyResult<Vec<_>>>()?,
-        )
+        let mut failures = Failures::default();
+        let mut all = Vec::with_capacity(grown.len());
+        for (place, grown) in grown.into_iter().enumerate() {
+            all.push(match grown {
+                Ok(grown) => Some(grown),
+                Err(GrowthError::Integration(failure)) => {
+                    failures.note(place, &failure)?;
+                    None
+                }
+                Err(error) => return Err(PyValueError::new_err(error.to_string())),
+            });
+        }
+        failures.warn(py, all.len())?;
+        Growth::of(py, self.horizons.clone(), &all)
     }
 }
 

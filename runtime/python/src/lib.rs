@@ -4,6 +4,7 @@ mod arrays;
 mod branched_double;
 mod budget;
 mod events;
+mod failures;
 mod growth;
 mod motions;
 mod pendulum;
@@ -13,9 +14,9 @@ mod solution;
 mod spectrum;
 mod tree;
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyRuntimeWarning, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyDict, PyList};
 
 pyo3::create_exception!(
     branched_pendulum,
@@ -29,6 +30,13 @@ pyo3::create_exception!(
     IntegrationError,
     PyRuntimeError,
     "A motion that could not be followed to its end."
+);
+pyo3::create_exception!(
+    branched_pendulum,
+    FailedMotions,
+    PyRuntimeWarning,
+    "Some of many motions could not be followed: `reasons` has the reason of each, by the index \
+     of its start."
 );
 
 pyo3::create_exception!(
@@ -47,6 +55,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     description_error.setattr("mistakes", PyList::empty(py))?;
     module.add("DescriptionError", description_error)?;
     module.add("IntegrationError", py.get_type::<IntegrationError>())?;
+    module.add("RequestError", failures::request_error(py)?)?;
+    let failed_motions = py.get_type::<FailedMotions>();
+    failed_motions.setattr("reasons", PyDict::new(py))?;
+    module.add("FailedMotions", failed_motions)?;
     let read_error = py.get_type::<ReadError>();
     for place in ["file", "line", "column", "name"] {
         read_error.setattr(place, py.None())?;

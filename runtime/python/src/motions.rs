@@ -12,7 +12,7 @@ use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
-    Report, Rk4, Solution, Trajectory,
+    Report, Rk4, RunError, Solution, Trajectory,
 };
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::{CastOde, LaneOde, Ode, RatesOnly, State};
@@ -60,13 +60,13 @@ pub(crate) trait Motions: Send + Sync {
         times: &[f64],
     ) -> Result<(Vec<f64>, Report<f64>), IntegrationError<f64>>;
 
-    /// All steps; the error is a message.
+    /// All steps.
     fn trajectory(
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
         end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), String>;
+    ) -> Result<(Trajectory<f64>, Report<f64>), RunError<f64, DenseError<f64>>>;
 
     fn events(
         &self,
@@ -219,14 +219,13 @@ impl<M: Model> Motions for M {
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
         end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), String> {
+    ) -> Result<(Trajectory<f64>, Report<f64>), RunError<f64, DenseError<f64>>> {
         let mut trajectory = Trajectory::new(start.clone());
         let run = method.try_integrate(&RatesOnly(self), start, end, |step| {
             trajectory.push(step)?;
             Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
         });
-        let solution = run.map_err(|error| error.to_string())?;
-        Ok((trajectory, solution.report))
+        Ok((trajectory, run?.report))
     }
 
     fn events(

@@ -5,15 +5,18 @@ use std::sync::Arc;
 
 use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
+use branched_pendulum::integrate::{
+    AnyIntegrator, DenseError, Method, Options, RunError, Tolerance,
+};
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::IntegrationError;
-use crate::arrays::{AnyShape, Row, Table, Values, by_state, matrix, numbers};
+use crate::arrays::{Numbers, Row, Table, by_state, matrix, whole};
 use crate::events::{FoundEvents, Watched, find_events};
+use crate::failures::{Failures, failed};
 use crate::growth::{Growth, GrowthTask};
 use crate::motions::Motions;
 use crate::smoothing::{SmoothedMotion, Smoother, refused, rows};
@@ -28,16 +31,13 @@ pub(crate) struct Pendulum {
     pub(crate) motions: Arc<dyn Motions>,
 }
 
-pub(crate) fn failed(error: impl std::fmt::Display) -> PyErr {
-    IntegrationError::new_err(error.to_string())
-}
-
 /// A method by its name, with its tolerances or its step.
 struct Choice<'a> {
     name: &'a str,
     rtol: f64,
     atol: Option<f64>,
     step: Option<f64>,
+    max_steps: i128,
 }
 
 impl Choice<'_> {
@@ -50,24 +50,30 @@ impl Choice<'_> {
             let text = format!("`{method}` goes by steps of one length: give step=...");
             return Err(PyValueError::new_err(text));
         }
-        Ok(method.with_options(self.options()))
-    }
-
-    fn options(&self) -> Options<f64> {
         let mut options = Options::with_tolerance(self.rtol);
         if let Some(atol) = self.atol {
             options.absolute = Tolerance::Uniform(atol);
         }
         options.initial_step = self.step;
-        options
+        options.step_limit = whole("max_steps", self.max_steps, 1)?;
+        Ok(method.with_options(options))
     }
 }
 
 /// An ensemble on all cores, or on as many threads as are given.
-fn ensemble(threads: Option<NonZeroUsize>) -> Ensemble<'static> {
-    match threads {
-        Some(threads) => Ensemble::new().threads(threads),
-        None => Ensemble::new(),
+fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
+    let Some(threads) = threads else {
+        return Ok(Ensemble::new());
+    };
+    let threads = NonZeroUsize::new(whole("threads", threads, 1)?);
+    Ok(Ensemble::new().threads(threads.unwrap_or(NonZeroUsize::MIN)))
+}
+
+/// A trajectory's failure.
+fn unfinished(error: RunError<f64, DenseError<f64>>) -> PyErr {
+    match error {
+        RunError::Integration(error) => failed(error),
+        error => IntegrationError::new_err(error.to_string()),
     }
 }
 
@@ -85,8 +91,8 @@ impl Pendulum {
 
     /// Returns the rates of the state `y` at the time `t` (s), as `scipy.integrate.solve_ivp`
     /// asks for them: angular velocities (rad/s), angular accelerations (rad/s²).
-    fn rhs<'py>(&self, py: Python<'py>, t: f64, y: Values<'py>) -> PyResult<Row<'py>> {
-        let state = numbers("y", &y, self.motions.dimension())?;
+    fn rhs<'py>(&self, py: Python<'py>, t: f64, y: Numbers<'py>) -> PyResult<Row<'py>> {
+        let state = y.row("y", self.motions.dimension())?;
         let mut rates = vec![0.0; state.len()];
         self.motions.rates(t, &state, &mut rates);
         Ok(rates.into_pyarray(py))
@@ -94,7 +100,7 @@ impl Pendulum {
 
     /// Returns the energy (J) of a state, or of each state of an array of any shape whose last
     /// axis is that of the components.
-    fn energy<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
         let motions = &self.motions;
         by_state(py, &y, motions.dimension(), |state| [motions.energy(state)])
     }
@@ -106,39 +112,46 @@ impl Pendulum {
     /// is tried; "rk4", "gauss2" to "gauss8" and "animation" go by steps of the length `step`
     /// (s). With `dense_output=True` the solution has its state at any time: `solution(t)`.
     ///
-    /// `events` are functions `f(t, y)` whose zeros are found, as SciPy's are: with
-    /// `f.terminal = True` the motion ends at the first, `f.direction` above or below zero
-    /// counts rising or falling ones alone. Without events other threads of Python run
-    /// meanwhile.
-    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false))]
+    /// `events` is a function `f(t, y)` whose zeros are found, or a list of several, as SciPy's
+    /// are: with `f.terminal = True` the motion ends at the first, with `f.terminal = n` at the
+    /// n-th, `f.direction` above or below zero counts rising or falling ones alone. All events
+    /// at the time of the last one are told, so that a motion from there tells none again and
+    /// misses none. Without events other threads of Python run meanwhile.
+    ///
+    /// A motion of more than `max_steps` steps raises `IntegrationError`.
+    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false, max_steps = 1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn integrate<'py>(
         &self,
         py: Python<'py>,
-        y0: Values<'py>,
-        t: Values<'py>,
+        y0: Numbers<'py>,
+        t: Numbers<'py>,
         method: &str,
         rtol: f64,
         atol: Option<f64>,
         step: Option<f64>,
-        events: Option<Vec<Bound<'py, PyAny>>>,
+        events: Option<Bound<'py, PyAny>>,
         dense_output: bool,
+        max_steps: i128,
     ) -> PyResult<Solution> {
         let choice = Choice {
             name: method,
             rtol,
             atol,
             step,
+            max_steps,
         };
         let method = choice.method()?;
-        let mut times = t.as_array().to_vec();
+        let mut times = t.list("t")?;
         let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
             return Err(PyValueError::new_err("t has no times"));
         };
         let dimension = self.motions.dimension();
-        let start = State::new(first, numbers("y0", &y0, dimension)?);
-        let watched = events.unwrap_or_default().into_iter().map(Watched::of);
-        let watched = watched.collect::<PyResult<Vec<_>>>()?;
+        let start = State::new(first, y0.row("y0", dimension)?);
+        let watched = match events {
+            Some(events) => Watched::all(&events)?,
+            None => Vec::new(),
+        };
         let found = match watched.is_empty() {
             true => None,
             false => Some(find_events(
@@ -163,10 +176,13 @@ impl Pendulum {
             }
             true => {
                 let kept = motions.trajectory(&method, &start, end);
-                let (trajectory, report) = kept.map_err(failed)?;
+                let (trajectory, report) = kept.map_err(unfinished)?;
                 let mut states = Vec::with_capacity(times.len() * dimension);
                 for &time in &times {
-                    states.extend(trajectory.at(time).map_err(failed)?);
+                    let state = trajectory.at(time);
+                    states.extend(
+                        state.map_err(|error| IntegrationError::new_err(error.to_string()))?,
+                    );
                 }
                 Ok((states, report, Some(trajectory)))
             }
@@ -195,38 +211,52 @@ impl Pendulum {
     /// as many threads as are given: states by start, time and component, NaN from where a
     /// motion could not be followed. Methods are "dop853", "dopri5" and "verner98". Other
     /// threads of Python run meanwhile.
-    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None))]
+    ///
+    /// Motions that fail, for example by more than `max_steps` steps, are told by one warning,
+    /// `FailedMotions`: its `reasons` has the reason of each by the index of its start. To have
+    /// them, `warnings.simplefilter("error", FailedMotions)` makes an exception of it, and
+    /// `warnings.catch_warnings(record=True)` keeps it beside the states.
+    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None, max_steps = 1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
         py: Python<'py>,
-        starts: AnyShape<'py>,
-        t: Values<'py>,
+        starts: Numbers<'py>,
+        t: Numbers<'py>,
         method: &str,
         rtol: f64,
         atol: Option<f64>,
-        threads: Option<NonZeroUsize>,
+        threads: Option<i128>,
+        max_steps: i128,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let choice = Choice {
             name: method,
             rtol,
             atol,
             step: None,
+            max_steps,
         };
         let chosen = choice.method()?;
-        let times = t.as_array().to_vec();
+        let times = t.list("t")?;
         let Some(&first) = times.first() else {
             return Err(PyValueError::new_err("t has no times"));
         };
         let dimension = self.motions.dimension();
         let starts = self.starts(&starts, first)?;
-        let ensemble = ensemble(threads);
+        let ensemble = ensemble(threads)?;
         let samples = py.detach(|| self.motions.ensemble(&chosen, &ensemble, &starts, &times));
         let Some(samples) = samples else {
             return Err(PyValueError::new_err(format!(
                 "ensembles go by `dop853`, `dopri5` or `verner98`, not by `{method}`"
             )));
         };
+        let mut failures = Failures::default();
+        for (place, sample) in samples.iter().enumerate() {
+            if let Err(failure) = &sample.end {
+                failures.note(place, failure)?;
+            }
+        }
+        failures.warn(py, samples.len())?;
         let length = dimension * times.len();
         let mut values = Vec::with_capacity(length * samples.len());
         for sample in &samples {
@@ -248,20 +278,20 @@ impl Pendulum {
     fn lyapunov<'py>(
         &self,
         py: Python<'py>,
-        y0: Values<'py>,
-        count: usize,
+        y0: Numbers<'py>,
+        count: i128,
         interval: f64,
-        settling: u32,
-        intervals: u32,
+        settling: i128,
+        intervals: i128,
         t0: f64,
         rtol: f64,
     ) -> PyResult<(Row<'py>, Row<'py>)> {
-        let start = State::new(t0, numbers("y0", &y0, self.motions.dimension())?);
+        let start = State::new(t0, y0.row("y0", self.motions.dimension())?);
         let exponents = Lyapunov {
-            count,
+            count: whole("count", count, 1)?,
             interval,
-            settling,
-            intervals,
+            settling: whole("settling", settling, 0)?,
+            intervals: whole("intervals", intervals, 1)?,
         };
         let options = Options::with_tolerance(rtol);
         let spectrum = py.detach(|| self.motions.lyapunov(&exponents, options, &start));
@@ -269,7 +299,8 @@ impl Pendulum {
             LyapunovError::Count { .. } | LyapunovError::Interval { .. } => {
                 PyValueError::new_err(error.to_string())
             }
-            _ => failed(error),
+            LyapunovError::Integration(failure) => failed(failure),
+            error => IntegrationError::new_err(error.to_string()),
         })?;
         let [exponents, errors] = [spectrum.exponents, spectrum.standard_errors];
         Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
@@ -283,26 +314,27 @@ impl Pendulum {
     /// Growth is looked at 32 times a period of `frequency` (Hz), by default that of the
     /// difference beside all links hanging at rest. The tolerance `rtol` is used with a
     /// hundredth of it besides, whose result is returned. All cores are used, or as many
-    /// threads as are given; other threads of Python run meanwhile.
+    /// threads as are given; other threads of Python run meanwhile. Motions that could not be
+    /// followed are NaN, and told by the warning `FailedMotions`, as those of `ensemble`.
     #[pyo3(signature = (starts, pair, horizons, frequency = None, rtol = 1e-9, threads = None))]
     #[allow(clippy::too_many_arguments)]
     fn growth(
         &self,
         py: Python<'_>,
-        starts: AnyShape<'_>,
-        pair: (String, String),
-        horizons: Values<'_>,
+        starts: Numbers<'_>,
+        pair: Vec<String>,
+        horizons: Numbers<'_>,
         frequency: Option<f64>,
         rtol: f64,
-        threads: Option<NonZeroUsize>,
+        threads: Option<i128>,
     ) -> PyResult<Growth> {
         let task = GrowthTask {
             starts: self.starts(&starts, 0.0)?,
-            horizons: horizons.as_array().to_vec(),
+            horizons: horizons.list("horizons")?,
             frequency_hz: frequency,
             tolerance: rtol,
         };
-        task.grown(py, &*self.motions, pair, &ensemble(threads))
+        task.grown(py, &*self.motions, &pair, &ensemble(threads)?)
     }
 
     /// Returns the motion behind measured angles `theta` (rad from the downward vertical, a
@@ -318,13 +350,13 @@ impl Pendulum {
     fn smooth(
         &self,
         py: Python<'_>,
-        t: Values<'_>,
-        theta: AnyShape<'_>,
+        t: Numbers<'_>,
+        theta: Numbers<'_>,
         method: &str,
         noise: Option<f64>,
         friction: bool,
     ) -> PyResult<SmoothedMotion> {
-        let (times, angles) = (t.as_array().to_vec(), rows("theta", &theta)?);
+        let (times, angles) = (t.list("t")?, rows("theta", &theta, t.shape())?);
         let names = self.motions.names();
         let columns = angles.first().map_or(0, Vec::len);
         if columns != names.len() {
@@ -356,20 +388,8 @@ impl Pendulum {
 
 impl Pendulum {
     /// States at a time, from the rows of an array.
-    fn starts(&self, starts: &AnyShape<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
-        let dimension = self.motions.dimension();
-        let starts = starts.as_array();
-        let [_, columns] = starts.shape() else {
-            return Err(PyValueError::new_err(
-                "starts must have two axes: starts, components",
-            ));
-        };
-        if *columns != dimension {
-            return Err(PyValueError::new_err(format!(
-                "a start has {columns} numbers, must have {dimension}"
-            )));
-        }
-        let rows = starts.rows().into_iter();
-        Ok(rows.map(|row| State::new(time, row.to_vec())).collect())
+    fn starts(&self, starts: &Numbers<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
+        let rows = starts.rows("starts", self.motions.dimension())?;
+        Ok(rows.into_iter().map(|row| State::new(time, row)).collect())
     }
 }

@@ -13,7 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::ReadError;
-use crate::arrays::{frame, matrix};
+use crate::arrays::{frame, matrix, whole};
 
 /// Measured angles of links against time, as they were read from a file.
 #[pyclass(frozen, module = "branched_pendulum.data")]
@@ -190,10 +190,10 @@ pub(crate) fn read(
     py: Python<'_>,
     path: PathBuf,
     columns: Option<Vec<String>>,
-    dots: Option<Vec<(String, String)>>,
+    dots: Option<Vec<Vec<String>>>,
     unit: Option<&str>,
     zero: Option<&str>,
-    relative_to: Option<Vec<Option<usize>>>,
+    relative_to: Option<Vec<Option<i128>>>,
     mirrored: bool,
     time: Option<String>,
     frame_rate: Option<f64>,
@@ -229,12 +229,15 @@ pub(crate) fn read(
     let counts = [("first", Repeated::First), ("last", Repeated::Last)];
     let counts = choice("drop_repeated", drop_repeated, &counts)?;
     let zeros = [("down", AngleZero::Down), ("up", AngleZero::Up)];
+    let relative_to = relative_to.into_iter().flatten();
+    let relative_to =
+        relative_to.map(|link| link.map(|link| whole("relative_to", link, 0)).transpose());
     let of_columns = AngleColumns {
         clock: clock.clone(),
         columns: columns.unwrap_or_default(),
         unit: choice("unit", unit, &AngleUnit::ALL)?,
         zero: choice("zero", zero, &zeros)?,
-        relative_to: relative_to.unwrap_or_default(),
+        relative_to: relative_to.collect::<PyResult<_>>()?,
         mirrored,
         outliers,
     };
@@ -248,7 +251,13 @@ pub(crate) fn read(
         Some(Pivot::Word(word)) => choice("pivot", Some(&word), &[("origin", [0.0; 2])])?,
     };
     let links = dots.unwrap_or_default().into_iter();
-    let links = links.map(|(upper, lower)| LinkMarkers { upper, lower });
+    let links = links.map(|pair| match <[String; 2]>::try_from(pair) {
+        Ok([upper, lower]) => Ok(LinkMarkers { upper, lower }),
+        Err(pair) => Err(PyValueError::new_err(format!(
+            "dots must have a pair of names for each link, got {}",
+            pair.len()
+        ))),
+    });
     let gravity = match gravity {
         None => Gravity::Axis,
         Some(Plumb::Direction(direction)) => Gravity::Along(direction),
@@ -259,7 +268,7 @@ pub(crate) fn read(
     };
     let of_dots = Markers {
         clock: clock.clone(),
-        links: links.collect(),
+        links: links.collect::<PyResult<_>>()?,
         pivot,
         gravity,
         y_down,

@@ -7,13 +7,13 @@ use branched_pendulum::analysis::{
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods,
 };
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use crate::arrays::{AnyShape, Table, Values, frame, matrix, state_names};
+use crate::arrays::{Numbers, Table, frame, matrix, shown, state_names, whole};
 
 /// Draws a motion by normal numbers: states, one after the other.
 pub(crate) type Draw = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<f64> + Send + Sync;
@@ -168,21 +168,26 @@ impl Smoother {
 }
 
 /// Data of several columns, a row a time; NaN is missing.
-pub(crate) fn rows(name: &str, array: &AnyShape<'_>) -> PyResult<Vec<Vec<Option<f64>>>> {
-    let view = array.as_array();
+pub(crate) fn rows(
+    name: &str,
+    array: &Numbers<'_>,
+    times: &[usize],
+) -> PyResult<Vec<Vec<Option<f64>>>> {
+    let columns = match array.shape() {
+        [rows] if [*rows] == times => 1,
+        [rows, columns] if [*rows] == times => *columns,
+        shape => {
+            let (shape, times) = (shown(shape), shown(times));
+            return Err(PyValueError::new_err(format!(
+                "{name} must have a row for each time, a column for each coordinate: its shape \
+                 is {shape}, that of t is {times}"
+            )));
+        }
+    };
     let datum = |value: &f64| Some(*value).filter(|value| !value.is_nan());
-    match array.ndim() {
-        1 => Ok(view.iter().map(|value| vec![datum(value)]).collect()),
-        2 => Ok(view
-            .rows()
-            .into_iter()
-            .map(|row| row.iter().map(datum).collect())
-            .collect()),
-        _ => Err(PyValueError::new_err(format!(
-            "{name} must have a row for each time, a column for each coordinate: its shape is {:?}",
-            array.shape()
-        ))),
-    }
+    let numbers = array.to_vec();
+    let rows = numbers.chunks(columns.max(1));
+    Ok(rows.map(|row| row.iter().map(datum).collect()).collect())
 }
 
 pub(crate) fn refused(error: SmoothingError) -> PyErr {
@@ -270,9 +275,10 @@ impl SmoothedMotion {
     fn draws<'py>(
         &self,
         py: Python<'py>,
-        count: usize,
-        seed: u64,
+        count: i128,
+        seed: i128,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let (count, seed) = (whole("count", count, 0)?, whole("seed", seed, 0)?);
         let values = py.detach(|| {
             let mut normal = Self::normal(seed);
             let draws = (0..count).flat_map(|_| (self.draw)(&mut normal));
@@ -293,19 +299,23 @@ impl SmoothedMotion {
         &self,
         py: Python<'py>,
         function: Bound<'py, PyAny>,
-        count: usize,
-        seed: u64,
+        count: i128,
+        seed: i128,
     ) -> PyResult<(Table<'py>, Table<'py>)> {
-        let mut normal = Self::normal(seed);
+        let count: usize = whole("count", count, 2)?;
+        let mut normal = Self::normal(whole("seed", seed, 0)?);
         let (mut shape, mut means, mut squares) = (Vec::new(), Vec::new(), Vec::new());
-        for number in 1..=count.max(2) {
+        for number in 1..=count {
             let states = py.detach(|| (self.draw)(&mut normal));
             let states = matrix(py, states, 2 * self.names.len())?;
             let values = function.call1((states,))?;
-            let values: AnyShape<'py> = values.extract()?;
+            let values = values.extract::<Numbers<'py>>().map_err(|error| {
+                let reason = error.value(py);
+                PyTypeError::new_err(format!("the value of function: {reason}"))
+            })?;
             if number == 1 {
                 shape = values.shape().to_vec();
-                means = vec![0.0; values.len()];
+                means = vec![0.0; shape.iter().product()];
                 squares = means.clone();
             } else if shape != values.shape() {
                 let text = "the function returns arrays of different shapes for different motions";
@@ -313,13 +323,13 @@ impl SmoothedMotion {
             }
             // Welford's update.
             let places = means.iter_mut().zip(&mut squares);
-            for ((mean, square), value) in places.zip(values.as_array()) {
+            for ((mean, square), value) in places.zip(values.to_vec()) {
                 let change = value - *mean;
                 *mean += change / number as f64;
                 *square += change * (value - *mean);
             }
         }
-        let last = count.max(2) as f64 - 1.0;
+        let last = count as f64 - 1.0;
         let deviations: Vec<f64> = squares
             .iter()
             .map(|square| (square / last).sqrt())
@@ -353,12 +363,12 @@ impl SmoothedMotion {
 #[pyo3(signature = (t, x, method = "kinematic", noise = None))]
 pub(crate) fn smooth(
     py: Python<'_>,
-    t: Values<'_>,
-    x: AnyShape<'_>,
+    t: Numbers<'_>,
+    x: Numbers<'_>,
     method: &str,
     noise: Option<f64>,
 ) -> PyResult<SmoothedMotion> {
-    let (times, data) = (t.as_array().to_vec(), rows("x", &x)?);
+    let (times, data) = (t.list("t")?, rows("x", &x, t.shape())?);
     let smoother = Smoother::of(method, noise).ok_or_else(|| {
         PyValueError::new_err(format!(
             "method is {method:?}, must be \"kinematic\" or \"polynomials\""

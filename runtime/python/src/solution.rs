@@ -1,11 +1,11 @@
 //! A motion that was followed.
 
 use branched_pendulum::integrate::{Report, Trajectory};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{AnyShape, Table, frame, state_names};
+use crate::arrays::{Numbers, Table, frame, state_names};
 
 /// A motion at the times asked for, and between them where it was asked for with
 /// `dense_output=True`: `solution(t)`.
@@ -50,7 +50,7 @@ impl Solution {
 
     /// Returns the state at a time (s), or a state for each time of an array, its components
     /// along the last axis: the dense output of the method, as exact as the states in `y`.
-    fn __call__<'py>(&self, py: Python<'py>, t: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn __call__<'py>(&self, py: Python<'py>, t: Numbers<'py>) -> PyResult<Table<'py>> {
         let Some(trajectory) = &self.trajectory else {
             let text = "no dense output was asked for: integrate(..., dense_output=True)";
             return Err(PyValueError::new_err(text));
@@ -59,7 +59,7 @@ impl Solution {
         let mut shape = t.shape().to_vec();
         shape.push(dimension);
         let mut values = Vec::new();
-        for &time in t.as_array() {
+        for time in t.to_vec() {
             let state = trajectory.at(time);
             values.extend(state.map_err(|error| PyValueError::new_err(error.to_string()))?);
         }

@@ -3,22 +3,22 @@
 use branched_pendulum::analysis::{
     LineSearch, Lines as Found, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window,
 };
-use numpy::{IntoPyArray, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{AnyShape, Row, Table, Values};
+use crate::arrays::{Numbers, Row, Table, whole};
 
 fn refused(error: SpectrumError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-fn window(power: u8) -> Window {
-    match power {
+fn window(power: i128) -> PyResult<Window> {
+    Ok(match whole("window", power, 0)? {
         0 => Window::Rectangular,
         power => Window::HannPower(power),
-    }
+    })
 }
 
 /// Returns frequencies (Hz) and amplitudes, in the unit of `x`, of samples taken `sample_rate`
@@ -30,17 +30,18 @@ fn window(power: u8) -> Window {
 #[pyo3(signature = (x, sample_rate, frequencies = None, window = 1, remove_mean = true))]
 pub(crate) fn spectrum<'py>(
     py: Python<'py>,
-    x: Values<'py>,
+    x: Numbers<'py>,
     sample_rate: f64,
-    frequencies: Option<Values<'py>>,
-    window: u8,
+    frequencies: Option<Numbers<'py>>,
+    window: i128,
     remove_mean: bool,
 ) -> PyResult<(Row<'py>, Row<'py>)> {
-    let samples = x.as_array().to_vec();
-    let frequencies = frequencies.map(|frequencies| frequencies.as_array().to_vec());
+    let samples = x.list("x")?;
+    let frequencies = frequencies.map(|frequencies| frequencies.list("frequencies"));
+    let frequencies = frequencies.transpose()?;
     let options = SpectrumOptions {
         remove_mean,
-        window: self::window(window),
+        window: self::window(window)?,
     };
     let found = py.detach(|| match frequencies {
         None => Spectrum::at_fourier_frequencies(&samples, sample_rate, options),
@@ -122,9 +123,9 @@ impl Lines {
     }
 
     /// Returns the sum of mean and lines at times (s) from the first sample.
-    fn __call__<'py>(&self, py: Python<'py>, t: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn __call__<'py>(&self, py: Python<'py>, t: Numbers<'py>) -> PyResult<Table<'py>> {
         let shape = t.shape().to_vec();
-        let times = t.as_array();
+        let times = t.to_vec();
         let values = times.iter().map(|time| self.found.value(*time));
         values.collect::<Vec<f64>>().into_pyarray(py).reshape(shape)
     }
@@ -136,12 +137,13 @@ impl Lines {
     fn named(
         &self,
         fundamentals: &Bound<'_, PyDict>,
-        order: u32,
+        order: i128,
         tolerance: f64,
     ) -> PyResult<Vec<Option<String>>> {
         let fundamentals = fundamentals.items().extract::<Vec<(String, f64)>>()?;
         let (names, frequencies): (Vec<String>, Vec<f64>) = fundamentals.into_iter().unzip();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let order = whole("order", order, 1)?;
         let tones = self.found.named(&frequencies, order, tolerance).into_iter();
         Ok(tones.map(|tone| Some(tone?.named(&names))).collect())
     }
@@ -163,16 +165,16 @@ impl Lines {
 #[pyo3(signature = (x, sample_rate, most = 12, smallest = 1e-9, window = 1))]
 pub(crate) fn lines(
     py: Python<'_>,
-    x: Values<'_>,
+    x: Numbers<'_>,
     sample_rate: f64,
-    most: usize,
+    most: i128,
     smallest: f64,
-    window: u8,
+    window: i128,
 ) -> PyResult<Lines> {
-    let samples = x.as_array().to_vec();
+    let samples = x.list("x")?;
     let search = LineSearch {
-        window: self::window(window),
-        most,
+        window: self::window(window)?,
+        most: whole("most", most, 1)?,
         smallest,
     };
     let found = py.detach(|| search.find(&samples, sample_rate));
@@ -186,13 +188,13 @@ pub(crate) fn lines(
 #[pyfunction]
 pub(crate) fn running_integral<'py>(
     py: Python<'py>,
-    t: Values<'py>,
-    x: Values<'py>,
+    t: Numbers<'py>,
+    x: Numbers<'py>,
 ) -> PyResult<Row<'py>> {
-    let (times, values) = (t.as_array().to_vec(), x.as_array().to_vec());
+    let (times, values) = (t.list("t")?, x.list("x")?);
     if times.len() != values.len() {
         let (times, values) = (times.len(), values.len());
-        let text = format!("{times} times for {values} values");
+        let text = format!("t has {times} times for {values} values in x");
         return Err(PyValueError::new_err(text));
     }
     Ok(branched_pendulum::analysis::running_integral(&times, &values).into_pyarray(py))

@@ -6,11 +6,12 @@ use std::sync::Arc;
 use branched_pendulum::system::{LinkPoint, Workspace};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use numpy::IntoPyArray;
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::DescriptionError;
-use crate::arrays::{AnyShape, Matrix, Row, Table, Values, by_state, matrix, numbers};
+use crate::arrays::{Matrix, Number, Numbers, Row, Table, by_state, matrix};
 use crate::budget::ScaleBudget;
 use crate::motions::Model;
 use crate::pendulum::Pendulum;
@@ -65,6 +66,20 @@ fn wrong(py: Python<'_>, error: TreeError) -> PyErr {
     }
 }
 
+/// Values of parameters by their names.
+fn values(parameters: Option<Bound<'_, PyDict>>) -> PyResult<Vec<(String, f64)>> {
+    let parameters = parameters.into_iter().flatten();
+    let value = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let name: String = name.extract()?;
+        let value = value.extract::<Number>().map_err(|error| {
+            let reason = error.value(value.py());
+            PyTypeError::new_err(format!("parameter `{name}`: {reason}"))
+        })?;
+        Ok((name, value.0))
+    };
+    parameters.map(value).collect()
+}
+
 fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
     let tree = Arc::new(tree);
     let motions = tree.clone();
@@ -74,13 +89,13 @@ fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
 #[pymethods]
 impl Tree {
     #[new]
-    #[pyo3(signature = (text, **parameters))]
+    #[pyo3(signature = (text, /, **parameters))]
     fn new(
         py: Python<'_>,
         text: &str,
-        parameters: Option<BTreeMap<String, f64>>,
+        parameters: Option<Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let parameters = parameters.unwrap_or_default();
+        let parameters = values(parameters)?;
         let values: Vec<(&str, f64)> = parameters.iter().map(|(name, x)| (&**name, *x)).collect();
         let description = TreeDescription::parse(text).map_err(|error| wrong(py, error.into()))?;
         let tree = description.tree(&values);
@@ -89,13 +104,9 @@ impl Tree {
 
     /// Returns the tree with other values of parameters: `tree.changed(m=0.3)`.
     #[pyo3(signature = (**parameters))]
-    fn changed(
-        &self,
-        py: Python<'_>,
-        parameters: Option<BTreeMap<String, f64>>,
-    ) -> PyResult<Py<Self>> {
+    fn changed(&self, py: Python<'_>, parameters: Option<Bound<'_, PyDict>>) -> PyResult<Py<Self>> {
         let mut tree = PendulumTree::clone(&self.tree);
-        for (name, value) in parameters.unwrap_or_default() {
+        for (name, value) in values(parameters)? {
             tree = tree.with(&name, value).map_err(|error| wrong(py, error))?;
         }
         Py::new(py, class(tree))
@@ -120,13 +131,13 @@ impl Tree {
     fn accelerations<'py>(
         &self,
         py: Python<'py>,
-        theta: Values<'py>,
-        omega: Values<'py>,
+        theta: Numbers<'py>,
+        omega: Numbers<'py>,
         time: f64,
-        torques: Option<Values<'py>>,
+        torques: Option<Numbers<'py>>,
     ) -> PyResult<Row<'py>> {
         let n = self.tree.links();
-        let (theta, omega) = (numbers("theta", &theta, n)?, numbers("omega", &omega, n)?);
+        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
         let mut alpha = vec![0.0; n];
         let workspace = &mut Workspace::new();
         match torques {
@@ -134,7 +145,7 @@ impl Tree {
                 .tree
                 .accelerations_with(workspace, time, &theta, &omega, &mut alpha),
             Some(torques) => {
-                let torques = numbers("torques", &torques, n)?;
+                let torques = torques.row("torques", n)?;
                 let given = [&theta[..], &omega, &torques];
                 self.tree
                     .accelerations_under_with(workspace, time, given, &mut alpha);
@@ -145,21 +156,21 @@ impl Tree {
 
     /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
     /// (rad/s), in the frame that moves with the root's pivot.
-    fn kinetic_energy(&self, theta: Values<'_>, omega: Values<'_>) -> PyResult<f64> {
+    fn kinetic_energy(&self, theta: Numbers<'_>, omega: Numbers<'_>) -> PyResult<f64> {
         let n = self.tree.links();
-        let (theta, omega) = (numbers("theta", &theta, n)?, numbers("omega", &omega, n)?);
+        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
         Ok(self.tree.kinetic_energy(&theta, &omega))
     }
 
     /// Returns the potential energy (J) at angles `theta` (rad).
-    fn potential_energy(&self, theta: Values<'_>) -> PyResult<f64> {
-        let theta = numbers("theta", &theta, self.tree.links())?;
+    fn potential_energy(&self, theta: Numbers<'_>) -> PyResult<f64> {
+        let theta = theta.row("theta", self.tree.links())?;
         Ok(self.tree.potential_energy(&theta))
     }
 
     /// Returns the power (W) of friction and drag, never positive, of each state of an array
     /// whose last axis is that of the components.
-    fn friction_power<'py>(&self, py: Python<'py>, y: AnyShape<'py>) -> PyResult<Table<'py>> {
+    fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
         let n = self.tree.links();
         by_state(py, &y, 2 * n, |state| {
             [self.tree.friction_power(state.get(n..).unwrap_or_default())]
@@ -174,11 +185,11 @@ impl Tree {
     fn budget(
         &self,
         py: Python<'_>,
-        y: AnyShape<'_>,
-        t: Option<AnyShape<'_>>,
+        y: Numbers<'_>,
+        t: Option<Numbers<'_>>,
     ) -> PyResult<ScaleBudget> {
         let times = match t {
-            Some(times) => times.as_array().iter().copied().collect(),
+            Some(times) => times.to_vec(),
             None => vec![0.0],
         };
         ScaleBudget::of(py, &self.tree, &y, &times)
@@ -189,23 +200,23 @@ impl Tree {
     fn momenta<'py>(
         &self,
         py: Python<'py>,
-        theta: Values<'py>,
-        omega: Values<'py>,
+        theta: Numbers<'py>,
+        omega: Numbers<'py>,
     ) -> PyResult<Row<'py>> {
         let n = self.tree.links();
-        let (theta, omega) = (numbers("theta", &theta, n)?, numbers("omega", &omega, n)?);
+        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
         Ok(self.tree.momenta(&theta, &omega).into_pyarray(py))
     }
 
     /// Returns the mass matrix (kg m²) at angles `theta` (rad).
-    fn mass_matrix<'py>(&self, py: Python<'py>, theta: Values<'py>) -> PyResult<Matrix<'py>> {
-        let theta = numbers("theta", &theta, self.tree.links())?;
+    fn mass_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
+        let theta = theta.row("theta", self.tree.links())?;
         matrix(py, self.tree.mass_matrix(&theta).concat(), theta.len())
     }
 
     /// Returns the second derivatives of the potential energy (N m/rad) at angles `theta` (rad).
-    fn stiffness_matrix<'py>(&self, py: Python<'py>, theta: Values<'py>) -> PyResult<Matrix<'py>> {
-        let theta = numbers("theta", &theta, self.tree.links())?;
+    fn stiffness_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
+        let theta = theta.row("theta", self.tree.links())?;
         matrix(py, self.tree.stiffness_matrix(&theta).concat(), theta.len())
     }
 
@@ -215,11 +226,11 @@ impl Tree {
     fn modes<'py>(
         &self,
         py: Python<'py>,
-        theta: Option<Values<'py>>,
+        theta: Option<Numbers<'py>>,
     ) -> PyResult<(Row<'py>, Matrix<'py>)> {
         let n = self.tree.links();
         let theta = match theta {
-            Some(theta) => numbers("theta", &theta, n)?,
+            Some(theta) => theta.row("theta", n)?,
             None => vec![0.0; n],
         };
         let modes = self.tree.modes(&theta);
@@ -234,7 +245,7 @@ impl Tree {
     fn points<'py>(
         &self,
         py: Python<'py>,
-        theta: Values<'py>,
+        theta: Numbers<'py>,
         point: &str,
     ) -> PyResult<Matrix<'py>> {
         let point = match point {
@@ -246,7 +257,7 @@ impl Tree {
                 return Err(PyValueError::new_err(text));
             }
         };
-        let theta = numbers("theta", &theta, self.tree.links())?;
+        let theta = theta.row("theta", self.tree.links())?;
         matrix(py, self.tree.points(point, &theta).concat(), 2)
     }
 }

@@ -83,7 +83,8 @@ impl<'a> Ensemble<'a> {
         }
     }
 
-    /// Takes `threads` threads, though not more than there are items.
+    /// Takes `threads` threads, though not more than the system offers, which more would
+    /// not make faster, and not more than there are items.
     pub fn threads(self, threads: NonZeroUsize) -> Self {
         Self {
             threads: Some(threads),
@@ -130,10 +131,12 @@ impl<'a> Ensemble<'a> {
     ) -> Vec<R> {
         let queue = Queue::new(items, self.progress);
         let worker = || worker(&queue);
+        let offered = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let threads = self
             .threads
-            .or_else(|| thread::available_parallelism().ok())
-            .map_or(1, NonZeroUsize::get)
+            .unwrap_or(offered)
+            .min(offered)
+            .get()
             .min(items);
         let mut results: Vec<(usize, R)> = thread::scope(|scope| {
             // This thread works too.

@@ -126,7 +126,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         end: T,
         mut observer: impl FnMut(&mut DenseStep<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut run = Run::new(self, ode, start, &[end])?;
+        let mut run = Run::to_end(self, ode, start, end)?;
         let goal = run.goal(end);
         while let Some(mut step) = run.step_to(goal)? {
             match observer(&mut step) {
@@ -279,7 +279,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         start: &State<T>,
         end: T,
     ) -> Result<Trajectory<T>, IntegrationError<T>> {
-        let mut run = Run::new(self, ode, start, &[end])?;
+        let mut run = Run::to_end(self, ode, start, end)?;
         let mut trajectory = Trajectory::new(start.clone());
         let goal = run.goal(end);
         while let Some(mut step) = run.step_to(goal)? {
@@ -293,11 +293,14 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     /// Integrates from `start` to the time `end` and calls `visit` with every
     /// zero crossing of the functions `events`, in their order along the run.
     ///
-    /// [`ControlFlow::Break`] ends the run there: the last state is then that of
-    /// the crossing, and a run that starts from it does not report the crossing
-    /// again. Nor is one reported where a run starts with a function exactly
-    /// zero. A function that only touches zero is reported if one of the places
-    /// looked at is a zero exactly.
+    /// [`ControlFlow::Break`] and [`Event::with_terminal`] end the run there: the last
+    /// state is then that of the crossing. All other crossings at that time, to its
+    /// rounding, are reported before the run ends, so that a run that starts from that
+    /// state, forwards or backwards, reports none again and misses none.
+    ///
+    /// No crossing is reported where a run starts on a zero, to the rounding of the time:
+    /// the function has the side to which it leaves. A function that only touches zero is
+    /// reported if one of the places looked at is a zero exactly.
     ///
     /// # Errors
     ///
@@ -363,6 +366,6 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         events: &[Event<'_, T>],
         visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        Run::new(self, ode, start, &[end])?.find(end, events, visit)
+        Run::to_end(self, ode, start, end)?.find(end, events, visit)
     }
 }

@@ -24,6 +24,13 @@ impl<T: Copy> Tolerance<T> {
         }
     }
 
+    fn at(&self, component: usize) -> Option<T> {
+        match self {
+            Self::Uniform(value) => Some(*value),
+            Self::PerComponent(values) => values.get(component).copied(),
+        }
+    }
+
     pub(crate) fn values(&self) -> &[T] {
         match self {
             Self::Uniform(value) => core::slice::from_ref(value),
@@ -37,7 +44,10 @@ impl<T: Copy> Tolerance<T> {
 /// The local error of component i is held below
 /// `absolute_i + relative_i |y_i|`, in the mean square over the components.
 /// Relative tolerances below some ten [`Real::EPSILON`] ask for digits that the
-/// type does not hold: the steps get smaller and the result no better.
+/// type does not hold: the steps get smaller and the result no better. Where the
+/// tolerance of a component is below a quarter of [`Real::EPSILON`] of its starting value,
+/// a run is refused: the estimate of the error would be its own rounding.
+/// [`Taylor`](super::Taylor) goes down to a thousandth of it.
 ///
 /// # Examples
 ///
@@ -162,6 +172,33 @@ impl<T: Real> Options<T> {
         // From 1/8 / 0.2 on the exponent of the controller changes its sign.
         if !(self.beta >= T::ZERO && self.beta <= T::from_f64(0.2)) {
             return Err(InputError::Beta { value: self.beta });
+        }
+        Ok(())
+    }
+
+    /// Passes tolerances that ask for no more digits than a motion from `start` has,
+    /// `smallest` being the least relative tolerance that a method can use.
+    pub(crate) fn check_digits(&self, start: &[T], smallest: T) -> Result<(), InputError<T>> {
+        for (component, value) in start.iter().enumerate() {
+            let [Some(relative), Some(absolute)] =
+                [&self.relative, &self.absolute].map(|tolerance| tolerance.at(component))
+            else {
+                continue;
+            };
+            // What starts from zero gets a size that is not known: one, if that counts.
+            let size = match value.abs() {
+                size if size > T::ZERO => size,
+                _ if relative > T::ZERO => T::ONE,
+                _ => continue,
+            };
+            if absolute + relative * size < smallest * size {
+                return Err(InputError::ToleranceBelowRounding {
+                    component,
+                    relative,
+                    absolute,
+                    smallest,
+                });
+            }
         }
         Ok(())
     }

@@ -29,6 +29,14 @@ pub(crate) fn check_start<T: Real, O: Ode<T> + ?Sized>(
     Ok(())
 }
 
+/// Passes an end that is finite.
+pub(crate) fn check_end<T: Real>(end: T) -> Result<(), InputError<T>> {
+    match end.is_finite() {
+        true => Ok(()),
+        false => Err(InputError::EndTime { value: end }),
+    }
+}
+
 /// Passes times that are finite and run one way from `start`; equal ones may follow
 /// each other.
 pub(crate) fn check_times<T: Real>(start: T, times: &[T]) -> Result<(), InputError<T>> {

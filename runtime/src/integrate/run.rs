@@ -11,7 +11,7 @@ use super::evaluator::{Evaluator, NonFinite};
 use super::integrator::Integrator;
 use super::piece::Piece;
 use super::report::{Report, Solution, StopReason};
-use super::request::{check_start, check_times};
+use super::request::{check_end, check_start, check_times};
 use super::steps::{Goal, Steps};
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};
@@ -36,6 +36,21 @@ pub(super) struct Run<B, O: ?Sized, S, T> {
 }
 
 impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
+    /// A run of `method` to the time `end`, about to leave `start`; both are checked.
+    pub(super) fn to_end<M>(
+        method: &M,
+        ode: B,
+        start: &State<T>,
+        end: T,
+    ) -> Result<Self, IntegrationError<T>>
+    where
+        M: Integrator<T, O, Steps = S> + ?Sized,
+    {
+        check_start(ode.borrow(), (start.time, &start.values))?;
+        check_end(end)?;
+        Self::new(method, ode, start, &[])
+    }
+
     /// A run of `method` about to leave `start`, which is checked, and whose way to
     /// `times` is.
     pub(super) fn new<M>(

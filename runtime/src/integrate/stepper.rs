@@ -8,7 +8,7 @@ use super::dense::{DenseStep, Made};
 use super::error::{InputError, IntegrationError};
 use super::integrator::Integrator;
 use super::report::Report;
-use super::request::{check_start, check_times};
+use super::request::{check_end, check_start};
 use super::run::Run;
 use crate::scalar::Real;
 use crate::scalar::two_sum;
@@ -263,7 +263,7 @@ impl<T: Real, O: Ode<T>, M: Integrator<T, O>> Stepper<M, O, T> {
     ///
     /// As [`step`](Self::step), and if `end` is not finite.
     pub fn step_to(&mut self, end: T) -> Result<Option<DenseStep<'_, T>>, IntegrationError<T>> {
-        check_times(self.time, &[end])?;
+        check_end(end)?;
         if end == self.time {
             return Ok(None);
         }

@@ -63,6 +63,10 @@ use super::{Ode, Pendulum};
 /// assert_eq!(alpha[0][1000], alone[0]);
 /// # Ok::<(), branched_pendulum::batch::BatchError>(())
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be taken from `{T}` to other numbers",
+    note = "models of the attribute can, in their own numbers: the model itself or `&model`, not one in coordinates like `AbsoluteAngles(&model)`, which is a `CastOde`"
+)]
 pub trait Cast<T: Scalar>: Pendulum<T> {
     /// This pendulum on other scalars.
     type Of<S: Scalar>: Cast<S>;

@@ -1,7 +1,7 @@
 //! Ensembles: order, isolation of failures, independence of threads.
 
 use core::num::NonZeroUsize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::sync::Mutex;
 
 use branched_pendulum::prelude::*;
@@ -64,6 +64,18 @@ fn trajectories_do_not_depend_on_threads_and_failures_stay_alone() {
                 &method.integrate(&ode, &starts[index], 5.0, watch).unwrap()
             );
         }
+    }
+}
+
+#[test]
+fn no_more_threads_than_the_machine_has() {
+    let offered = std::thread::available_parallelism().unwrap().get();
+    for count in [1, offered, 64 * offered, 1 << 20, usize::MAX] {
+        let used = Ensemble::new()
+            .threads(threads(count))
+            .map(&[0; 20_000], |_, _| std::thread::current().id());
+        let used: HashSet<_> = used.into_iter().collect();
+        assert!(used.len() <= count.min(offered), "{count}: {}", used.len());
     }
 }
 

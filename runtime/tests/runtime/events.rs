@@ -158,6 +158,89 @@ fn a_run_that_stops_at_an_event_goes_on_from_there() {
 }
 
 #[test]
+fn a_run_ends_at_the_occurrence_that_is_asked_for() {
+    let position = |_: f64, y: &[f64]| y[0];
+    let velocity = |_: f64, y: &[f64]| y[1];
+    let run = |numbers: [u32; 2], end: f64| {
+        let events = [
+            Event::new(Crossing::Either, &position).with_terminal(numbers[0]),
+            Event::new(Crossing::Rising, &velocity).with_terminal(numbers[1]),
+        ];
+        let mut counts = [0; 2];
+        let solution = dop853()
+            .integrate_with_events(&harmonic(), &start(), end, &events, |found| {
+                counts[found.event] += 1;
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        (counts, solution.state.time, solution.report.stop)
+    };
+    // Zeros of the position at π/2 + kπ; the velocity rises at π + 2πk, backwards at −2πk.
+    for (numbers, end, counts, time) in [
+        ([1, 0], 20.0, [1, 0], 0.5 * PI),
+        ([2, 0], 20.0, [2, 1], 1.5 * PI),
+        ([5, 2], 20.0, [3, 2], 3.0 * PI),
+        ([5, 9], 20.0, [5, 2], 4.5 * PI),
+        ([3, 0], -20.0, [3, 1], -2.5 * PI),
+        ([0, 2], -20.0, [4, 2], -4.0 * PI),
+    ] {
+        let (found, stopped, stop) = run(numbers, end);
+        assert_eq!((found, stop), (counts, StopReason::StoppedByEvent));
+        assert!((stopped - time).abs() < 1e-11, "{stopped} {time}");
+    }
+    for numbers in [[0, 0], [7, 4]] {
+        assert_eq!(run(numbers, 20.0), ([6, 3], 20.0, StopReason::EndReached));
+    }
+}
+
+/// A step of length one, seen in eight places.
+fn in_one_step(direction: f64, function: &dyn Fn(f64) -> f64) -> Vec<(f64, bool)> {
+    let straight = Problem::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
+    let options = Options {
+        initial_step: Some(1.0),
+        ..Options::with_tolerance(1e-3)
+    };
+    let along = |time: f64, _: &[f64]| function(direction * time);
+    let mut found = Vec::new();
+    let solution = Dop853::new(options)
+        .integrate_with_events(
+            &straight,
+            &State::new(0.0, vec![0.0]),
+            direction,
+            &[Event::new(Crossing::Either, &along)],
+            |event| {
+                found.push((direction * event.time, event.rising));
+                ControlFlow::Continue(())
+            },
+        )
+        .unwrap();
+    assert_eq!(solution.report.accepted, 1);
+    found
+}
+
+#[test]
+fn a_function_leaves_a_zero_to_a_side() {
+    for direction in [1.0, -1.0] {
+        let found = |function: &dyn Fn(f64) -> f64| in_one_step(direction, function);
+        // From the start, as a line, a square, a cube: back before the first place looked at.
+        for power in 1..=3 {
+            let up = |t: f64| t.powi(power) * (0.07 - t);
+            assert_crossings(&found(&up), &[(0.07, false)], 1e-15);
+            let down = |t: f64| -up(t);
+            assert_crossings(&found(&down), &[(0.07, true)], 1e-15);
+            let away = |t: f64| t.powi(power) * (t - 0.4) * (t - 0.6);
+            assert_crossings(&found(&away), &[(0.4, false), (0.6, true)], 1e-15);
+        }
+        // From a place that is looked at: through it, and touching it.
+        let through = |t: f64| (t - 0.25) * (0.3 - t);
+        assert_crossings(&found(&through), &[(0.25, true), (0.3, false)], 1e-15);
+        let touched = |t: f64| (t - 0.25).powi(2) * (0.3 - t);
+        assert_crossings(&found(&touched), &[(0.25, false), (0.3, false)], 1e-15);
+        assert_crossings(&found(&|_| 0.0), &[], 0.0);
+    }
+}
+
+#[test]
 fn an_event_at_the_start_is_not_reported() {
     let velocity = |_time: f64, y: &[f64]| y[1];
     let found = crossings(&dop853(), 4.0, Event::new(Crossing::Either, &velocity));

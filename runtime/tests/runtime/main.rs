@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod animation;
+mod backwards;
 mod continuation;
 
 mod ensemble;
@@ -22,6 +23,7 @@ mod problems;
 mod projection;
 mod reference;
 mod requests;
+mod restarts;
 mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;

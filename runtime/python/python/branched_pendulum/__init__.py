@@ -7,9 +7,11 @@ followed by the angular velocities.
 from . import analysis, data, models
 from ._native import (
     DescriptionError,
+    FailedMotions,
     Growth,
     IntegrationError,
     Pendulum,
+    RequestError,
     ScaleBudget,
     Solution,
     Tree,
@@ -18,9 +20,11 @@ from ._native import (
 
 __all__ = [
     "DescriptionError",
+    "FailedMotions",
     "Growth",
     "IntegrationError",
     "Pendulum",
+    "RequestError",
     "ScaleBudget",
     "Solution",
     "Tree",

@@ -12,12 +12,14 @@ from typing_extensions import disjoint_base
 __all__ = [
     "BranchedDouble",
     "DescriptionError",
+    "FailedMotions",
     "Growth",
     "IntegrationError",
     "Lines",
     "Pendulum",
     "ReadError",
     "Recording",
+    "RequestError",
     "ScaleBudget",
     "SmoothedMotion",
     "Solution",
@@ -39,6 +41,10 @@ class DescriptionError(ValueError):
     mistakes: list[tuple[int, int, str]]
 
 class IntegrationError(RuntimeError): ...
+class RequestError(IntegrationError, ValueError): ...
+
+class FailedMotions(RuntimeWarning):
+    reasons: dict[int, str]
 
 class ReadError(ValueError):
     file: str | None
@@ -80,8 +86,9 @@ class Pendulum:
         rtol: float = 1e-9,
         atol: float | None = None,
         step: float | None = None,
-        events: Sequence[_Event] | None = None,
+        events: _Event | Sequence[_Event] | None = None,
         dense_output: bool = False,
+        max_steps: int = 1_000_000,
     ) -> Solution: ...
     def ensemble(
         self,
@@ -91,6 +98,7 @@ class Pendulum:
         rtol: float = 1e-9,
         atol: float | None = None,
         threads: int | None = None,
+        max_steps: int = 1_000_000,
     ) -> _Array: ...
     def lyapunov(
         self,
@@ -105,7 +113,7 @@ class Pendulum:
     def growth(
         self,
         starts: ArrayLike,
-        pair: tuple[str, str],
+        pair: Sequence[str],
         horizons: ArrayLike,
         frequency: float | None = None,
         rtol: float = 1e-9,
@@ -135,7 +143,7 @@ class Growth:
 
 @final
 class Tree(Pendulum):
-    def __new__(cls, text: str, **parameters: float) -> Tree: ...
+    def __new__(cls, text: str, /, **parameters: float) -> Tree: ...
     def changed(self, **parameters: float) -> Tree: ...
     @property
     def parameters(self) -> dict[str, float]: ...
@@ -207,7 +215,7 @@ def read(
     path: str | PathLike[str],
     *,
     columns: Sequence[str] | None = None,
-    dots: Sequence[tuple[str, str]] | None = None,
+    dots: Sequence[Sequence[str]] | None = None,
     unit: Literal["rad", "deg", "mrad", "arcmin", "arcsec", "gon", "turn"] | None = None,
     zero: Literal["down", "up"] | None = None,
     relative_to: Sequence[int | None] | None = None,

@@ -31,6 +31,17 @@ pub enum InputError<T> {
         /// Index of the component.
         component: usize,
     },
+    /// The tolerances of a component ask for digits that it does not have.
+    ToleranceBelowRounding {
+        /// Index of the component.
+        component: usize,
+        /// Its relative tolerance.
+        relative: T,
+        /// Its absolute tolerance.
+        absolute: T,
+        /// The smallest relative tolerance that is of use to the method.
+        smallest: T,
+    },
     /// A step size in the options is negative or not finite, or zero where it
     /// must not be.
     Step {
@@ -121,9 +132,14 @@ pub enum InputError<T> {
         /// The value given.
         value: T,
     },
-    /// A time to integrate to, or to sample at, is infinite or NaN.
+    /// The time to integrate to is infinite or NaN.
+    EndTime {
+        /// The time given.
+        value: T,
+    },
+    /// A time to sample at is infinite or NaN.
     Time {
-        /// Index among the times given; 0 for an end time.
+        /// Index among the times given.
         index: usize,
         /// The time given.
         value: T,
@@ -177,13 +193,25 @@ impl<T: Real> fmt::Display for InputError<T> {
             } => {
                 write!(
                     f,
-                    "{found} {name} tolerances given for a state of {expected} components"
+                    "{found} {name} tolerances given for a state of {expected} components: \
+                     it must be one for all, or one for each"
                 )
             }
             Self::NoTolerance { component } => write!(
                 f,
                 "relative and absolute tolerance of component {component} are both zero: \
                  at least one must be positive"
+            ),
+            Self::ToleranceBelowRounding {
+                component,
+                relative,
+                absolute,
+                smallest,
+            } => write!(
+                f,
+                "relative tolerance {relative:?} and absolute tolerance {absolute:?} of component \
+                 {component} are below the rounding of its numbers: the smallest relative \
+                 tolerance of use is {smallest:?}"
             ),
             Self::Step {
                 name: "shortest",
@@ -197,7 +225,9 @@ impl<T: Real> fmt::Display for InputError<T> {
             Self::Step { name, value } => {
                 write!(f, "{name} step is {value}: it must be finite and positive")
             }
-            Self::FixedStep { value } => write!(f, "the length of a step is {value}"),
+            Self::FixedStep { value } => {
+                write!(f, "step length is {value}: it must be finite")
+            }
             Self::StepRange { shortest, longest } => {
                 write!(
                     f,
@@ -239,7 +269,9 @@ impl<T: Real> fmt::Display for InputError<T> {
                      Gauss methods need no such form"
                 )
             }
-            Self::EmptyState => write!(f, "the state has no components"),
+            Self::EmptyState => {
+                write!(f, "the state has no components: it must have at least one")
+            }
             Self::Dimension { expected, found } => {
                 write!(
                     f,
@@ -259,11 +291,17 @@ impl<T: Real> fmt::Display for InputError<T> {
                 "the system differs from the first of the ensemble in more than constants: in \
                  lanes it cannot",
             ),
-            Self::StartTime { value } => write!(f, "the starting time is {value}"),
-            Self::StartValue { component, value } => {
-                write!(f, "component {component} of the starting state is {value}")
+            Self::StartTime { value } => {
+                write!(f, "the starting time is {value}: it must be finite")
             }
-            Self::Time { index, value } => write!(f, "requested time {index} is {value}"),
+            Self::StartValue { component, value } => write!(
+                f,
+                "component {component} of the starting state is {value}: it must be finite"
+            ),
+            Self::EndTime { value } => write!(f, "the end time is {value}: it must be finite"),
+            Self::Time { index, value } => {
+                write!(f, "requested time {index} is {value}: it must be finite")
+            }
             Self::TimeOrder {
                 index,
                 previous,

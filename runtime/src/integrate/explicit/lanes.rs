@@ -10,6 +10,7 @@ use core::marker::PhantomData;
 
 use super::ExplicitRungeKutta;
 use super::pair::EmbeddedPair;
+use super::smallest_tolerance;
 use super::stages::{MOST_STAGES, RightHandSide, StepSpan, StepStages, sum, terms};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::lanes::registers::{
@@ -28,6 +29,10 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRunge
 
     fn options(&self) -> &Options<T> {
         &self.options
+    }
+
+    fn smallest_tolerance(&self) -> T {
+        smallest_tolerance()
     }
 
     fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, T, R> {

@@ -124,6 +124,13 @@ pub struct ExplicitRungeKutta<M, T> {
     pair: PhantomData<M>,
 }
 
+/// The smallest relative tolerance of use. Below it the estimate of the error is mostly its
+/// own rounding: steps get ten times as many for each digit that is asked for, and the
+/// error stays.
+fn smallest_tolerance<T: Real>() -> T {
+    T::EPSILON * T::from_f64(0.25)
+}
+
 impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The method with these options, which are checked when a run starts.
     pub fn new(options: Options<T>) -> Self {

@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 
 use super::ExplicitRungeKutta;
 use super::pair::EmbeddedPair;
+use super::smallest_tolerance;
 use super::stages::{RightHandSide, StepSpan, StepStages};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
@@ -23,6 +24,8 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Explicit
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<PairSteps<M, T>, InputError<T>> {
         self.options.validate(start.values.len())?;
+        self.options
+            .check_digits(&start.values, smallest_tolerance())?;
         Ok(PairSteps::new(&self.options, start))
     }
 }

@@ -25,6 +25,11 @@ use crate::system::LaneOde;
 /// [`Dopri5`]: crate::integrate::Dopri5
 /// [`Taylor`]: crate::integrate::Taylor
 /// [`Verner98`]: crate::integrate::Verner98
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not integrate `{O}` in lanes",
+    note = "in lanes go `Dop853`, `Verner98` and `Dopri5`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
+    note = "all other methods go by `Ensemble::integrate`, start by start on all threads"
+)]
 pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
@@ -35,6 +40,10 @@ pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     /// Its options.
     #[doc(hidden)]
     fn options(&self) -> &Options<T>;
+
+    /// The smallest relative tolerance that is of use to it.
+    #[doc(hidden)]
+    fn smallest_tolerance(&self) -> T;
 
     /// Checks all of it but the options.
     #[doc(hidden)]

@@ -28,7 +28,7 @@ pub(crate) use self::runs::{Flags, Outcome, Runs};
 use self::samples::LaneSamples;
 use super::error::InputError;
 use super::explicit::StepSpan;
-use super::request::{check_start, check_times};
+use super::request::{check_end, check_start, check_times};
 use crate::scalar::{InstructionSet, Lane};
 use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{LaneOde, State};
@@ -139,7 +139,11 @@ where
     fn check(&self, system: &O, start: &State<T>) -> Result<(), InputError<T>> {
         check_start(system, (start.time, &start.values))?;
         check_times(start.time, self.task.times)?;
-        check_times(start.time, self.task.end.as_slice())
+        self.task.end.map_or(Ok(()), check_end)?;
+        let method = self.task.method;
+        method
+            .options()
+            .check_digits(&start.values, method.smallest_tolerance())
     }
 
     /// Gives a case to every lane without a trajectory, as long as there are any.

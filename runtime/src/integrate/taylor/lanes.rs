@@ -28,6 +28,10 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
         &self.options
     }
 
+    fn smallest_tolerance(&self) -> T {
+        super::smallest_tolerance()
+    }
+
     fn check(&self) -> Result<(), InputError<T>> {
         self.check_options()
     }
@@ -227,7 +231,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
             let left = (runs.end[lane] - runs.time[lane]).abs();
             runs.evaluations[lane] += self.order as u64;
             runs.step[lane] = step;
-            runs.next_step[lane] = step.min(left);
+            runs.next_step[lane] = if step.is_finite() { step } else { left };
             failed |= runs.active[lane] & !finite[lane].is_finite();
         }
         if failed {

@@ -124,6 +124,13 @@ impl<T: Real> Taylor<T> {
     }
 }
 
+/// The smallest relative tolerance of use. Terms are left out by it, and no rounding
+/// comes into the length of a step: so it may lie below the rounding of a state, whose
+/// compensated sums hold some digits more of an increment.
+fn smallest_tolerance<T: Real>() -> T {
+    T::EPSILON * T::from_f64(1.0 / 1024.0)
+}
+
 /// exp(−2/(p − 1)) for polynomials of order p.
 fn safety<T: Real>(order: usize) -> T {
     let exponent = T::from_f64(-2.0) / T::from_f64((order - 1) as f64);
@@ -166,6 +173,8 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for Taylor<T> {
     #[inline(always)]
     fn steps(&self, ode: &O, start: &State<T>) -> Result<TaylorSteps<T>, InputError<T>> {
         self.options.validate(start.values.len())?;
+        self.options
+            .check_digits(&start.values, smallest_tolerance())?;
         self.check_options()?;
         if !ode.has_series() {
             return Err(InputError::NoSeries);

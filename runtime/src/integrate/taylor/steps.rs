@@ -128,7 +128,10 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for TaylorSteps<T> {
             step = step.min(initial);
         }
         let step = self.limits.limit(step);
-        system.report.next_step = step.min(goal.distance(time));
+        system.report.next_step = match step.is_finite() {
+            true => step,
+            false => goal.distance(time),
+        };
         let (end_time, last) = goal.plan(time, step);
         self.limits
             .check(system.report, goal.steps_before, (time, step, last))?;

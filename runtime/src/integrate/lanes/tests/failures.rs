@@ -3,8 +3,8 @@
 use std::mem::discriminant;
 
 use super::{Cases, END, Each, End, Integrator, LaneMethod, LopsidedOde};
-use super::{lopsided, outcomes, plain, starts, strict_options, with_each};
-use crate::integrate::{InputError, IntegrationError, Options, StopReason, Taylor};
+use super::{lopsided, outcomes, plain, starts, strict_options, with_each, with_pairs};
+use crate::integrate::{InputError, IntegrationError, Options, StopReason, Taylor, Tolerance};
 use crate::scalar::InstructionSet;
 use crate::system::{Pendulum, State};
 
@@ -90,6 +90,46 @@ fn errors_are_those_of_the_plain_methods() {
         refused[0].end,
         Err(IntegrationError::Input(InputError::Order { order: 2, .. }))
     ));
+}
+
+/// Refused alike, and no other trajectory with them.
+struct BelowRounding(InputError<f64>);
+
+impl Each<f64> for BelowRounding {
+    fn each<M>(&mut self, method: &M)
+    where
+        M: LaneMethod<LopsidedOde<f64>, f64>,
+        M: Integrator<f64, LopsidedOde<f64>>,
+    {
+        let (mut starts, model) = (starts::<f64>(), lopsided());
+        starts[7].values = vec![1e5, 0.0, 0.0, 0.0];
+        let cases = Cases::Starts(&model, &starts);
+        let lanes = outcomes(InstructionSet::widest(), method, cases, &[], END);
+        for (index, lane) in lanes.iter().enumerate() {
+            assert_eq!(lane.end.is_err(), index == 7);
+        }
+        let expected = Err(IntegrationError::Input(self.0.clone()));
+        assert_eq!(plain(method, &model, &starts[7], END), expected);
+        assert_eq!(lanes[7].end, expected);
+    }
+}
+
+#[test]
+fn a_tolerance_below_rounding_is_refused() {
+    let options = Options {
+        relative: Tolerance::Uniform(0.0),
+        absolute: Tolerance::Uniform(1e-12),
+        ..Options::with_tolerance(1e-9)
+    };
+    with_pairs(
+        &options,
+        &mut BelowRounding(InputError::ToleranceBelowRounding {
+            component: 0,
+            relative: 0.0,
+            absolute: 1e-12,
+            smallest: 0.25 * f64::EPSILON,
+        }),
+    );
 }
 
 struct FailureSaysWhere;

@@ -1,6 +1,7 @@
 //! Methods in lanes, tested on one small pendulum.
 
 mod agreement;
+mod backwards;
 mod bits;
 mod failures;
 mod model;

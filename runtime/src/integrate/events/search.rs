@@ -1,94 +1,26 @@
-//! Zero crossings of functions of time and state.
+//! The search for zero crossings along a run.
 
 use alloc::vec::Vec;
-use core::borrow::Borrow;
-use core::fmt;
 use core::ops::ControlFlow;
 
-use super::dense::{DenseError, DenseStep};
-use super::error::{IntegrationError, RunError};
-use super::report::{Solution, StopReason};
-use super::run::Run;
-use super::steps::Steps;
+use super::{Crossing, Event, Occurrence};
+use crate::integrate::dense::{DenseError, DenseStep};
 use crate::scalar::Real;
-use crate::system::Ode;
 
-/// The zero crossings of a function that count, seen along the run: backwards in
-/// time for a run that goes backwards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crossing {
-    /// From negative to positive.
-    Rising,
-    /// From positive to negative.
-    Falling,
-    /// Both.
-    Either,
-}
+/// Units of rounding within which two times are one, and within which a zero is that of
+/// the start: fewer, so that what is not told at the end of a run is told after it.
+const ONE_TIME: f64 = 8.0;
+const AT_START: f64 = 4.0;
 
-/// A function of time and state whose zero crossings are looked for.
-#[derive(Clone, Copy)]
-pub struct Event<'a, T> {
-    function: &'a dyn Fn(T, &[T]) -> T,
-    crossing: Crossing,
-    checks: u32,
-}
+/// Parts of the way to the next place looked at, by which a function has left a zero: not
+/// so near that rounding decides, where it leaves as a square.
+const DEPARTURES: [f64; 3] = [1.0 / 8192.0, 1.0 / 512.0, 1.0 / 32.0];
 
-impl<'a, T: Real> Event<'a, T> {
-    /// The zero crossings of `function(time, state)` in the direction
-    /// `crossing`.
-    ///
-    /// The sign is looked at in eight places a step; two zeros between two of
-    /// them are not seen.
-    pub fn new(crossing: Crossing, function: &'a dyn Fn(T, &[T]) -> T) -> Self {
-        Self {
-            function,
-            crossing,
-            checks: 8,
-        }
-    }
-
-    /// Looks at the sign in `checks` equidistant places a step, one being its
-    /// end; zero counts as one. Where only the end is looked at, steps without
-    /// a change of sign need no dense output.
-    pub fn with_checks(self, checks: u32) -> Self {
-        Self {
-            checks: checks.max(1),
-            ..self
-        }
-    }
-}
-
-impl<T> fmt::Debug for Event<'_, T> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            function: _,
-            crossing,
-            checks,
-        } = self;
-        formatter
-            .debug_struct("Event")
-            .field("crossing", crossing)
-            .field("checks", checks)
-            .finish_non_exhaustive()
-    }
-}
-
-/// A zero crossing that was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Occurrence<'a, T> {
-    /// Index of the event among those asked for.
-    pub event: usize,
-    /// Time: the first that the search knows behind the crossing, a few units
-    /// of rounding from the zero of the dense output.
-    pub time: T,
-    /// State at that time, by the dense output.
-    pub state: &'a [T],
-    /// True where the function rises.
-    pub rising: bool,
-}
+/// Places at which several functions are asked whether all are behind their zeros.
+const MEETINGS: u32 = 8;
 
 /// Why a step could not be searched.
-enum SearchError<T> {
+pub(super) enum SearchError<T> {
     /// The step has no value to give.
     Dense(DenseError<T>),
     /// A function is NaN.
@@ -110,17 +42,18 @@ struct Found<T> {
 }
 
 /// The search along a run.
-struct Search<'a, T> {
+pub(super) struct Search<'a, T> {
     events: &'a [Event<'a, T>],
-    /// Last value of each function; zero has no side, so that nothing is
-    /// reported where a run starts on a zero.
+    /// Number of occurrences of each so far.
+    counts: Vec<u32>,
+    /// Last value of each function.
     values: Vec<T>,
     /// True once `values` are set.
     begun: bool,
     /// Crossings of the current step, in their order along the run.
     found: Vec<Found<T>>,
     /// State at the last place looked at.
-    state: Vec<T>,
+    pub(super) state: Vec<T>,
 }
 
 /// A place of a step and the value of a function there.
@@ -131,9 +64,10 @@ struct EventSample<T> {
 }
 
 impl<'a, T: Real> Search<'a, T> {
-    fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
+    pub(super) fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
         Self {
             events,
+            counts: alloc::vec![0; events.len()],
             values: alloc::vec![T::ZERO; events.len()],
             begun: false,
             found: Vec::new(),
@@ -143,34 +77,110 @@ impl<'a, T: Real> Search<'a, T> {
 
     /// Visits the crossings within `step`. Returns the time of the one at which the run
     /// is to end, the state there being that of the search, and why: it is asked for, or
-    /// the visitor failed.
+    /// the visitor failed. Others at that time have been visited too.
     #[allow(clippy::type_complexity)]
-    fn visit<E>(
+    pub(super) fn visit<E>(
         &mut self,
         step: &mut DenseStep<'_, T>,
         visit: &mut impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Option<(T, Result<(), E>)>, SearchError<T>> {
         self.step(step)?;
-        for index in 0..self.found.len() {
-            let Found {
-                event,
-                time,
-                rising,
-            } = self.found[index];
-            step.eval(time, &mut self.state)?;
-            let flow = visit(Occurrence {
-                event,
-                time,
-                state: &self.state,
-                rising,
-            });
-            match flow {
-                Ok(ControlFlow::Continue(())) => {}
-                Ok(ControlFlow::Break(())) => return Ok(Some((time, Ok(())))),
-                Err(error) => return Ok(Some((time, Err(error)))),
+        let mut first = 0;
+        while first < self.found.len() {
+            let (time, next) = self.meet(first, step)?;
+            let mut stop = false;
+            for &Found { event, rising, .. } in &self.found[first..next] {
+                let flow = visit(Occurrence {
+                    event,
+                    time,
+                    state: &self.state,
+                    rising,
+                });
+                let count = &mut self.counts[event];
+                *count = count.saturating_add(1);
+                match flow {
+                    Ok(flow) => stop |= flow.is_break() || *count == self.events[event].terminal,
+                    Err(error) => return Ok(Some((time, Err(error)))),
+                }
             }
+            if stop {
+                return Ok(Some((time, Ok(()))));
+            }
+            first = next;
         }
         Ok(None)
+    }
+
+    /// The time of the crossings from `first` on that are at one time, to rounding, and
+    /// the place behind the last of them. The state becomes that of this time.
+    ///
+    /// There their functions are behind their zeros, and no others are whose crossings
+    /// come later in the step: a run that starts there tells none twice and loses none.
+    fn meet(
+        &mut self,
+        first: usize,
+        step: &mut DenseStep<'_, T>,
+    ) -> Result<(T, usize), SearchError<T>> {
+        let start = self.found[first].time;
+        let near = rounding(ONE_TIME, start);
+        let at_once = |found: &&Found<T>| (found.time - start).abs() <= near;
+        let mut next = first + self.found[first..].iter().take_while(at_once).count();
+        let mut time = self.found[next - 1].time;
+        step.eval(time, &mut self.state)?;
+        if first + 1 == self.found.len() {
+            return Ok((time, next));
+        }
+        let (end, length) = (step.end_time(), step.end_time() - step.start_time());
+        let mut hop = near.max(T::EPSILON * length.abs()).min(length.abs());
+        for _ in 0..MEETINGS {
+            if self.are_behind(first, &mut next, time, step)? || time == end {
+                break;
+            }
+            let further = if length > T::ZERO {
+                time + hop
+            } else {
+                time - hop
+            };
+            time = if step.contains(further) { further } else { end };
+            hop = hop + hop;
+        }
+        Ok((time, next))
+    }
+
+    /// Returns true if the functions of the crossings from `first` to `next` are behind
+    /// their zeros at `time`. Others that are join them.
+    fn are_behind(
+        &mut self,
+        first: usize,
+        next: &mut usize,
+        time: T,
+        step: &mut DenseStep<'_, T>,
+    ) -> Result<bool, SearchError<T>> {
+        let mut all = true;
+        for index in first..self.found.len() {
+            let Found { event, rising, .. } = self.found[index];
+            // Of each event, the last crossing that is told, or the first one that is not.
+            let others = if index < *next {
+                index + 1..*next
+            } else {
+                first..index
+            };
+            if self.found[others].iter().any(|other| other.event == event) {
+                continue;
+            }
+            let value = self.value(event, time, step)?;
+            let behind = match rising {
+                true => value >= T::ZERO,
+                false => value <= T::ZERO,
+            };
+            if index < *next {
+                all &= behind;
+            } else if behind {
+                self.found[*next..=index].rotate_right(1);
+                *next += 1;
+            }
+        }
+        Ok(all)
     }
 
     /// Finds the crossings within `step`, in their order.
@@ -192,6 +202,7 @@ impl<'a, T: Real> Search<'a, T> {
                     let part = T::from_f64(f64::from(check) / f64::from(checks));
                     start + part * (end - start)
                 };
+                left = self.leave(index, left, time, step)?;
                 let value = self.value(index, time, step)?;
                 let right = EventSample { time, value };
                 self.look(index, left, right, step)?;
@@ -225,7 +236,30 @@ impl<'a, T: Real> Search<'a, T> {
         }
     }
 
-    /// Notes the crossing between two places, if there is one that counts.
+    /// A place behind `left` where the function is on the side to which it leaves a zero
+    /// there; `left` itself where it is none, or where it stays.
+    fn leave(
+        &mut self,
+        event: usize,
+        left: EventSample<T>,
+        right: T,
+        step: &mut DenseStep<'_, T>,
+    ) -> Result<EventSample<T>, SearchError<T>> {
+        if left.value != T::ZERO {
+            return Ok(left);
+        }
+        for part in DEPARTURES {
+            let time = left.time + T::from_f64(part) * (right - left.time);
+            let value = self.value(event, time, step)?;
+            if value != T::ZERO {
+                return Ok(EventSample { time, value });
+            }
+        }
+        Ok(left)
+    }
+
+    /// Notes the crossing between two places, if there is one that counts and that is not
+    /// at the start of the run.
     fn look(
         &mut self,
         event: usize,
@@ -242,11 +276,14 @@ impl<'a, T: Real> Search<'a, T> {
         };
         if counts {
             let time = self.locate(event, left, right, step)?;
-            self.found.push(Found {
-                event,
-                time,
-                rising,
-            });
+            let start = step.start_time();
+            if self.begun || (time - start).abs() > rounding(AT_START, start) {
+                self.found.push(Found {
+                    event,
+                    time,
+                    rising,
+                });
+            }
         }
         Ok(())
     }
@@ -302,38 +339,7 @@ impl<'a, T: Real> Search<'a, T> {
     }
 }
 
-impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> {
-    /// Goes on to the time `end` and visits the events on the way.
-    pub(super) fn find<E>(
-        mut self,
-        end: T,
-        events: &[Event<'_, T>],
-        mut visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
-    ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut search = Search::new(events, self.state());
-        let goal = self.goal(end);
-        while let Some(mut step) = self.step_to(goal)? {
-            let (time, flow) = match search.visit(&mut step, &mut visit) {
-                Ok(None) => continue,
-                Ok(Some(stop)) => stop,
-                Err(SearchError::Dense(error)) => return Err(self.dense_failure(error).into()),
-                Err(SearchError::Undefined { event, time }) => {
-                    let Solution { state, report } = self.solution(StopReason::NonFinite);
-                    let error = IntegrationError::Event {
-                        event,
-                        time,
-                        last: state,
-                        report,
-                    };
-                    return Err(error.into());
-                }
-            };
-            flow.map_err(|error| self.stopped_at(time, &search.state, error))?;
-            let mut solution = self.solution(StopReason::StoppedByEvent);
-            solution.state.time = time;
-            solution.state.values.copy_from_slice(&search.state);
-            return Ok(solution);
-        }
-        Ok(self.solution(StopReason::EndReached))
-    }
+/// So many units of rounding of a time.
+fn rounding<T: Real>(units: f64, time: T) -> T {
+    T::from_f64(units) * T::EPSILON * time.abs()
 }
