@@ -1,7 +1,7 @@
 //! The machine's own numbers.
 
 use super::kind::{ByKind, Compiled};
-use super::lanes::{Lane, Lanes};
+use super::lanes::{Lane, Lanes, Registers};
 use super::{Real, Scalar, sincos};
 use crate::simd::Fused;
 #[cfg(target_arch = "x86_64")]
@@ -57,7 +57,9 @@ macro_rules! implement_scalar {
             }
         }
 
-        impl Lane for $float {
+        impl Lane for $float {}
+
+        impl Registers for $float {
             type Build = register!($build, $lanes of $float);
             type Avx2 = register!($avx2, $lanes of $float);
             type Avx512 = register!($avx512, $lanes of $float);

@@ -5,8 +5,6 @@
 //! The first part of π/2 has all of its digits here: a fused product minus the
 //! angle is exact without zeros at its end.
 
-// As for the registers.
-#![allow(unreachable_pub)]
 // Without registers nothing looks at the range of several angles at a time.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 
@@ -19,7 +17,7 @@ use super::tail::{self, Tail, for_each};
 use crate::simd::{Fused, Simd};
 
 /// A number, or several in one register, that sines are computed with.
-pub trait FusingNumber: Simd<Self::Lane> {
+pub(crate) trait FusingNumber: Simd<Self::Lane> {
     /// A number in it.
     type Lane: Float;
     /// As many numbers as it has lanes.
@@ -48,7 +46,7 @@ pub trait FusingNumber: Simd<Self::Lane> {
 }
 
 /// The constants of one precision.
-pub trait Float: Lane {
+pub(crate) trait Float: Lane {
     /// One that fuses.
     type One: FusingNumber<Lane = Self>;
     /// As many as a register of AVX2 holds.

@@ -1,6 +1,5 @@
-//! Safe code cannot make the equations of trees in loops read or write beyond their
-//! memory: neither by lengths nor by equations of its own. What does not fit gives NaN
-//! or other numbers, and nothing else.
+//! Trees in loops: neither lengths nor equations make them read or write beyond their memory.
+//! What does not fit gives NaN or other numbers, and nothing else.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
