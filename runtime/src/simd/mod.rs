@@ -28,7 +28,7 @@ mod permutation;
 mod plain;
 mod quad;
 mod row;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 mod x86;
 
 use core::mem::MaybeUninit;
@@ -39,7 +39,7 @@ pub(crate) use one::Fused;
 pub use part::{Part, outlined};
 pub use quad::Quad;
 pub use row::Row;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 pub(crate) use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 use crate::scalar::{Real, Scalar};

@@ -85,9 +85,9 @@ pub(crate) trait Float: Lane {
 
 impl Float for f64 {
     type One = Fused<f64>;
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
     type Several = crate::simd::F64x4;
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
     type Several = Fused<f64>;
 
     const LIMIT: f64 = 102_942.0;
@@ -123,9 +123,9 @@ impl Float for f64 {
 
 impl Float for f32 {
     type One = Fused<f32>;
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
     type Several = crate::simd::F32x8;
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
     type Several = Fused<f32>;
 
     const LIMIT: f32 = 803.0;

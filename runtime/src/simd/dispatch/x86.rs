@@ -70,7 +70,7 @@ fn has_avx512() -> bool {
 }
 
 /// Runs `kernel` with instructions of the machine, in numbers `B` for those of the build,
-/// `A` for AVX2 and `W` for AVX-512.
+/// `A` for AVX2 and `W` for AVX-512, which need no more than these.
 #[inline(always)]
 pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
     set: Present,

@@ -17,8 +17,8 @@ use super::{Fused, Kernel, Sealed, Simd, dispatch};
 use crate::scalar::sincos::fused as fused_sines;
 use words::{masked_f32, masked_f64, words_of_avx2, words_of_avx512, words_of_sse2};
 
-// Of all calls of instructions here and in the two files: those of SSE2 belong to every
-// x86-64 machine. The wider types are named by what `dispatch` has started alone, once it
+// Of all calls of instructions here and in the two files: builds with SSE2 alone have this
+// module. The wider types are named by what `dispatch` has started alone, once it
 // has asked the machine for the instructions, and cannot be reached by other crates (see
 // `simd`). None of these instructions touches memory. The types hold so many numbers of
 // that size, in order and without padding, which makes the transmutations right.
