@@ -1,5 +1,6 @@
 //! Names that emitted code uses and nobody else. They change without notice
-//! from version to version: expand a scene with the version that runs it.
+//! from version to version: expand a scene with the version that runs it. `Simd` is
+//! sealed, and the registers that implement it cannot be named: see `simd`.
 
 pub use crate::requirements::{
     LinkBody, free_link, require_finite, require_non_negative, require_positive, require_regular,

@@ -1,21 +1,21 @@
 //! The machine's own numbers.
 
 use super::kind::{ByKind, Compiled};
-use super::lanes::{Lane, Lanes};
+use super::lanes::{Lane, Lanes, Registers};
 use super::{Real, Scalar, sincos};
 use crate::simd::Fused;
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 use crate::simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 /// A register of this name, or as many lanes where there are none.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 macro_rules! register {
     ($name:ty, $lanes:literal of $float:ident) => {
         $name
     };
 }
 
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
 macro_rules! register {
     ($name:ty, $lanes:literal of $float:ident) => {
         Lanes<$float, $lanes>
@@ -57,7 +57,9 @@ macro_rules! implement_scalar {
             }
         }
 
-        impl Lane for $float {
+        impl Lane for $float {}
+
+        impl Registers for $float {
             type Build = register!($build, $lanes of $float);
             type Avx2 = register!($avx2, $lanes of $float);
             type Avx512 = register!($avx512, $lanes of $float);

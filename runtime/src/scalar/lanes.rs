@@ -6,27 +6,26 @@ use super::kind::{ByKind, Compiled};
 use super::{Real, Scalar};
 use crate::simd::Simd;
 
-/// A number that has lanes: `f64` or `f32`. Other crates cannot implement it, since they
-/// cannot name the trait that its function asks for.
-pub trait Lane: Real {
+/// A number that has lanes: `f64` or `f32`. Sealed: other crates cannot implement it.
+// The trait is private on purpose: with `pub`, `T::Avx512` would be a register for anybody
+// who has a `T: Lane`, on any machine.
+#[allow(private_bounds)]
+pub trait Lane: Registers {}
+
+/// Registers that are made of a plain number, and functions that are compiled with this crate.
+pub(crate) trait Registers: Real {
     /// Registers of the build.
-    #[doc(hidden)]
     type Build: Simd<Self>;
     /// Registers of AVX2.
-    #[doc(hidden)]
     type Avx2: Simd<Self>;
     /// Registers of AVX-512.
-    #[doc(hidden)]
     type Avx512: Simd<Self>;
     /// One number that fuses.
-    #[doc(hidden)]
     type Fused: Simd<Self>;
     /// Four numbers with the instructions of AVX2.
-    #[doc(hidden)]
     type Four: Simd<Self>;
 
     /// Returns a function that is compiled with this crate.
-    #[doc(hidden)]
     fn compiled<C: Compiled>() -> C::Function<Self>;
 }
 

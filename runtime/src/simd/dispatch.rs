@@ -19,6 +19,8 @@ use portable as machine;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use x86 as machine;
 
+pub(super) use machine::Present;
+
 use super::{Kernel, Simd};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Lanes, Scalar};
@@ -44,7 +46,7 @@ impl InstructionSet {
     #[inline(always)]
     #[must_use]
     pub fn widest() -> Self {
-        machine::widest()
+        Present::widest().set()
     }
 }
 
@@ -81,8 +83,7 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFusedNumbers<K> {
     where
         S: Lane,
     {
-        let set = InstructionSet::widest();
-        machine::run::<S, S, S::Fused, S::Fused, K>(set, self.0)
+        machine::run::<S, S, S::Fused, S::Fused, K>(Present::widest(), self.0)
     }
 }
 
@@ -94,7 +95,10 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFusedNumbers<K> {
 pub(crate) fn run_fused<T: Lane, K: Kernel<T>>(kernel: K) -> Result<K::Output, K> {
     match InstructionSet::widest() {
         InstructionSet::Build => Err(kernel),
-        set => Ok(machine::run::<T, T, T::Fused, T::Fused, K>(set, kernel)),
+        _ => Ok(machine::run::<T, T, T::Fused, T::Fused, K>(
+            Present::widest(),
+            kernel,
+        )),
     }
 }
 
@@ -163,15 +167,15 @@ impl<S: Scalar, K: StateKernel<S>> ByKind<S> for InFused<'_, K, S> {
     }
 }
 
-/// Runs `kernel` in a function of its own with AVX2 and FMA, in numbers `V`. For types
-/// that exist where the machine has them, and for their methods alone.
+/// Runs `kernel` in a function of its own with AVX2 and FMA, in numbers `V`. For the methods
+/// of types alone that exist where the machine has these.
 #[inline(always)]
 pub(crate) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     machine::outlined_avx2::<T, V, K>(kernel)
 }
 
 /// Does so with AVX-512.
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[inline(always)]
 pub(crate) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     machine::outlined_avx512::<T, V, K>(kernel)
@@ -181,16 +185,14 @@ pub(crate) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Outp
 /// machine has, if these are narrower.
 #[inline(always)]
 pub(crate) fn run_in_registers<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    let set = set.min(InstructionSet::widest());
-    machine::run::<T, T::Build, T::Avx2, T::Avx512, K>(set, kernel)
+    machine::run::<T, T::Build, T::Avx2, T::Avx512, K>(Present::at_most(set), kernel)
 }
 
 /// Runs `kernel` with the wide numbers of `set`, or with the widest that the machine
 /// has, if these are narrower.
 #[inline(always)]
 pub(crate) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
-    let set = set.min(InstructionSet::widest());
-    machine::run_wide(set, kernel)
+    machine::run_wide(Present::at_most(set), kernel)
 }
 
 /// Runs `kernel` with the widest numbers of the machine that are made of `T`.
@@ -242,8 +244,7 @@ impl<S: Scalar, K: Kernel<S>> ByKind<S> for InFours<K> {
     where
         S: Lane,
     {
-        let set = InstructionSet::widest();
-        machine::run::<S, Lanes<S, 4>, S::Four, S::Four, K>(set, self.0)
+        machine::run::<S, Lanes<S, 4>, S::Four, S::Four, K>(Present::widest(), self.0)
     }
 }
 

@@ -3,12 +3,21 @@
 //!
 //! [`Lanes`] are arrays, which the compiler takes apart into numbers and puts
 //! together into registers again: well for short functions, badly and slowly for
-//! long ones. The types here are registers from the start. They exist inside
-//! computations that [`dispatch`] starts, and nowhere else: no public function
-//! returns one. Nothing here knows what is computed.
+//! long ones. The types here are registers from the start. Nothing here knows what is
+//! computed.
+//!
+//! # What keeps instructions on machines that have them
+//! A register, and a number that fuses, *is* the proof that the machine has its instructions:
+//! - [`dispatch`] alone starts computations with them, once it has [`Present`] for these;
+//! - the types are this crate's, and nothing that another crate can name leads to them:
+//!   neither a public item nor an associated type of a public trait. Generic functions of
+//!   others get them as parameters, in computations that have been started;
+//! - [`Simd`] is sealed: other crates cannot say of a type of theirs what it consists of.
+//!
+//! [`Present`]: dispatch::Present
 
-// The types appear in the interface of sealed traits, so that they must be `pub`,
-// and can be reached by no one.
+// The traits appear in the interface of public ones, so that they must be `pub`, and
+// are named by no one else.
 #![allow(unreachable_pub)]
 
 pub(crate) mod dispatch;
@@ -18,18 +27,20 @@ mod part;
 mod permutation;
 mod plain;
 mod quad;
-#[cfg(target_arch = "x86_64")]
+mod row;
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 mod x86;
 
 use core::mem::MaybeUninit;
 
 pub use dispatch::{InstructionSet, StateKernel};
 pub(crate) use known::Known;
-pub use one::Fused;
+pub(crate) use one::Fused;
 pub use part::{Part, outlined};
 pub use quad::Quad;
-#[cfg(target_arch = "x86_64")]
-pub use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+pub use row::Row;
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+pub(crate) use x86::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
 
 use crate::scalar::{Real, Scalar};
 
@@ -43,15 +54,22 @@ pub trait Kernel<T> {
     fn run<V: Simd<T>>(self) -> Self::Output;
 }
 
+/// The types that [`Simd`] is for: every number for itself, arrays of lanes, and the
+/// registers of this crate.
+mod sealed {
+    pub trait Sealed<T> {}
+}
+use sealed::Sealed;
+
 /// A wide number: several numbers `T` in one register, each in its lane. Every
-/// number is one of itself.
+/// number is one of itself. Sealed: other crates cannot implement it.
 ///
 /// The wide registers fuse products with sums; those of the build do not. See
 /// [`Scalar::mul_add`].
 #[allow(unsafe_code)]
-pub trait Simd<T>: Scalar {
-    /// Number of lanes. A type of one lane has the layout of `T`.
-    const LANES: usize;
+pub trait Simd<T>: Scalar + Sealed<T> {
+    /// Number of lanes, at least one.
+    const LANES: usize = <Self::Chunk as Row<T>>::LENGTH;
 
     /// A batch of few links computes sines a register of states ahead, which needs
     /// many registers and sines that take no branch.
@@ -123,8 +141,8 @@ pub trait Simd<T>: Scalar {
     /// So many numbers may be read there.
     #[inline(always)]
     unsafe fn read(start: *const T) -> Self {
-        // SAFETY: the caller's. A wide number is its lanes, but for types that say
-        // otherwise by a function of their own. They need not lie where registers would.
+        // SAFETY: the caller's. A wide number is its lanes, but for `Lanes`, which has a
+        // function of its own. They need not lie where registers would.
         unsafe { start.cast::<Self>().read_unaligned() }
     }
 
@@ -148,12 +166,11 @@ pub trait Simd<T>: Scalar {
         T: Copy,
     {
         let numbers = self.to_chunk();
-        let first = core::ptr::from_ref(&numbers).cast::<T>();
         // Over all lanes, so that compilers do not call a function that copies.
-        for lane in 0..Self::LANES {
+        for (lane, &number) in numbers.as_ref().iter().enumerate() {
             if lane < count {
-                // SAFETY: a chunk holds so many numbers; the places are the caller's.
-                unsafe { start.add(lane).write(first.add(lane).read()) }
+                // SAFETY: the caller's.
+                unsafe { start.add(lane).write(number) }
             }
         }
     }
@@ -161,11 +178,7 @@ pub trait Simd<T>: Scalar {
     /// Reads the first numbers of a slice, if it has enough.
     #[inline(always)]
     fn load(numbers: &[T]) -> Option<Self> {
-        if numbers.len() < Self::LANES {
-            return None;
-        }
-        // SAFETY: there are so many.
-        Some(unsafe { Self::read(numbers.as_ptr()) })
+        Self::Chunk::first_of(numbers).map(Self::from_chunk)
     }
 
     /// Reads the first numbers of a slice, and zeros behind its end.
@@ -228,15 +241,12 @@ pub trait Simd<T>: Scalar {
     }
 
     /// Its numbers where they lie in memory: an array of so many.
-    type Chunk;
+    type Chunk: Row<T>;
 
     /// Returns the last numbers of a slice, if it has enough.
     #[inline(always)]
     fn last_chunk(numbers: &[T]) -> Option<&Self::Chunk> {
-        let first = numbers.len().checked_sub(Self::LANES)?;
-        let chunk = numbers.get(first..)?.as_ptr().cast::<Self::Chunk>();
-        // SAFETY: there are so many, of which a chunk is an array.
-        Some(unsafe { &*chunk })
+        Self::Chunk::last_of(numbers)
     }
 
     /// Reads numbers.
@@ -250,10 +260,11 @@ pub trait Simd<T>: Scalar {
     #[inline(always)]
     fn to_chunk(self) -> Self::Chunk {
         let mut chunk = MaybeUninit::<Self::Chunk>::uninit();
-        // SAFETY: a chunk has places for so many numbers.
-        unsafe { self.write(chunk.as_mut_ptr().cast()) };
-        // SAFETY: they are all it consists of.
-        unsafe { chunk.assume_init() }
+        // SAFETY: a chunk has places for so many numbers, and consists of nothing else.
+        unsafe {
+            self.write(chunk.as_mut_ptr().cast());
+            chunk.assume_init()
+        }
     }
 
     /// Returns the number in the first lane.
@@ -262,9 +273,8 @@ pub trait Simd<T>: Scalar {
     where
         T: Copy,
     {
-        let numbers = self.to_chunk();
-        // SAFETY: there is at least one lane.
-        unsafe { core::ptr::from_ref(&numbers).cast::<T>().read() }
+        const { assert!(Self::LANES > 0) }
+        self.to_chunk().as_ref()[0]
     }
 }
 
@@ -293,6 +303,6 @@ pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mu
     if size_of::<V>() != V::LANES * size_of::<T>() {
         return None;
     }
-    // SAFETY: a wide number is its lanes without padding, and any numbers are such lanes.
+    // SAFETY: a wide number is its lanes, and no more by its size; any numbers are lanes.
     Some(unsafe { numbers.align_to_mut().1 })
 }

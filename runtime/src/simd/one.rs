@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Kernel, Simd, dispatch};
+use super::{Kernel, Sealed, Simd, dispatch};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
 use crate::scalar::sincos::fused;
@@ -10,13 +10,12 @@ use crate::scalar::sincos::fused;
 /// A plain number whose [`Scalar::mul_add`] is fused: what a lane of the wide
 /// registers computes, for one state.
 ///
-/// Exists only in functions compiled for AVX2 and FMA ([`dispatch`]); elsewhere
-/// its products would be right, but slow.
+/// Exists only in functions compiled for AVX2 and FMA ([`dispatch`]).
 ///
 /// [`dispatch`]: super::dispatch
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
-pub struct Fused<T>(pub T);
+pub(crate) struct Fused<T>(pub(crate) T);
 
 macro_rules! fused {
     ($float:ident, $sign:literal) => {
@@ -67,12 +66,12 @@ macro_rules! fused {
             }
         }
 
+        impl Sealed<$float> for Fused<$float> {}
+
         impl Simd<$float> for Fused<$float> {
             type One = Self;
             type Mask = bool;
-            type Chunk = $float;
-
-            const LANES: usize = 1;
+            type Chunk = [$float; 1];
 
             #[inline(always)]
             fn in_own_function<K: Kernel<$float>>(kernel: K) -> K::Output {

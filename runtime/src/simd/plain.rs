@@ -2,17 +2,18 @@
 
 #![allow(unsafe_code)]
 
-use super::Simd;
 use super::permutation::{rotated, tiled};
+use super::{Sealed, Simd};
 use crate::scalar::{Lanes, Real, Scalar};
+
+impl<T: Scalar> Sealed<T> for T {}
+impl<T: Scalar, const N: usize> Sealed<T> for Lanes<T, N> {}
 
 /// Every number is a wide one of one lane.
 impl<T: Scalar> Simd<T> for T {
     type One = T;
     type Mask = bool;
-    type Chunk = T;
-
-    const LANES: usize = 1;
+    type Chunk = [T; 1];
 
     #[inline(always)]
     fn mask(meant: impl Fn(usize) -> bool) -> bool {
@@ -54,7 +55,10 @@ impl<T: Scalar, const N: usize> Simd<T> for Lanes<T, N> {
     type Mask = [bool; N];
     type Chunk = [T; N];
 
-    const LANES: usize = N;
+    const LANES: usize = {
+        assert!(N > 0, "a wide number has at least one lane");
+        N
+    };
 
     #[inline(always)]
     fn mask(meant: impl Fn(usize) -> bool) -> [bool; N] {

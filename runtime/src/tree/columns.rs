@@ -8,7 +8,8 @@ use super::equations::Row;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 
-/// Numbers of a slice as `N` columns, or some rows of these.
+/// Numbers of a slice as `N` columns, or some rows of these. [`Rows`] of numbers have some
+/// of them too.
 ///
 /// As slices of their own, each column would ask whether a place lies in it, every
 /// time: many questions with one respond, and more instructions than the mechanics.
@@ -34,33 +35,6 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             stride: length,
             row: 1,
             rows: length,
-            slice: PhantomData,
-        }
-    }
-
-    /// As `N` columns of rows of `width` numbers, one behind the other, from number
-    /// `first` of each on; none where a row has not so many.
-    #[inline(always)]
-    pub(super) fn of_rows(slice: &'a mut [T], width: usize, first: usize) -> Self {
-        let fit = first + N <= width;
-        Self {
-            start: slice.as_mut_ptr().wrapping_add(first),
-            stride: 1,
-            row: width,
-            rows: if fit { slice.len() / width } else { 0 },
-            slice: PhantomData,
-        }
-    }
-
-    /// `M` other columns of the same rows, from number `first` of each on.
-    #[inline(always)]
-    pub(super) fn beside<const M: usize>(self, first: usize) -> Columns<'a, T, M> {
-        let fit = N + first + M <= self.row;
-        Columns {
-            start: self.start.wrapping_add(N + first),
-            stride: 1,
-            row: self.row,
-            rows: if fit { self.rows } else { 0 },
             slice: PhantomData,
         }
     }
@@ -96,6 +70,14 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
         side_by_side && V::LANES <= self.rows && at <= self.rows - V::LANES
     }
 
+    fn cells(self) -> Cells<T> {
+        Cells {
+            start: self.start,
+            row: self.row,
+            stride: self.stride,
+        }
+    }
+
     /// Returns the vectors at `at`; none where they would cross the end.
     #[inline(always)]
     pub(super) fn load<V: Simd<T>>(self, at: usize) -> Option<[V; N]> {
@@ -103,7 +85,7 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         // SAFETY: as in `store`; what is read there is copied at once.
-        Some(unsafe { read(self.start.add(at * self.row), self.stride) })
+        Some(unsafe { self.cells().read(at) })
     }
 
     /// Writes the vectors at `at` of the first `M` columns; none where they would
@@ -119,12 +101,47 @@ impl<'a, T: Copy, const N: usize> Columns<'a, T, N> {
             return None;
         }
         // SAFETY: in the slice there are `N` columns, `stride` apart, of which each has
-        // `rows` numbers from `start` on, `row` apart; by `new` and `of_rows`, and kept by
-        // `window` and `beside`. `has` has seen that `LANES` from `at` on are among them.
-        // The slice is borrowed mutably for as long as the views live, which are all in
-        // one thread, and no other reference is there now.
-        unsafe { write(vectors, self.start.add(at * self.row), self.stride) };
+        // `rows` numbers from `start` on, `row` apart; by `new` and `Rows::columns`, and kept
+        // by `window`. `has` has seen that `LANES` from `at` on are among them. The slice is
+        // borrowed mutably for as long as the views live, which are all in one thread, and no
+        // other reference is there now.
+        unsafe { self.cells().write(at, vectors) };
         Some(())
+    }
+}
+
+/// Numbers of a slice in rows, one behind the other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows<'a, T> {
+    start: *mut T,
+    width: usize,
+    rows: usize,
+    slice: PhantomData<&'a mut [T]>,
+}
+
+impl<'a, T> Rows<'a, T> {
+    /// The front of a slice in rows of `width` numbers.
+    #[inline(always)]
+    pub(super) fn new(slice: &'a mut [T], width: usize) -> Self {
+        Self {
+            start: slice.as_mut_ptr(),
+            width,
+            rows: slice.len() / width.max(1),
+            slice: PhantomData,
+        }
+    }
+
+    /// `N` columns, from number `first` of each row on; none where a row has not so many.
+    #[inline(always)]
+    pub(super) fn columns<const N: usize>(self, first: usize) -> Columns<'a, T, N> {
+        let fit = first + N <= self.width;
+        Columns {
+            start: self.start.wrapping_add(first),
+            stride: 1,
+            row: self.width,
+            rows: if fit { self.rows } else { 0 },
+            slice: PhantomData,
+        }
     }
 }
 
@@ -177,10 +194,18 @@ impl<T: Copy> Cells<T> {
     ///
     /// # Safety
     /// They may be read there.
+    // A plain loop: iterators are many lines to compile, with each model.
     #[inline(always)]
     pub(super) unsafe fn read<V: Simd<T>, A: Row<V>>(self, at: usize) -> A {
-        // SAFETY: the caller's.
-        unsafe { read(self.from(at).start, self.stride) }
+        let start = self.from(at).start;
+        let mut vectors = A::filled(V::from_f64(0.0));
+        let mut i = 0;
+        while i < A::LENGTH {
+            // SAFETY: the caller's.
+            vectors.as_mut()[i] = unsafe { V::read(start.add(i * self.stride)) };
+            i += 1;
+        }
+        vectors
     }
 
     /// Writes numbers of the link `at`, or of as many links as `V` has lanes.
@@ -189,39 +214,13 @@ impl<T: Copy> Cells<T> {
     /// They may be written there.
     #[inline(always)]
     pub(super) unsafe fn write<V: Simd<T>, A: Row<V>>(self, at: usize, vectors: &A) {
-        // SAFETY: the caller's.
-        unsafe { write(vectors, self.from(at).start, self.stride) }
-    }
-}
-
-/// The vectors at `start`, and so on, `stride` numbers apart.
-///
-/// # Safety
-/// They may be read there.
-// A plain loop: iterators are many lines to compile, with each model.
-#[inline(always)]
-unsafe fn read<T, V: Simd<T>, A: Row<V>>(start: *const T, stride: usize) -> A {
-    let mut vectors = A::filled(V::from_f64(0.0));
-    let mut i = 0;
-    while i < A::LENGTH {
-        // SAFETY: the caller's.
-        vectors.as_mut()[i] = unsafe { V::read(start.add(i * stride)) };
-        i += 1;
-    }
-    vectors
-}
-
-/// Writes vectors to `start`, and so on, `stride` numbers apart.
-///
-/// # Safety
-/// They may be written there.
-#[inline(always)]
-unsafe fn write<T, V: Simd<T>, A: Row<V>>(vectors: &A, start: *mut T, stride: usize) {
-    let mut i = 0;
-    while i < A::LENGTH {
-        // SAFETY: the caller's.
-        unsafe { vectors.as_ref()[i].write(start.add(i * stride)) };
-        i += 1;
+        let start = self.from(at).start;
+        let mut i = 0;
+        while i < A::LENGTH {
+            // SAFETY: the caller's.
+            unsafe { vectors.as_ref()[i].write(start.add(i * self.stride)) };
+            i += 1;
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The equations of one link, as the attribute writes them.
 
 use crate::scalar::Scalar;
+pub use crate::simd::Row;
 
 /// The motion of a link, or of as many links (or states) as `V` has lanes.
 #[derive(Clone, Copy, Debug)]
@@ -19,31 +20,6 @@ pub struct LinkMotion<V> {
     pub outside_torque: V,
     /// 1 for a held link, whose acceleration is given, and 0 for others.
     pub held: V,
-}
-
-mod sealed {
-    pub trait Sealed {}
-
-    impl<V, const N: usize> Sealed for [V; N] {}
-}
-
-/// A fixed number of values: an array, and nothing else.
-pub trait Row<V>: Copy + AsRef<[V]> + AsMut<[V]> + sealed::Sealed {
-    /// Number of values.
-    const LENGTH: usize;
-
-    /// Returns the row that has `value` everywhere.
-    #[doc(hidden)]
-    fn filled(value: V) -> Self;
-}
-
-impl<V: Copy, const N: usize> Row<V> for [V; N] {
-    const LENGTH: usize = N;
-
-    #[inline(always)]
-    fn filled(value: V) -> Self {
-        [value; N]
-    }
 }
 
 /// The equations of one link of a tree, for as many links (or states) side by side
@@ -78,7 +54,8 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
 
     /// Copies of each generation under each link of the one before, 1 for the root:
     /// constants are a row a generation then. Empty for a tree whose shape is given
-    /// link by link, with a row a link.
+    /// link by link, with a row a link. A tree of more links than memory can hold is not
+    /// compiled.
     const COPIES: &'static [usize];
 
     /// Names of the generations; empty where [`COPIES`](Self::COPIES) is.

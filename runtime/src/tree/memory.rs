@@ -1,7 +1,7 @@
 //! Where the numbers of an evaluation stand.
 
 use super::block::SubtreeBlock;
-use super::columns::Columns;
+use super::columns::{Columns, Rows};
 use super::equations::{LinkEquations, Row};
 use crate::scalar::Scalar;
 
@@ -48,6 +48,29 @@ impl Sizes {
             held: E::HELD,
             by_link,
         }
+    }
+
+    /// Returns the same for a tree of so many links, whose memory can be counted: what is
+    /// computed with these sizes does not overflow.
+    ///
+    /// # Panics
+    /// Of a tree whose memory could have no address, or whose links have no number.
+    pub(super) const fn of_links(self, links: usize) -> Self {
+        let numbers = self.motion() as u128
+            + self.constants as u128
+            + self.responses as u128
+            + self.sums as u128
+            + self.eliminations as u128;
+        // With a wide margin: ends of columns are rounded up, and places of links with children,
+        // which may be one a generation, to a register.
+        let all = numbers
+            .saturating_mul(64)
+            .saturating_mul(links as u128 + 4096);
+        assert!(
+            all <= isize::MAX as u128 && links as u128 <= u32::MAX as u128,
+            "a tree has more links than memory or numbers for them"
+        );
+        self
     }
 
     /// Numbers of a link's motion: sine, cosine, velocity, joint angle and rate, torque
@@ -160,11 +183,12 @@ impl Room {
         let (sincos, velocities, joint_motions, torques, held);
         if in_rows {
             let width = sizes.motion();
-            sincos = Columns::of_rows(take(lasting, width * links), width, 0);
-            velocities = Some(sincos.beside(0));
-            joint_motions = sincos.beside(1);
-            torques = sincos.beside(1 + sizes.joint_motions());
-            held = sincos.beside(1 + sizes.joint_motions() + sizes.torques());
+            let rows = Rows::new(take(lasting, width * links), width);
+            sincos = rows.columns(0);
+            velocities = Some(rows.columns(2));
+            joint_motions = rows.columns(3);
+            torques = rows.columns(3 + sizes.joint_motions());
+            held = rows.columns(3 + sizes.joint_motions() + sizes.torques());
         } else {
             sincos = Columns::new(take(lasting, 2 * links), links);
             velocities = match given {

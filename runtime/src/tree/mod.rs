@@ -31,6 +31,7 @@
 mod block;
 mod bodies;
 mod columns;
+mod copies;
 mod equations;
 mod evaluate;
 mod heights;
@@ -73,6 +74,7 @@ use crate::scalar::{Scalar, at};
 use crate::simd::{Simd, wide_slice};
 use crate::system::cast::put;
 use crate::system::{InRegisters, Workspace};
+use copies::links;
 use memory::Sizes;
 use partition::Policy;
 use skeleton::{ByGeneration, ByLink, InBlocks, InOnePiece, Skeleton};
@@ -91,7 +93,11 @@ pub struct Tree<E, T> {
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// The tree is so large that it may be computed in blocks.
-    const IN_BLOCKS: bool = links(E::COPIES) > Policy::ONE_STATE.whole;
+    const IN_BLOCKS: bool = links(Self::COPIES) > Policy::ONE_STATE.whole;
+
+    /// Numbers of a link. Equations of a tree by generations that is too large for memory are
+    /// not compiled.
+    const SIZES: Sizes = Sizes::of::<E, T>().of_links(links(Self::COPIES));
 
     /// A tree by generations, with a row of constants for each, one after the other,
     /// and the acceleration of the root's pivot against gravity, in the unit of the
@@ -100,22 +106,25 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     pub fn new(rows: Vec<T>, root: [T; 2]) -> Self {
         let skeleton = compiled::<ByGeneration, T>();
         let threads = match Self::IN_BLOCKS {
-            true => threads::default(links(E::COPIES)),
+            true => threads::default(links(Self::COPIES)),
             false => 1,
         };
         Self {
-            skeleton: skeleton(E::COPIES, Sizes::of::<E, T>(), rows, root, threads),
+            skeleton: skeleton(Self::COPIES, Self::SIZES, rows, root, threads),
             equations: PhantomData,
         }
     }
 
     /// A tree of any shape, with the parent of each link, which stands before it (the
     /// root's own is 0), and a row of constants for each.
+    ///
+    /// # Panics
+    /// Of more links than memory has room for, as a vector of so many numbers does.
     #[must_use]
     pub fn with_parents(parents: &[u32], rows: &[T], root: [T; 2]) -> Self {
         let skeleton = compiled::<ByLink, T>();
         Self {
-            skeleton: skeleton(parents, Sizes::of::<E, T>(), rows, root),
+            skeleton: skeleton(parents, Self::SIZES.of_links(parents.len()), rows, root),
             equations: PhantomData,
         }
     }
@@ -305,75 +314,6 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
         let none = |_| [V::from_f64(0.0); 2];
         states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, none, alpha);
     }
-}
-
-impl<E: LinkEquations, T> Tree<E, T> {
-    /// Index of the link that one comes to from the root by these copies, each
-    /// counted from 0; the empty path is the root's. None where there is no such
-    /// link, or the tree is not by generations.
-    #[must_use]
-    pub fn link(path: &[usize]) -> Option<usize> {
-        let (mut start, mut count, mut index) = (0, *E::COPIES.first()?, 0);
-        let mut copies = E::COPIES.iter().skip(1);
-        for &copy in path {
-            let copies = *copies.next()?;
-            if copy >= copies {
-                return None;
-            }
-            start += count;
-            index += copy * count;
-            count *= copies;
-        }
-        Some(start + index)
-    }
-
-    /// The path from the root to a link: the inverse of [`link`](Self::link).
-    #[must_use]
-    pub fn path(index: usize) -> Option<Vec<usize>> {
-        let (generation, mut rest) = place(E::COPIES, index)?;
-        let copies = E::COPIES.get(1..=generation).unwrap_or_default();
-        let mut path = Vec::with_capacity(generation);
-        for &copies in copies {
-            path.push(rest % copies);
-            rest /= copies;
-        }
-        Some(path)
-    }
-
-    /// The name of a link of a tree by generations.
-    #[must_use]
-    pub fn link_name(index: usize) -> Option<LinkName> {
-        let (generation, index) = place(E::COPIES, index)?;
-        Some(LinkName {
-            stem: E::NAMES.get(generation)?,
-            copies: E::COPIES.get(1..=generation)?,
-            index,
-        })
-    }
-}
-
-/// Returns the number of links of a tree by generations.
-const fn links(copies: &[usize]) -> usize {
-    let (mut links, mut count, mut generation) = (0, 1, 0);
-    while generation < copies.len() {
-        count *= copies[generation];
-        links += count;
-        generation += 1;
-    }
-    links
-}
-
-/// Returns the generation of a link, and its number there.
-fn place(copies: &[usize], index: usize) -> Option<(usize, usize)> {
-    let (mut count, mut rest) = (1, index);
-    for (generation, copies) in copies.iter().enumerate() {
-        count *= copies;
-        if rest < count {
-            return Some((generation, rest));
-        }
-        rest -= count;
-    }
-    None
 }
 
 /// Returns numbers in a model's scalar. Each is given as the `f64` nearest to it and

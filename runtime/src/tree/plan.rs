@@ -150,14 +150,14 @@ mod tests {
     }
 
     fn every_link_is_in_one_part(copies: &[usize], partitions: &[usize]) {
+        assert_eq!(links_in_one_part(copies), partitions);
+    }
+
+    /// Checks that blocks have no link in common, as threads that write to one slice must not,
+    /// and returns where partitions start.
+    fn links_in_one_part(copies: &[usize]) -> Vec<usize> {
         let plan = Plan::new(copies, Policy::ONE_STATE);
-        let firsts: Vec<usize> = plan
-            .partitions
-            .iter()
-            .map(|partition| partition.first)
-            .collect();
-        assert_eq!(firsts, partitions);
-        for threads in [1, 2, 3] {
+        for threads in [1, 2, 3, usize::MAX] {
             let mut found = alloc::vec![0; plan.links()];
             mark(plan.top(), &mut found);
             for partition in &plan.partitions {
@@ -169,6 +169,35 @@ mod tests {
             }
             assert!(found.iter().all(|&blocks| blocks == 1), "{copies:?}");
         }
+        let firsts = plan.partitions.iter().map(|partition| partition.first);
+        firsts.collect()
+    }
+
+    #[test]
+    fn any_copies_are_cut_into_parts() {
+        let mut number = 1_usize;
+        let mut below = |end: usize| {
+            number = number.wrapping_mul(48_271) % 0x7fff_ffff;
+            number % end
+        };
+        let (mut trees, mut cut) = (0, 0);
+        while trees < 400 {
+            let mut copies = alloc::vec![1];
+            for _ in 0..1 + below(12) {
+                let most = [2, 3, 5, 40, 700][below(5)];
+                copies.push(1 + below(most));
+            }
+            let links = copies.iter().scan(1_usize, |count, &copies| {
+                *count = count.saturating_mul(copies);
+                Some(*count)
+            });
+            if links.fold(0, usize::saturating_add) > 100_000 {
+                continue;
+            }
+            trees += 1;
+            cut += usize::from(!links_in_one_part(&copies).is_empty());
+        }
+        assert!(cut > 20, "{cut} of {trees} were large");
     }
 
     #[test]

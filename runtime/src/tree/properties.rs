@@ -164,7 +164,7 @@ impl Shape {
             Self::Parents(parents) => listed(parents),
             Self::Shared(parents) => listed(parents),
             Self::Generations(copies) => {
-                let (generation, number) = super::place(copies, link)?;
+                let (generation, number) = super::copies::place(copies, link)?;
                 // Links of the generation above, in front of this one.
                 let above: usize = copies.iter().take(generation).product();
                 let parent = || link - number - above + number % above;

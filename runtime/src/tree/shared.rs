@@ -35,8 +35,7 @@ impl<'a, T: Copy> Shared<'a, T> {
     pub(super) fn from(self, at: usize) -> Option<Self> {
         let length = self.length.checked_sub(at)?;
         Some(Self {
-            // SAFETY: `at` elements lie behind the start.
-            start: unsafe { self.start.add(at) },
+            start: self.start.wrapping_add(at),
             length,
             ..self
         })
@@ -84,11 +83,12 @@ impl<T: Scalar> Output<T> for Shared<'_, T> {
     #[inline(always)]
     unsafe fn write<V: Simd<T>>(&mut self, at: usize, alpha: V, count: usize) {
         let place = self.start.wrapping_add(at);
-        match count < V::LANES {
-            // SAFETY: the caller's: this is as long as the strips of the block reach.
-            true => unsafe { alpha.write_some(place, count) },
-            // SAFETY: the caller's: `alpha` is as long as the strips of the block reach.
-            false => unsafe { alpha.write(place) },
+        // SAFETY: the caller's: this is as long as the strips of the block reach.
+        unsafe {
+            match count < V::LANES {
+                true => alpha.write_some(place, count),
+                false => alpha.write(place),
+            }
         }
     }
 }

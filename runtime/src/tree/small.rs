@@ -29,6 +29,8 @@ pub struct SmallTree<E, T> {
     rows: Vec<T>,
     /// Acceleration of the root's pivot against gravity.
     root: [T; 2],
+    /// How many numbers an evaluation needs room for.
+    room: usize,
     equations: PhantomData<E>,
 }
 
@@ -62,6 +64,9 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
     /// A tree with the parent of each link, which stands before it (the root's own is 0),
     /// a row of constants for each, and the acceleration of the root's pivot against
     /// gravity, in the unit of the equations.
+    ///
+    /// # Panics
+    /// Of more links than memory has room for, as a vector of so many numbers does.
     #[must_use]
     pub fn new(parents: &[u32], mut rows: Vec<T>, root: [T; 2]) -> Self {
         let mut carries = alloc::vec![false; parents.len()];
@@ -78,11 +83,14 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
             put(&mut carries, parent, true);
         }
         links.reverse();
-        rows.resize(links.len() * Self::CONSTANTS, T::from_f64(0.0));
+        let numbers = |of_link| links.len().saturating_mul(of_link);
+        let room = numbers(Self::ROOM);
+        rows.resize(numbers(Self::CONSTANTS), T::from_f64(0.0));
         Self {
             links,
             rows,
             root,
+            room,
             equations: PhantomData,
         }
     }
@@ -94,6 +102,7 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
             links: self.links.clone(),
             rows: self.rows.iter().map(|&x| convert(x)).collect(),
             root: self.root.map(&convert),
+            room: self.room,
             equations: PhantomData,
         }
     }
@@ -125,7 +134,7 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
             tree: self,
             drive: &drive,
             states,
-            room: workspace.numbers(links * Self::ROOM),
+            room: workspace.numbers(self.room),
             alpha,
         });
     }
@@ -144,6 +153,9 @@ impl<E: LinkEquations, T: Scalar> SmallTree<E, T> {
 
     /// Numbers of a link.
     const ROOM: usize = Self::SINE + 2;
+
+    /// All of them.
+    const SIZES: [usize; 4] = [Self::CONSTANTS, Self::SHARED, Self::SINE, Self::ROOM];
 }
 
 /// One evaluation, whose slices fit the tree.
@@ -160,7 +172,15 @@ impl<E: LinkEquations, T: Scalar> Kernel<T> for OneState<'_, E, T> {
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        const { assert!(V::LANES == 1) };
+        const {
+            assert!(V::LANES == 1);
+            let (own, of_tree) = (SmallTree::<E, V>::SIZES, SmallTree::<E, T>::SIZES);
+            let mut size = 0;
+            while size < own.len() {
+                assert!(own[size] == of_tree[size]);
+                size += 1;
+            }
+        }
         let (tree, states) = (self.tree, self.states);
         let none = [T::from_f64(0.0)];
         // Nobody writes to what is given.
@@ -254,32 +274,29 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     #[inline(always)]
     unsafe fn up<V: Simd<T>>(&self) {
         for (link, &place) in self.links.iter().enumerate().rev() {
-            // SAFETY: `link` counts the links, and the parent of each is one.
-            let (constants, motion) =
-                unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
-            let response = if place.carries {
-                // SAFETY: each link has places for sums.
-                let sums: E::Sums<V> = unsafe { self.shared.read(link) };
-                let (response, elimination) = E::inner(&constants, motion, sums);
-                // SAFETY: each link has places for an elimination, which no other shares.
-                unsafe { self.elimination.write(link, &elimination) };
-                response
-            } else {
-                E::leaf(&constants, motion)
-            };
-            if link == 0 {
-                continue;
-            }
             let parent = place.parent;
-            // SAFETY: the parent is a link.
-            let of_parent = unsafe { self.direction(parent) };
-            let mut sums = E::attach(&constants, of_parent, response);
-            if !place.is_last {
-                // SAFETY: the parent is a link, which has places for sums.
-                add(&mut sums, &unsafe { self.shared.read(parent) });
+            // SAFETY: `link` counts the links, and the parent of each is one: each has places
+            // for sums, and for an elimination that no other shares.
+            unsafe {
+                let constants = self.constants::<V>(link);
+                let motion = self.motion(link, parent);
+                let response = if place.carries {
+                    let sums: E::Sums<V> = self.shared.read(link);
+                    let (response, elimination) = E::inner(&constants, motion, sums);
+                    self.elimination.write(link, &elimination);
+                    response
+                } else {
+                    E::leaf(&constants, motion)
+                };
+                if link == 0 {
+                    continue;
+                }
+                let mut sums = E::attach(&constants, self.direction(parent), response);
+                if !place.is_last {
+                    add(&mut sums, &self.shared.read(parent));
+                }
+                self.shared.write(parent, &sums);
             }
-            // SAFETY: as they are read.
-            unsafe { self.shared.write(parent, &sums) };
         }
     }
 
@@ -290,32 +307,28 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     #[inline(always)]
     unsafe fn down<V: Simd<T>>(&self, above: [V; 2]) {
         for (link, &place) in self.links.iter().enumerate() {
-            // SAFETY: as on the way up.
-            let (constants, motion) =
-                unsafe { (self.constants::<V>(link), self.motion(link, place.parent)) };
-            let pivot = match link {
-                0 => above,
-                _ => {
-                    let parent = place.parent;
-                    // SAFETY: the parent is a link. What it hands down stands in the places of
-                    // its sums, which are as many as the longer of the two takes.
-                    let (of_parent, carried) =
-                        unsafe { (self.direction(parent), self.shared.read(parent)) };
-                    E::pivot(&constants, of_parent, carried)
-                }
-            };
-            let acceleration = if place.carries {
-                // SAFETY: as it was written on the way up.
-                let elimination = unsafe { self.elimination.read(link) };
-                let (acceleration, carried) = E::accelerate(&constants, motion, elimination, pivot);
-                // SAFETY: as it is read for the children.
-                unsafe { self.shared.write(link, &carried) };
-                acceleration
-            } else {
-                E::accelerate_leaf(&constants, motion, pivot)
-            };
-            // SAFETY: there is an acceleration for each link.
-            unsafe { self.alpha.write(link, &[acceleration]) };
+            let parent = place.parent;
+            // SAFETY: as on the way up. What a parent hands down stands in the places of its
+            // sums, which are as many as the longer of the two takes; there is an acceleration
+            // for each link.
+            unsafe {
+                let constants = self.constants::<V>(link);
+                let motion = self.motion(link, parent);
+                let pivot = match link {
+                    0 => above,
+                    _ => E::pivot(&constants, self.direction(parent), self.shared.read(parent)),
+                };
+                let acceleration = if place.carries {
+                    let elimination = self.elimination.read(link);
+                    let (acceleration, carried) =
+                        E::accelerate(&constants, motion, elimination, pivot);
+                    self.shared.write(link, &carried);
+                    acceleration
+                } else {
+                    E::accelerate_leaf(&constants, motion, pivot)
+                };
+                self.alpha.write(link, &[acceleration]);
+            }
         }
     }
 
@@ -358,21 +371,21 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
     /// Both are links of the tree.
     #[inline(always)]
     unsafe fn motion<V: Simd<T>>(&self, link: usize, parent: usize) -> LinkMotion<V> {
-        // SAFETY: it is a link.
-        let mut motion: LinkMotion<V> = unsafe { self.direction(link) };
-        // SAFETY: torques are given for all links, or are one zero, which is read for each.
-        [motion.outside_torque] = unsafe { self.torque.read(link) };
-        if E::JOINTS {
-            // SAFETY: an angle is given for each link.
-            [motion.joint_angle] = unsafe { self.theta.read(link) };
-            if link > 0 {
-                // SAFETY: the parent is a link too, which has an angle and a velocity.
-                let ([angle], [rate]): ([V; 1], [V; 1]) =
-                    unsafe { (self.theta.read(parent), self.omega.read(parent)) };
-                motion.joint_angle = motion.joint_angle - angle;
-                motion.joint_rate = motion.joint_rate - rate;
+        // SAFETY: both are links, of which angles and velocities are given. Torques are given for
+        // all links, or are one zero, which is read for each.
+        unsafe {
+            let mut motion: LinkMotion<V> = self.direction(link);
+            [motion.outside_torque] = self.torque.read(link);
+            if E::JOINTS {
+                [motion.joint_angle] = self.theta.read(link);
+                if link > 0 {
+                    let ([angle], [rate]): ([V; 1], [V; 1]) =
+                        (self.theta.read(parent), self.omega.read(parent));
+                    motion.joint_angle = motion.joint_angle - angle;
+                    motion.joint_rate = motion.joint_rate - rate;
+                }
             }
+            motion
         }
-        motion
     }
 }

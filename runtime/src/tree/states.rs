@@ -12,8 +12,8 @@
 use core::marker::PhantomData;
 
 use super::block::{Generation, SubtreeBlock};
+use super::copies::links;
 use super::equations::LinkEquations;
-use super::links;
 use super::memory::{Room, Sizes, take};
 use super::partition::Policy;
 use super::root::RootDrive;

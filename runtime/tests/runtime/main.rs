@@ -12,7 +12,6 @@ mod ensemble;
 mod events;
 mod failures;
 mod gauss;
-mod hostile;
 #[cfg(feature = "spectra")]
 mod lacking_friction;
 mod lines;

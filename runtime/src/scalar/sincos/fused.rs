@@ -5,8 +5,6 @@
 //! The first part of π/2 has all of its digits here: a fused product minus the
 //! angle is exact without zeros at its end.
 
-// As for the registers.
-#![allow(unreachable_pub)]
 // Without registers nothing looks at the range of several angles at a time.
 #![cfg_attr(not(all(feature = "std", target_arch = "x86_64")), allow(dead_code))]
 
@@ -19,7 +17,7 @@ use super::tail::{self, Tail, for_each};
 use crate::simd::{Fused, Simd};
 
 /// A number, or several in one register, that sines are computed with.
-pub trait FusingNumber: Simd<Self::Lane> {
+pub(crate) trait FusingNumber: Simd<Self::Lane> {
     /// A number in it.
     type Lane: Float;
     /// As many numbers as it has lanes.
@@ -48,7 +46,7 @@ pub trait FusingNumber: Simd<Self::Lane> {
 }
 
 /// The constants of one precision.
-pub trait Float: Lane {
+pub(crate) trait Float: Lane {
     /// One that fuses.
     type One: FusingNumber<Lane = Self>;
     /// As many as a register of AVX2 holds.
@@ -87,9 +85,9 @@ pub trait Float: Lane {
 
 impl Float for f64 {
     type One = Fused<f64>;
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
     type Several = crate::simd::F64x4;
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
     type Several = Fused<f64>;
 
     const LIMIT: f64 = 102_942.0;
@@ -125,9 +123,9 @@ impl Float for f64 {
 
 impl Float for f32 {
     type One = Fused<f32>;
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
     type Several = crate::simd::F32x8;
-    #[cfg(not(target_arch = "x86_64"))]
+    #[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
     type Several = Fused<f32>;
 
     const LIMIT: f32 = 803.0;

@@ -4,22 +4,38 @@ use super::super::{Kernel, Simd};
 use super::{InstructionSet, StateKernel};
 use crate::scalar::Lane;
 
-#[inline(always)]
-pub(super) fn widest() -> InstructionSet {
-    InstructionSet::Build
+/// The instructions of the build.
+#[derive(Clone, Copy)]
+pub(in crate::simd) struct Present;
+
+impl Present {
+    #[inline(always)]
+    pub(super) fn widest() -> Self {
+        Self
+    }
+
+    #[inline(always)]
+    pub(super) fn at_most(_set: InstructionSet) -> Self {
+        Self
+    }
+
+    #[inline(always)]
+    pub(super) fn set(self) -> InstructionSet {
+        InstructionSet::Build
+    }
 }
 
 #[inline(always)]
 #[allow(clippy::extra_unused_type_parameters)] // Registers that there are none of here.
 pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
-    _set: InstructionSet,
+    _set: Present,
     kernel: K,
 ) -> K::Output {
     kernel.run::<B>()
 }
 
 #[inline(always)]
-pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(_set: Present, kernel: K) -> K::Output {
     // Registers of a target without vector instructions would be arrays: more code, and no
     // faster.
     #[cfg(all(target_family = "wasm", not(target_feature = "simd128")))]
@@ -44,7 +60,7 @@ pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output
     kernel.run::<V>()
 }
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 #[inline(always)]
 pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
     kernel.run::<V>()

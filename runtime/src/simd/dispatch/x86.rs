@@ -12,14 +12,34 @@ use crate::scalar::Lane;
 /// 0 before the first question, then 1 + the answer.
 static WIDEST: AtomicU8 = AtomicU8::new(0);
 
-#[inline(always)]
-pub(super) fn widest() -> InstructionSet {
-    // Each thread that comes first finds the same answer.
-    match WIDEST.load(Ordering::Relaxed) {
-        0 => detect(),
-        1 => InstructionSet::Build,
-        2 => InstructionSet::Avx2,
-        _ => InstructionSet::Avx512,
+/// Instructions that this machine has: nothing but the question whether it has them makes
+/// one.
+#[derive(Clone, Copy)]
+pub(in crate::simd) struct Present(InstructionSet);
+
+impl Present {
+    /// The widest.
+    #[inline(always)]
+    pub(super) fn widest() -> Self {
+        // Each thread that comes first finds the same answer.
+        Self(match WIDEST.load(Ordering::Relaxed) {
+            0 => detect(),
+            1 => InstructionSet::Build,
+            2 => InstructionSet::Avx2,
+            _ => InstructionSet::Avx512,
+        })
+    }
+
+    /// Those of `set`, or the widest, if these are narrower: each set holds those before.
+    #[inline(always)]
+    pub(super) fn at_most(set: InstructionSet) -> Self {
+        Self(set.min(Self::widest().0))
+    }
+
+    /// Which they are.
+    #[inline(always)]
+    pub(super) fn set(self) -> InstructionSet {
+        self.0
     }
 }
 
@@ -49,23 +69,18 @@ fn has_avx512() -> bool {
         && std::is_x86_feature_detected!("avx512bw")
 }
 
-/// Runs `kernel` with the instructions of `set`, in numbers `B` for those of the build,
-/// `A` for AVX2 and `W` for AVX-512.
-///
-/// `set` must have come from `widest`, or be narrower, and the numbers need no more
-/// than their instructions: this module is private, and the one above sees to it.
+/// Runs `kernel` with instructions of the machine, in numbers `B` for those of the build,
+/// `A` for AVX2 and `W` for AVX-512, which need no more than these.
 #[inline(always)]
 pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
-    set: InstructionSet,
+    set: Present,
     kernel: K,
 ) -> K::Output {
-    match set {
+    match set.0 {
         InstructionSet::Build => kernel.in_build::<B>(),
-        // SAFETY: the call is sound on machines that have the features
-        // which the function enables. `widest` has asked for each of them,
-        // and `set` is not wider.
+        // SAFETY: the machine has AVX2 and FMA: they are `Present`.
         InstructionSet::Avx2 => unsafe { kernel.in_avx2::<A>() },
-        // SAFETY: `set` is no wider than what `widest` has found.
+        // SAFETY: the machine has these instructions of AVX-512: they are `Present`.
         InstructionSet::Avx512 => unsafe { kernel.in_avx512::<W>() },
     }
 }
@@ -73,7 +88,7 @@ pub(super) fn run<T, B: Simd<T>, A: Simd<T>, W: Simd<T>, K: Kernel<T>>(
 /// With SSE2 in single numbers: every model would be compiled once more for registers of
 /// two, and hardly a machine runs them.
 #[inline(always)]
-pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: InstructionSet, kernel: K) -> K::Output {
+pub(super) fn run_wide<T: Lane, K: Kernel<T>>(set: Present, kernel: K) -> K::Output {
     run::<T, T, T::Avx2, T::Avx512, K>(set, kernel)
 }
 
@@ -93,19 +108,19 @@ pub(super) fn run_state<T: Lane, K: StateKernel<T>>(
     }
     let (theta, omega, out) = (theta.as_ptr(), omega.as_ptr(), out.as_mut_ptr());
     let widest = if K::IN_PARTS {
-        widest().min(InstructionSet::Avx2)
+        Present::at_most(InstructionSet::Avx2)
     } else {
-        widest()
+        Present::widest()
     };
-    match widest {
+    match widest.0 {
         InstructionSet::Build => return false,
-        // SAFETY: `widest` has asked for AVX2 and FMA; the pointers are those of
-        // slices of `K::LINKS` numbers, the last one borrowed mutably.
+        // SAFETY: AVX2 and FMA are `Present`; the pointers are those of slices of
+        // `K::LINKS` numbers, the last one borrowed mutably.
         InstructionSet::Avx2 => unsafe {
             state_avx2::<T, K>(model, time, theta, omega, out);
         },
-        // SAFETY: `widest` has asked for AVX-512 too; the pointers are those of slices
-        // of `K::LINKS` numbers, the last one borrowed mutably.
+        // SAFETY: AVX-512 is `Present` too; the pointers are those of slices of
+        // `K::LINKS` numbers, the last one borrowed mutably.
         InstructionSet::Avx512 => unsafe {
             state_avx512::<T, K>(model, time, theta, omega, out);
         },
@@ -166,14 +181,14 @@ unsafe fn state<T: Lane, K: StateKernel<T>>(
 
 #[inline(always)]
 pub(super) fn outlined_avx2<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    // SAFETY: asked for by types that exist in computations alone which
-    // `run_state` or `run` has started, where the machine has these instructions.
+    // SAFETY: methods of types ask for it that exist in computations alone which `run_state`
+    // or `run` has started, where these instructions are `Present` (see `simd`).
     unsafe { avx2::<T, V, K>(kernel) }
 }
 
 #[inline(always)]
 pub(super) fn outlined_avx512<T, V: Simd<T>, K: Kernel<T>>(kernel: K) -> K::Output {
-    // SAFETY: asked for by types that exist where `run` has found AVX-512.
+    // SAFETY: likewise where AVX-512 is `Present`.
     unsafe { avx512::<T, V, K>(kernel) }
 }
 

@@ -13,16 +13,15 @@ use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::permutation::{first_lanes, rotated, tiled};
-use super::{Fused, Kernel, Simd, dispatch};
+use super::{Fused, Kernel, Sealed, Simd, dispatch};
 use crate::scalar::sincos::fused as fused_sines;
 use words::{masked_f32, masked_f64, words_of_avx2, words_of_avx512, words_of_sse2};
 
-// Of all calls of instructions here and in the two files: those of SSE2 belong to every
-// x86-64 machine. Values of the wider types arise in computations started by
-// `dispatch` alone, which has asked the machine for the instructions; nothing
-// public takes or gives them. None of these instructions touches memory. The
-// types hold so many numbers of that size, in order and without padding, which
-// makes the transmutations right.
+// Of all calls of instructions here and in the two files: builds with SSE2 alone have this
+// module. The wider types are named by what `dispatch` has started alone, once it
+// has asked the machine for the instructions, and cannot be reached by other crates (see
+// `simd`). None of these instructions touches memory. The types hold so many numbers of
+// that size, in order and without padding, which makes the transmutations right.
 
 /// Sines that are computed ahead or late, and functions of one's own, for registers that
 /// fuse; as by default for others.
@@ -80,7 +79,7 @@ macro_rules! register {
         $(#[$docs])*
         #[derive(Clone, Copy, Debug)]
         #[repr(transparent)]
-        pub struct $name(pub(crate) $vector);
+        pub(crate) struct $name(pub(crate) $vector);
 
         register!($name, Add, add, $add);
         register!($name, Sub, sub, $sub);
@@ -125,13 +124,13 @@ macro_rules! register {
             }
         }
 
+        impl Sealed<$lane> for $name {}
+
         impl Simd<$lane> for $name {
             type One = $one;
             /// All bits set, or none.
             type Mask = Self;
             type Chunk = [$lane; $lanes];
-
-            const LANES: usize = $lanes;
 
             ahead!($($lane, $own)?);
 

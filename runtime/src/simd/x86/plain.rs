@@ -21,7 +21,7 @@ impl Scalar for F64x2 {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        // SAFETY: every x86-64 machine has SSE2.
+        // SAFETY: the build has SSE2.
         let common = unsafe {
             let size = _mm_andnot_pd(_mm_set1_pd(-0.0), self.0);
             _mm_movemask_pd(_mm_cmplt_pd(size, _mm_set1_pd(double::LIMIT))) == 0b11
@@ -70,7 +70,7 @@ impl double::UnfusedNumber for F64x2 {
 
     #[inline(always)]
     fn exchange(quarter: Self, sine: Self, cosine: Self) -> (Self, Self) {
-        // SAFETY: every x86-64 machine has SSE2.
+        // SAFETY: the build has SSE2.
         unsafe {
             let sign = _mm_set1_pd(-0.0);
             let quarter = _mm_castpd_si128(quarter.0);

@@ -84,19 +84,19 @@ where
     /// to the parent at once, and what is written narrow is read narrow soon.
     #[inline(always)]
     fn one_by_one_up(&self, cells: &OwnCells<N, T>, strip: &Strip) {
-        if strip.first.own == 0 {
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            let _ = unsafe { self.response(cells, strip, 0) };
-        }
-        let (from, to) = strip.attachments;
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let mut at = 0;
-            while at < attachment.length {
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                let response = unsafe { self.response(cells, strip, attachment.child + at) };
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { self.attach_at(cells, attachment, at, response) };
-                at += 1;
+        // SAFETY: places of strips and attachments are there, as the view has seen.
+        unsafe {
+            if strip.first.own == 0 {
+                let _ = self.response(cells, strip, 0);
+            }
+            let (from, to) = strip.attachments;
+            for attachment in self.attachments.get(from..to).unwrap_or_default() {
+                let mut at = 0;
+                while at < attachment.length {
+                    let response = self.response(cells, strip, attachment.child + at);
+                    self.attach_at(cells, attachment, at, response);
+                    at += 1;
+                }
             }
         }
     }
@@ -104,47 +104,48 @@ where
     /// Goes back down as `one_by_one_up` went up.
     #[inline(always)]
     fn one_by_one_down(&self, cells: &OwnCells<N, T>, strip: &Strip, out: &mut impl Output<T>) {
-        if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
-            let pivot = [V::splat(*x), V::splat(*y)];
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { self.accelerate(cells, strip, 0, pivot, out) };
-        }
-        let (from, to) = strip.attachments;
-        for attachment in self.attachments.get(from..to).unwrap_or_default() {
-            let mut at = 0;
-            while at < attachment.length {
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                let pivot = unsafe { self.pivot_at(cells, attachment, at) };
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { self.accelerate(cells, strip, attachment.child + at, pivot, out) };
-                at += 1;
+        // SAFETY: places of strips and attachments are there, as the view has seen.
+        unsafe {
+            if let (0, Some([x, y])) = (strip.first.own, &self.view.root) {
+                self.accelerate(cells, strip, 0, [V::splat(*x), V::splat(*y)], out);
+            }
+            let (from, to) = strip.attachments;
+            for attachment in self.attachments.get(from..to).unwrap_or_default() {
+                let mut at = 0;
+                while at < attachment.length {
+                    let pivot = self.pivot_at(cells, attachment, at);
+                    self.accelerate(cells, strip, attachment.child + at, pivot, out);
+                    at += 1;
+                }
             }
         }
     }
 
     /// The responses of the links of a strip from the place `at` on.
+    ///
+    /// # Safety
+    /// A place of the strip.
     #[inline(always)]
     unsafe fn response(&self, cells: &OwnCells<N, T>, strip: &Strip, at: usize) -> E::Response<V> {
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe {
-            (
-                self.constants(cells, at),
-                cells.links.motion(at, Self::READ),
-            )
-        };
-        if strip.copies == 0 {
-            return E::leaf(&constants, link);
+        // SAFETY: the caller's. All that a link has stands there, as the view has seen.
+        unsafe {
+            let constants = self.constants(cells, at);
+            let link = cells.links.motion(at, Self::READ);
+            if strip.copies == 0 {
+                return E::leaf(&constants, link);
+            }
+            let sums = cells.links.sums.read(strip.slot(at));
+            let (response, elimination) = E::inner(&constants, link, sums);
+            cells.links.eliminations.write(at, &elimination);
+            response
         }
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let sums = unsafe { cells.links.sums.read(strip.slot(at)) };
-        let (response, elimination) = E::inner(&constants, link, sums);
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { cells.links.eliminations.write(at, &elimination) };
-        response
     }
 
     /// Writes the accelerations of the links of a strip from the place `at` on, and
     /// what they hand to their children.
+    ///
+    /// # Safety
+    /// A place of the strip.
     #[inline(always)]
     unsafe fn accelerate(
         &self,
@@ -154,26 +155,20 @@ where
         pivot: [V; 2],
         out: &mut impl Output<T>,
     ) {
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe {
-            (
-                self.constants(cells, at),
-                cells.links.motion(at, Self::READ),
-            )
-        };
-        if strip.copies == 0 {
-            let acceleration = E::accelerate_leaf(&constants, link, pivot);
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { out.write(at, acceleration, V::LANES) };
-            return;
+        // SAFETY: the caller's. All that a link has stands there, as the view has seen.
+        unsafe {
+            let constants = self.constants(cells, at);
+            let link = cells.links.motion(at, Self::READ);
+            if strip.copies == 0 {
+                let acceleration = E::accelerate_leaf(&constants, link, pivot);
+                out.write(at, acceleration, V::LANES);
+                return;
+            }
+            let elimination = cells.links.eliminations.read(at);
+            let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
+            out.write(at, acceleration, V::LANES);
+            cells.links.sums.write(strip.slot(at), &carried);
         }
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let elimination = unsafe { cells.links.eliminations.read(at) };
-        let (acceleration, carried) = E::accelerate(&constants, link, elimination, pivot);
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { out.write(at, acceleration, V::LANES) };
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { cells.links.sums.write(strip.slot(at), &carried) };
     }
 
     /// A strip of links with constants of their own, up.
@@ -182,10 +177,11 @@ where
         let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            let response = unsafe { self.response(cells, strip, at) };
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { cells.links.responses.write(at, &response) };
+            // SAFETY: places of strips are there, as the view has seen.
+            unsafe {
+                let response = self.response(cells, strip, at);
+                cells.links.responses.write(at, &response);
+            }
         }
     }
 
@@ -195,10 +191,11 @@ where
         let mut places = VectorPlaces::of::<T, V>(strip.length);
         while let Some(place) = places.next() {
             let at = strip.first.own + place;
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            let pivot = unsafe { cells.links.responses.read(at) };
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            unsafe { self.accelerate(cells, strip, at, pivot, out) };
+            // SAFETY: places of strips are there, as the view has seen.
+            unsafe {
+                let pivot = cells.links.responses.read(at);
+                self.accelerate(cells, strip, at, pivot, out);
+            }
         }
     }
 
@@ -227,47 +224,47 @@ where
     fn attach_siblings(&self, cells: &OwnCells<N, T>, first: &Attachment, siblings: &[Attachment]) {
         let mut at = 0;
         while at < first.length {
-            let (mut attachment, mut siblings) = (first, siblings);
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            let link = unsafe { cells.links.motion(first.parent + at, Self::DIRECTION) };
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            let before: E::Sums<V> = unsafe { cells.links.sums.read(first.slot + at) };
-            let mut sums = before;
-            let mut fresh = first.first;
-            loop {
-                let child = attachment.child + at;
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                let (constants, response) = unsafe {
-                    (
-                        self.constants(cells, child),
-                        cells.links.responses.read(child),
-                    )
-                };
-                let own = E::attach(&constants, link, response);
-                let count = attachment.length - at;
-                let mut i = 0;
-                while i < <E::Sums<V> as Row<V>>::LENGTH {
-                    let (sum, own) = (sums.as_ref()[i], own.as_ref()[i]);
-                    let sum = if fresh { own } else { sum + own };
-                    sums.as_mut()[i] = sum.in_first_lanes(count, sums.as_ref()[i]);
-                    i += 1;
-                }
-                fresh = false;
-                match siblings.split_first() {
-                    Some((next, behind)) if at < next.length => {
-                        (attachment, siblings) = (next, behind);
+            // SAFETY: places of attachments are there, as the view has seen. Lanes beyond the
+            // parents are written as they were.
+            unsafe {
+                let link = cells.links.motion(first.parent + at, Self::DIRECTION);
+                let mut sums: E::Sums<V> = cells.links.sums.read(first.slot + at);
+                let (mut attachment, mut siblings, mut fresh) = (first, siblings, first.first);
+                loop {
+                    let child = attachment.child + at;
+                    let constants = self.constants(cells, child);
+                    let own = E::attach(&constants, link, cells.links.responses.read(child));
+                    Self::add_first(&mut sums, &own, attachment.length - at, fresh);
+                    fresh = false;
+                    match siblings.split_first() {
+                        Some((next, behind)) if at < next.length => {
+                            (attachment, siblings) = (next, behind);
+                        }
+                        _ => break,
                     }
-                    _ => break,
                 }
+                cells.links.sums.write(first.slot + at, &sums);
             }
-            // SAFETY: places of an attachment are there, as the view has seen. Lanes beyond
-            // the parents are as they were.
-            unsafe { cells.links.sums.write(first.slot + at, &sums) };
             at += V::LANES;
         }
     }
 
+    /// Adds to the first `count` lanes of sums, or puts there what would be added to nothing.
+    #[inline(always)]
+    fn add_first(sums: &mut E::Sums<V>, terms: &E::Sums<V>, count: usize, fresh: bool) {
+        let mut i = 0;
+        while i < <E::Sums<V> as Row<V>>::LENGTH {
+            let (sum, term) = (sums.as_ref()[i], terms.as_ref()[i]);
+            let new = if fresh { term } else { sum + term };
+            sums.as_mut()[i] = new.in_first_lanes(count, sum);
+            i += 1;
+        }
+    }
+
     /// Adds the response of the child number `at` of an attachment.
+    ///
+    /// # Safety
+    /// The attachment has so many children.
     #[inline(always)]
     unsafe fn attach_at(
         &self,
@@ -277,22 +274,18 @@ where
         response: E::Response<V>,
     ) {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe {
-            (
-                self.constants(cells, child),
-                cells.links.motion(parent, Self::DIRECTION),
-            )
-        };
-        let own = E::attach(&constants, link, response);
-        let mut sums = own;
-        if !attachment.first {
-            // SAFETY: places of strips and attachments are there, as the view has seen.
-            sums = unsafe { cells.links.sums.read(attachment.slot + at) };
-            add(&mut sums, &own);
+        // SAFETY: the caller's. All that both links have stands there, as the view has seen.
+        unsafe {
+            let constants = self.constants(cells, child);
+            let link = cells.links.motion(parent, Self::DIRECTION);
+            let own = E::attach(&constants, link, response);
+            let mut sums = own;
+            if !attachment.first {
+                sums = cells.links.sums.read(attachment.slot + at);
+                add(&mut sums, &own);
+            }
+            cells.links.sums.write(attachment.slot + at, &sums);
         }
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        unsafe { cells.links.sums.write(attachment.slot + at, &sums) };
     }
 
     /// Writes the accelerations of the pivots of a strip.
@@ -302,17 +295,21 @@ where
         for attachment in self.attachments.get(from..to).unwrap_or_default() {
             let mut at = 0;
             while at < attachment.length {
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                let pivot = unsafe { self.pivot_at(cells, attachment, at) };
                 // Lanes beyond are those of children behind, which come later.
-                // SAFETY: places of strips and attachments are there, as the view has seen.
-                unsafe { cells.links.responses.write(attachment.child + at, &pivot) };
+                // SAFETY: places of attachments are there, as the view has seen.
+                unsafe {
+                    let pivot = self.pivot_at(cells, attachment, at);
+                    cells.links.responses.write(attachment.child + at, &pivot);
+                }
                 at += V::LANES;
             }
         }
     }
 
     /// The accelerations of the pivots of children.
+    ///
+    /// # Safety
+    /// The attachment has more than `at` children.
     #[inline(always)]
     unsafe fn pivot_at(
         &self,
@@ -321,25 +318,28 @@ where
         at: usize,
     ) -> [V; 2] {
         let (child, parent) = (attachment.child + at, attachment.parent + at);
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let (constants, link) = unsafe {
-            (
-                self.constants(cells, child),
-                cells.links.motion(parent, Self::DIRECTION),
+        // SAFETY: the caller's. All that both links have stands there, as the view has seen.
+        unsafe {
+            let constants = self.constants(cells, child);
+            let link = cells.links.motion(parent, Self::DIRECTION);
+            E::pivot(
+                &constants,
+                link,
+                cells.links.sums.read(attachment.slot + at),
             )
-        };
-        // SAFETY: places of strips and attachments are there, as the view has seen.
-        let carried = unsafe { cells.links.sums.read(attachment.slot + at) };
-        E::pivot(&constants, link, carried)
+        }
     }
 
     /// The constants of the links from `at` on, each its own.
+    ///
+    /// # Safety
+    /// They are links of the tree.
     #[inline(always)]
     unsafe fn constants(&self, cells: &OwnCells<N, T>, at: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
         let mut column = 0;
         while column < <E::Constants<V> as Row<V>>::LENGTH {
-            // SAFETY: places of strips and attachments are there, as the view has seen.
+            // SAFETY: the caller's. There is a column for each constant, as the view has seen.
             row.as_mut()[column] = unsafe { constant(cells.constants, column, at) };
             column += 1;
         }
@@ -362,10 +362,13 @@ unsafe fn constant<N: Scalar, T: Scalar + Simd<N>, V: Simd<T>>(
     at: usize,
 ) -> V {
     let start = constants.place(at, column);
-    match <T as Simd<N>>::LANES {
-        // SAFETY: the caller's. A `T` of one lane is the `N` that it holds.
-        1 => unsafe { V::read(start.cast()) },
-        // SAFETY: the caller's.
-        _ => V::splat(T::splat(unsafe { start.read() })),
+    // One lane in an array may be aligned so that it takes more memory than its number.
+    let is_number = const { <T as Simd<N>>::LANES == 1 && size_of::<T>() == size_of::<N>() };
+    // SAFETY: the caller's. A `T` of one lane and of this size is the `N` that it holds.
+    unsafe {
+        match is_number {
+            true => V::read(start.cast()),
+            false => V::splat(T::splat(start.read())),
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::strip::{Output, StripView};
 use super::view::{LinkCells, Read, View};
 use crate::scalar::Scalar;
 use crate::simd::dispatch::in_widest;
-use crate::simd::{Kernel, Simd};
+use crate::simd::{Kernel, Simd, WIDEST};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
 use crate::tree::shared::Shared;
@@ -64,7 +64,8 @@ pub(in crate::tree) struct Passes<'a, E, N, T, V> {
 
 // Of all this: there are strips only if the view has the columns of these
 // equations; all places come from `StripView::places`, copies are counted up to
-// `StripView::copies`, and attachments are those of the strips.
+// `StripView::copies`, and attachments are those of the strips. Behind the last place there is
+// room for the widest register; states in lanes, `T`, are a `V` each.
 impl<'a, E, N, T, V> Passes<'a, E, N, T, V>
 where
     E: LinkEquations,
@@ -100,6 +101,7 @@ where
 
     #[inline(always)]
     pub(in crate::tree) fn of(view: &'a View<'_, N, T>) -> Self {
+        const { assert!(V::LANES <= WIDEST) };
         let (strips, attachments) = view.strips(Self::SIZES, Self::IN_ROWS, Self::BRANCHING);
         Self {
             view,
@@ -195,65 +197,72 @@ where
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
                 // SAFETY: places of a strip and its copies are there, as the view has seen.
-                let link = unsafe { near.links.motion(at, Self::READ) };
-                let below = match strip.leaves {
-                    true => Self::leaves(&near, at, &leaf, link),
-                    false if strip.lanes <= V::LANES => {
-                        Self::neighbours(&responses, strip.length, near.copies, &below_row, link)
-                    }
-                    false => Self::sum(&near, at, &below_row, link),
-                };
-                let elimination;
-                (responses, elimination) = E::inner(&row, link, below);
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
-                unsafe { near.links.responses.write(at, &responses) };
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
-                unsafe { near.links.eliminations.write(at, &elimination) };
+                unsafe {
+                    let link = near.links.motion(at, Self::READ);
+                    let below = match strip.leaves {
+                        true => Self::leaves(&near, at, &leaf, link),
+                        false if strip.lanes <= V::LANES => {
+                            let (length, copies) = (strip.length, near.copies);
+                            Self::neighbours(&responses, length, copies, &below_row, link)
+                        }
+                        false => Self::sum(&near, at, &below_row, link),
+                    };
+                    let elimination;
+                    (responses, elimination) = E::inner(&row, link, below);
+                    near.links.responses.write(at, &responses);
+                    near.links.eliminations.write(at, &elimination);
+                }
             }
             strips = before;
         }
     }
 
     /// The sum of the responses of children that are leaves.
+    ///
+    /// # Safety
+    /// A place of the strip.
     #[inline(always)]
-    fn leaves(
+    unsafe fn leaves(
         near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: places of a strip and its copies are there, as the view has seen.
-        let leaf = unsafe { near.children.motion(at, Self::READ) };
-        let mut sums = E::leaf(constants, leaf);
-        let mut copy = 1;
-        while copy < near.copies {
-            // SAFETY: places of a strip and its copies are there, as the view has seen.
-            let leaf = unsafe { near.children.motion(at + copy * near.apart, Self::READ) };
-            add(&mut sums, &E::leaf(constants, leaf));
-            copy += 1;
+        // SAFETY: the caller's; its copies are there, as the view has seen.
+        unsafe {
+            let mut sums = E::leaf(constants, near.children.motion(at, Self::READ));
+            let mut copy = 1;
+            while copy < near.copies {
+                let leaf = near.children.motion(at + copy * near.apart, Self::READ);
+                add(&mut sums, &E::leaf(constants, leaf));
+                copy += 1;
+            }
+            E::attach(constants, link, sums)
         }
-        E::attach(constants, link, sums)
     }
 
     /// The sum of the responses of children that are no leaves.
+    ///
+    /// # Safety
+    /// A place of the strip.
     #[inline(always)]
-    fn sum(
+    unsafe fn sum(
         near: &StripView<T>,
         at: usize,
         constants: &E::Constants<V>,
         link: LinkMotion<V>,
     ) -> E::Sums<V> {
-        // SAFETY: places of a strip and its copies are there, as the view has seen.
-        let mut sums: E::Response<V> = unsafe { near.children.responses.read(at) };
-        let mut copy = 1;
-        while copy < near.copies {
-            // SAFETY: places of a strip and its copies are there, as the view has seen.
-            add(&mut sums, &unsafe {
-                near.children.responses.read(at + copy * near.apart)
-            });
-            copy += 1;
+        // SAFETY: the caller's; its copies are there, as the view has seen.
+        unsafe {
+            let mut sums: E::Response<V> = near.children.responses.read(at);
+            let mut copy = 1;
+            while copy < near.copies {
+                let place = at + copy * near.apart;
+                add(&mut sums, &near.children.responses.read(place));
+                copy += 1;
+            }
+            E::attach(constants, link, sums)
         }
-        E::attach(constants, link, sums)
     }
 
     /// Adds them up where they are in registers, one child behind the other.
@@ -296,49 +305,60 @@ where
             let in_register = strip.lanes <= V::LANES;
             let mut places = near.places::<V>();
             while let Some(at) = places.next() {
-                if !known {
-                    // SAFETY: places of a strip and its copies are there, as the view has seen.
-                    pivot = unsafe { near.links.responses.read(at) };
-                }
                 // SAFETY: places of a strip and its copies are there, as the view has seen.
-                let link = unsafe { near.links.motion(at, Self::READ) };
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
-                let elimination = unsafe { near.links.eliminations.read(at) };
-                let (acceleration, carried) = E::accelerate(&row, link, elimination, pivot);
-                // SAFETY: places of a strip and its copies are there, as the view has seen.
-                unsafe { near.accelerate(out, at, acceleration) };
-                let mut copy = 0;
-                if strip.leaves {
-                    let below = E::pivot(&leaf, link, carried);
-                    while copy < near.copies {
-                        // SAFETY: places of a strip and its copies are there, as the view has seen.
-                        let link =
-                            unsafe { near.children.motion(at + copy * near.apart, Self::READ) };
-                        let acceleration = E::accelerate_leaf(&leaf, link, below);
-                        // SAFETY: places of a strip and its copies are there, as the view has seen.
-                        unsafe { near.accelerate_leaf(out, at, copy, acceleration) };
-                        copy += 1;
+                unsafe {
+                    if !known {
+                        pivot = near.links.responses.read(at);
                     }
-                    continue;
-                }
-                let below = E::pivot(&below_row, link, carried);
-                if in_register {
-                    let [x, y] = below;
-                    pivot = [x.tile_lanes(strip.length), y.tile_lanes(strip.length)];
-                } else {
+                    let link = near.links.motion(at, Self::READ);
+                    let elimination = near.links.eliminations.read(at);
+                    let (acceleration, carried) = E::accelerate(&row, link, elimination, pivot);
+                    near.accelerate(out, at, acceleration);
+                    if strip.leaves {
+                        let below = E::pivot(&leaf, link, carried);
+                        Self::leaves_down(&near, at, &leaf, below, out);
+                        continue;
+                    }
+                    let below = E::pivot(&below_row, link, carried);
+                    if in_register {
+                        let [x, y] = below;
+                        pivot = [x.tile_lanes(strip.length), y.tile_lanes(strip.length)];
+                        continue;
+                    }
+                    let mut copy = 0;
                     while copy < near.copies {
-                        // SAFETY: places of a strip and its copies are there, as the view has seen.
-                        unsafe {
-                            near.children
-                                .responses
-                                .write(at + copy * near.apart, &below)
-                        };
+                        let place = at + copy * near.apart;
+                        near.children.responses.write(place, &below);
                         copy += 1;
                     }
                 }
             }
             known = in_register;
             strips = behind;
+        }
+    }
+
+    /// The accelerations of children that are leaves, whose pivot has one.
+    ///
+    /// # Safety
+    /// A place of the strip.
+    #[inline(always)]
+    unsafe fn leaves_down(
+        near: &StripView<T>,
+        at: usize,
+        constants: &E::Constants<V>,
+        pivot: [V; 2],
+        out: &mut impl Output<T>,
+    ) {
+        let mut copy = 0;
+        while copy < near.copies {
+            // SAFETY: the caller's; its copies are there, as the view has seen.
+            unsafe {
+                let link = near.children.motion(at + copy * near.apart, Self::READ);
+                let acceleration = E::accelerate_leaf(constants, link, pivot);
+                near.accelerate_leaf(out, at, copy, acceleration);
+            }
+            copy += 1;
         }
     }
 }

@@ -90,6 +90,9 @@ impl<T: Scalar> StripView<T> {
     }
 
     /// Writes their accelerations.
+    ///
+    /// # Safety
+    /// A place of the strip.
     #[inline(always)]
     pub(super) unsafe fn accelerate<V: Simd<T>>(
         &self,
@@ -98,11 +101,14 @@ impl<T: Scalar> StripView<T> {
         alpha: V,
     ) {
         let count = self.length.min(V::LANES);
-        // SAFETY: the caller gives places of the strip.
+        // SAFETY: the caller's: it is within reach of the strip.
         unsafe { out.write(self.whole + at * self.step::<V>(), alpha, count) }
     }
 
     /// Those of children that are leaves.
+    ///
+    /// # Safety
+    /// A place of the strip, and a copy that it has.
     #[inline(always)]
     pub(super) unsafe fn accelerate_leaf<V: Simd<T>>(
         &self,
@@ -113,7 +119,7 @@ impl<T: Scalar> StripView<T> {
     ) {
         let count = self.length.min(V::LANES);
         let at = self.child_whole + at * self.step::<V>() + copy * self.whole_apart;
-        // SAFETY: the caller gives places of the strip.
+        // SAFETY: the caller's: it is within reach of the strip.
         unsafe { out.write(at, alpha, count) }
     }
 }

@@ -96,33 +96,31 @@ impl<T: Scalar> LinkCells<T> {
     #[inline(always)]
     pub(super) unsafe fn motion<V: Simd<T>>(&self, at: usize, read: Read) -> LinkMotion<V> {
         // SAFETY: the caller's.
-        let [sine, cosine]: [V; 2] = unsafe { self.sincos.read(at) };
-        // SAFETY: the caller's.
-        let [omega]: [V; 1] = unsafe { self.omega.read(at) };
-        // What nobody reads may be anything.
-        let [joint_angle, joint_rate] = match read.joints {
-            // SAFETY: the caller's.
-            true => unsafe { self.joint_motions.read(at) },
-            false => [omega; 2],
-        };
-        let [outside_torque] = match read.torques {
-            // SAFETY: the caller's.
-            true => unsafe { self.torques.read(at) },
-            false => [omega],
-        };
-        let [held] = match read.held {
-            // SAFETY: the caller's.
-            true => unsafe { self.held.read(at) },
-            false => [omega],
-        };
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle,
-            joint_rate,
-            outside_torque,
-            held,
+        unsafe {
+            let [sine, cosine]: [V; 2] = self.sincos.read(at);
+            let [omega]: [V; 1] = self.omega.read(at);
+            // What nobody reads may be anything.
+            let [joint_angle, joint_rate] = match read.joints {
+                true => self.joint_motions.read(at),
+                false => [omega; 2],
+            };
+            let [outside_torque] = match read.torques {
+                true => self.torques.read(at),
+                false => [omega],
+            };
+            let [held] = match read.held {
+                true => self.held.read(at),
+                false => [omega],
+            };
+            LinkMotion {
+                sine,
+                cosine,
+                omega,
+                joint_angle,
+                joint_rate,
+                outside_torque,
+                held,
+            }
         }
     }
 }

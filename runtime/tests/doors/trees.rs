@@ -1,6 +1,5 @@
-//! Safe code cannot make the equations of trees in loops read or write beyond their
-//! memory: neither by lengths nor by equations of its own. What does not fit gives NaN
-//! or other numbers, and nothing else.
+//! Trees in loops: neither lengths nor equations make them read or write beyond their memory.
+//! What does not fit gives NaN or other numbers, and nothing else.
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
@@ -12,7 +11,7 @@ use branched_pendulum::tree::{Bodies, LinkEquations, LinkMotion, RootDrive, Shap
 #[derive(Clone, Copy, Debug)]
 struct Odd<const SHAPE: usize>;
 
-const SHAPES: [&[usize]; 7] = [
+const SHAPES: [&[usize]; 8] = [
     &[],
     &[1],
     &[1, 0],
@@ -20,6 +19,7 @@ const SHAPES: [&[usize]; 7] = [
     &[3, 2],
     &[1, 17, 1, 3],
     &[1, 2, 0, 5],
+    &[3, 20, 300, 0],
 ];
 
 impl<const SHAPE: usize> LinkEquations for Odd<SHAPE> {
@@ -115,6 +115,7 @@ fn equations_and_lengths_of_any_kind_stay_within_their_memory() {
     by_generation::<4>();
     by_generation::<5>();
     by_generation::<6>();
+    by_generation::<7>();
     for parents in [&[][..], &[7], &[0, 1, 2, 9], &[u32::MAX; 40]] {
         for rows in [0, 1, 40, 41] {
             let rows = vec![1.0; rows];

@@ -1,0 +1,3 @@
+// error: error[E0277] | Registers
+impl Lane for Own {}
+fn main() {}
