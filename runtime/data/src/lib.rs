@@ -33,6 +33,7 @@
 
 mod angles;
 mod error;
+mod exchange;
 mod finding;
 mod format;
 mod header;
@@ -41,6 +42,7 @@ mod outliers;
 mod recording;
 mod table;
 mod timing;
+mod turns;
 mod write;
 
 pub use angles::{AngleColumns, AngleUnit, AngleZero};

@@ -1,8 +1,12 @@
 //! Angles from points that a camera followed.
 
+use std::collections::BTreeMap;
+
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
+use super::exchange;
+use super::finding::{Basis, Finding, listed, rounded};
 use super::header::{FileKind, Track};
+use super::outliers::resolution;
 use super::recording::{LinkSeries, Recording, Sample};
 use super::table::Table;
 use super::timing::{Clock, Times};
@@ -66,6 +70,8 @@ impl Default for Markers {
     }
 }
 
+/// Coordinates and likelihood.
+type Dot = ([f64; 2], f64);
 /// A vector from marker to marker with the smaller likelihood of the two.
 type Arrow = Option<([f64; 2], f64)>;
 
@@ -83,9 +89,10 @@ impl Markers {
         let mut findings = Vec::new();
         let times = Times::read(table, &self.clock)?;
         let pairs = self.pairs(table, &mut findings)?;
+        let dots = self.dots(table, &times, &pairs, &mut findings);
         let mut arrows = Vec::with_capacity(pairs.len());
         for (upper, lower) in &pairs {
-            arrows.push(arrows_of(table, upper, lower)?);
+            arrows.push(arrows_of(table, &dots, upper, lower)?);
         }
         let down = self.down(table, &arrows, &mut findings)?;
         if self.mirrored {
@@ -98,17 +105,51 @@ impl Markers {
         let links = links
             .map(|((upper, lower), arrows)| self.series(&upper.name, &lower.name, arrows, down));
         let links: Vec<LinkSeries> = links.collect();
-        for link in &links {
-            if let Some([mean, deviation]) = link.marker_distance {
-                let percent = 100.0 * deviation / mean;
-                let text = format!(
-                    "`{}`: its markers are {mean:.6} apart, to {percent:.3} % (rms)",
-                    link.name
-                );
-                findings.push(Finding::new(Basis::Detected, text));
-            }
+        let distances = links.iter().filter_map(|link| {
+            let [mean, deviation] = link.marker_distance?;
+            let (percent, mean) = (100.0 * deviation / mean, rounded(mean, 5));
+            Some(format!("`{}` {mean} to {percent:.3} % (rms)", link.name))
+        });
+        let distances: Vec<String> = distances.collect();
+        if !distances.is_empty() {
+            let text = format!("distances of markers: {}", listed(distances.into_iter()));
+            findings.push(Finding::new(Basis::Detected, text));
         }
-        Recording::new(table, times, links, self.outliers, findings)
+        let resolutions = links.iter().zip(&pairs).map(|(link, (upper, lower))| {
+            let step = resolution_of(table, upper).max(resolution_of(table, lower));
+            link.marker_distance.map_or(0.0, |[mean, _]| step / mean)
+        });
+        let resolutions: Vec<f64> = resolutions.collect();
+        Recording::new(table, times, links, &resolutions, self.outliers, findings)
+    }
+
+    /// Places of the markers in every row, by their names; those that changed places are changed back.
+    fn dots<'a>(
+        &self,
+        table: &Table,
+        times: &Times,
+        pairs: &[(&'a Track, &'a Track)],
+        findings: &mut Vec<Finding>,
+    ) -> BTreeMap<&'a str, Vec<Option<Dot>>> {
+        let tracks = pairs.iter().flat_map(|(upper, lower)| [*upper, *lower]);
+        let tracks: BTreeMap<&str, &Track> =
+            tracks.map(|track| (track.name.as_str(), track)).collect();
+        let names: Vec<&str> = tracks.keys().copied().collect();
+        let places = |track: &&Track| {
+            (0..table.rows())
+                .map(|row| dot(table, track, row))
+                .collect()
+        };
+        let mut series: Vec<Vec<Option<Dot>>> = tracks.values().map(places).collect();
+        if self.outliers.is_some() {
+            let steps = tracks.values().map(|track| resolution_of(table, track));
+            let steps: Vec<f64> = steps.collect();
+            let interval = times.timing.interval;
+            let place = |(place, _): Dot| place;
+            let exchanges = exchange::mend(&times.seconds, interval, &steps, &mut series, place);
+            findings.extend(exchange::told(&exchanges, &names, &times.seconds, interval));
+        }
+        names.into_iter().zip(series).collect()
     }
 
     fn pairs<'a>(
@@ -130,10 +171,11 @@ impl Markers {
             );
             return Err(table.refused(ReadErrorKind::Nothing { what }));
         }
-        for [upper, lower] in pairs {
-            let text = format!("a link from `{}` to `{}`", upper.name, lower.name);
-            findings.push(Finding::new(Basis::Assumed, text));
-        }
+        let links = pairs.iter();
+        let links =
+            links.map(|[upper, lower]| format!("from `{}` to `{}`", upper.name, lower.name));
+        let text = format!("links by two markers each: {}", listed(links));
+        findings.push(Finding::new(Basis::Assumed, text));
         Ok(pairs.iter().map(|[upper, lower]| (upper, lower)).collect())
     }
 
@@ -221,21 +263,32 @@ fn mean_direction(arrows: &[Arrow]) -> [f64; 2] {
     sum
 }
 
-fn arrows_of(table: &Table, upper: &Track, lower: &Track) -> Result<Vec<Arrow>, ReadError> {
-    let value = |column: usize, row: usize| table.values(column)[row];
-    let likelihood = |track: &Track, row: usize| {
-        // Points without one are certain; a missing one is not.
-        track
-            .likelihood
-            .map_or(1.0, |column| value(column, row).unwrap_or(0.0))
+/// A track's place in a row. One without likelihoods is certain; a missing likelihood is none.
+fn dot(table: &Table, track: &Track, row: usize) -> Option<Dot> {
+    let value = |column: usize| table.values(column)[row];
+    let likelihood = |column| value(column).unwrap_or(0.0);
+    let place = [value(track.x)?, value(track.y)?];
+    Some((place, track.likelihood.map_or(1.0, likelihood)))
+}
+
+/// The step in which a track's coordinates are written.
+fn resolution_of(table: &Table, track: &Track) -> f64 {
+    let step = |column: usize| resolution(table.values(column).iter().flatten().copied());
+    step(track.x).max(step(track.y))
+}
+
+fn arrows_of(
+    table: &Table,
+    dots: &BTreeMap<&str, Vec<Option<Dot>>>,
+    upper: &Track,
+    lower: &Track,
+) -> Result<Vec<Arrow>, ReadError> {
+    let [from, to] = [upper, lower].map(|track| &dots[track.name.as_str()]);
+    let arrow = |(from, to): (&Option<Dot>, &Option<Dot>)| {
+        let ((from, one), (to, other)) = ((*from)?, (*to)?);
+        Some(([to[0] - from[0], to[1] - from[1]], one.min(other)))
     };
-    let arrow = |row: usize| {
-        let from = [value(upper.x, row)?, value(upper.y, row)?];
-        let to = [value(lower.x, row)?, value(lower.y, row)?];
-        let likely = likelihood(upper, row).min(likelihood(lower, row));
-        Some(([to[0] - from[0], to[1] - from[1]], likely))
-    };
-    let arrows: Vec<Arrow> = (0..table.rows()).map(arrow).collect();
+    let arrows: Vec<Arrow> = from.iter().zip(to).map(arrow).collect();
     let same = arrows
         .iter()
         .position(|arrow| matches!(arrow, Some(([0.0, 0.0], _))));

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::{Place, ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
+use super::finding::{Basis, Finding, counted, listed};
 use super::format::{DecimalMark, Delimiter, Entry, Format, TextLine};
 use super::header::{FileKind, Header, Track};
 use super::write::Column;
@@ -150,16 +150,34 @@ impl Table {
         if bare {
             tell(Basis::Detected, "no names of columns".to_owned());
         }
-        for (column, values) in self.columns.iter().zip(&self.values) {
-            let missing = values.iter().filter(|value| value.is_none()).count();
-            if missing > 0 {
-                let (name, rows) = (&column.name, values.len());
-                tell(
-                    Basis::Detected,
-                    format!("`{name}`: {missing} of {rows} values are missing"),
-                );
-            }
+        if let Some(text) = self.missing() {
+            self.findings.push(Finding::new(Basis::Detected, text));
         }
+    }
+
+    /// How many values are missing, a track counting as one column.
+    fn missing(&self) -> Option<String> {
+        let missing = |column: usize| self.values[column].iter().filter(|v| v.is_none()).count();
+        let tracks = self.tracks.iter().map(|track| {
+            let columns = [Some(track.x), Some(track.y), track.likelihood];
+            let count = columns.into_iter().flatten().map(missing).max();
+            (count.unwrap_or(0), &track.name)
+        });
+        let is_alone = |column: &usize| {
+            let is_of =
+                |t: &Track| t.x == *column || t.y == *column || t.likelihood == Some(*column);
+            !self.tracks.iter().any(is_of)
+        };
+        let alone = (0..self.columns.len()).filter(is_alone);
+        let alone = alone.map(|column| (missing(column), &self.columns[column].name));
+        let told: Vec<String> = tracks
+            .chain(alone)
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, name)| format!("{count} of `{name}`"))
+            .collect();
+        let rows = counted(self.rows(), "row");
+        (!told.is_empty())
+            .then(|| format!("values missing in {rows}: {}", listed(told.into_iter())))
     }
 
     /// The file.

@@ -1,13 +1,40 @@
 //! Files of numbers, written and read.
 
+mod findings;
 mod malformed;
 mod reading;
 mod writing;
+mod wrong_pictures;
 
 use branched_pendulum_data::{Table, TableOptions};
 
 fn table(text: &str) -> Table {
     Table::parse("swing.csv", text, &TableOptions::default()).unwrap()
+}
+
+/// Random numbers that are the same every time.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(0x2545_f491_4f6c_dd1d ^ seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end.max(1) as u64) as usize
+    }
+
+    /// Between 0 and 1.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }
 
 /// 2 s of two angles at 100 Hz.
