@@ -195,10 +195,8 @@ impl Table {
             FileKind::DeepLabCut => tell("a table of DeepLabCut".to_owned()),
         }
         if preamble > 0 {
-            let plural = if preamble == 1 { "line" } else { "lines" };
-            tell(format!(
-                "{preamble} {plural} above the names of the columns"
-            ));
+            let lines = counted(preamble, "line");
+            tell(format!("{lines} above the names of the columns"));
         }
         if bare {
             tell("no names of columns".to_owned());

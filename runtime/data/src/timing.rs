@@ -1,7 +1,7 @@
 //! Times of samples.
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding, listed, moment, rounded};
+use super::finding::{Basis, Finding, counted, listed, moment, rounded};
 use super::header::FileKind;
 use super::names::{Meaning, is_frame, is_time};
 use super::table::Table;
@@ -246,8 +246,8 @@ impl Table {
             Repeated::First => "first",
             Repeated::Last => "last",
         };
-        let plural = if dropped == 1 { "row" } else { "rows" };
-        let text = format!("{dropped} {plural} dropped that repeat a time; the {word} counts");
+        let dropped = counted(dropped, "row");
+        let text = format!("{dropped} dropped that repeat a time; the {word} counts");
         self.tell(Finding::new(Basis::Given, text));
         Ok(self.keeping(&is_kept))
     }
