@@ -140,7 +140,7 @@ EXPRESSIONS = [
     ("hours of a clock are minutes", f"{D}/cell.rs",
      "3600.0 * whole(hours, 24)?", "60.0 * whole(hours, 24)?", DATA,
      "cells::numbers_are_read_as_they_are_written"),
-    ("links point from the origin", f"{D}/markers.rs",
+    ("links point from the origin", f"{D}/points.rs",
      "([c - a, d - b], one.min(other))", "([c, d], one.min(other))", DATA, "points::"),
     ("the first of repeated rows counts as the last", f"{D}/timing.rs",
      "is_kept[first..row].fill(false)", "is_kept[row] = false", DATA,

@@ -183,7 +183,7 @@ fn both_programs_refuse_alike() {
         format!("{time},{:.3},{:.3}", one.to_degrees(), two.to_degrees())
     });
     for (file, options, expected) in [
-        (&of_points, &[][..], "1 tracks; a link needs two"),
+        (&of_points, &[][..], "1 track; a link needs two"),
         (&of_rates, &[], "column `vel1` is called like a velocity"),
         (&of_degrees, &[], "may be degrees or radians; say which"),
         (

@@ -5,8 +5,10 @@ use std::f64::consts::PI;
 use super::angle_unit;
 use super::circle;
 use super::error::{ReadError, ReadErrorKind};
+use super::exchange::{self, Angle};
 use super::finding::{Basis, Finding};
 use super::names::{Meaning, quoted};
+use super::outliers::resolution;
 use super::recording::{LinkSeries, Recording, Sample};
 use super::table::Table;
 use super::timing::{Clock, Times};
@@ -89,8 +91,16 @@ impl AngleColumns {
                 marker_distance: None,
             })
             .collect();
+        let resolutions = links.iter().map(|link| {
+            let values = 0..link.samples.len();
+            resolution(values.filter_map(|index| link.angle(index)))
+        });
+        let resolutions: Vec<f64> = resolutions.collect();
+        if self.outliers.is_some() {
+            mend_exchanges(&times, &resolutions, &mut links, &mut findings);
+        }
         self.turn(&mut links, &mut findings);
-        Recording::new(table, times, links, self.outliers, findings)
+        Recording::new(table, times, links, &resolutions, self.outliers, findings)
     }
 
     fn check_parents(&self, table: &Table, links: usize) -> Result<(), ReadError> {
@@ -145,7 +155,11 @@ impl AngleColumns {
                 },
             );
         }
-        for pair in columns.windows(2) {
+        let is_unsaid = |column: &usize| {
+            self.unit.is_none() && Meaning::of(&all[*column], all) == Meaning::Unsaid
+        };
+        let pairs = columns.windows(2);
+        for pair in pairs.filter(|pair| pair.iter().all(is_unsaid)) {
             let [x, y] = [table.values(pair[0])?, table.values(pair[1])?];
             if let Some(radius) = circle::radius(x, y) {
                 let what = format!(
@@ -208,6 +222,11 @@ impl AngleColumns {
                 false => (Basis::Assumed, AngleZero::Down),
             },
         };
+        if self.zero.is_none() && zero == AngleZero::Up {
+            let text = "angles are nearer to half a turn than to none, and were taken as counted from \
+                        the upward vertical; if they count from the downward one, say so (zero: down)";
+            findings.push(Finding::new(Basis::Doubtful, text));
+        }
         let (word, offset) = match zero {
             AngleZero::Down => ("downward", 0.0),
             AngleZero::Up => ("upward", PI),
@@ -247,6 +266,34 @@ impl AngleColumns {
 
     fn parent(&self, link: usize) -> Option<usize> {
         self.relative_to.get(link).copied().flatten()
+    }
+}
+
+/// Gives links whose angles changed places in some rows their own ones back.
+fn mend_exchanges(
+    times: &Times,
+    resolutions: &[f64],
+    links: &mut [LinkSeries],
+    findings: &mut Vec<Finding>,
+) {
+    let interval = times.timing.interval;
+    let angles = |link: &LinkSeries| {
+        (0..link.samples.len())
+            .map(|index| link.angle(index))
+            .collect()
+    };
+    let mut series: Vec<Vec<Option<f64>>> = links.iter().map(angles).collect();
+    let exchanges = exchange::mend(&times.seconds, interval, resolutions, &mut series, Angle);
+    if exchanges.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
+    findings.extend(exchange::told(&exchanges, &names, &times.seconds, interval));
+    for (link, angles) in links.iter_mut().zip(series) {
+        let samples = angles
+            .into_iter()
+            .map(|angle| angle.map_or(Sample::Missing, Sample::Measured));
+        link.samples = samples.collect();
     }
 }
 

@@ -1,8 +1,10 @@
 //! Columns that are coordinates whatever they are called.
 
-/// Returns the radius of the circle on which pairs of values lie, if they do and are an arc
-/// of it: a point at a constant distance from its pivot. Angles of two links make no circle,
-/// but where both swing by as much, a quarter of a period apart.
+use std::f64::consts::PI;
+
+/// Returns the radius of the circle on which pairs of values lie, if they do and go back on an
+/// arc of it, or round: a point at a constant distance from its pivot. Angles of two links may
+/// be on an arc for a while, but do not go back on it.
 pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
     /// Largest deviation (rms) from a circle, of its radius.
     const DEVIATION: f64 = 0.01;
@@ -35,5 +37,33 @@ pub(crate) fn radius(xs: &[Option<f64>], ys: &[Option<f64>]) -> Option<f64> {
     let deviation = mean(&|x, y| (distance(x, y) - radius).powi(2)).sqrt();
     let extent = points.iter().map(|&(x, y)| (x - x0).hypot(y - y0));
     let extent = extent.fold(0.0, f64::max);
-    (deviation < DEVIATION * radius && extent > EXTENT * radius).then_some(radius)
+    let is_arc = deviation < DEVIATION * radius && extent > EXTENT * radius;
+    // Angles about the centre, from the direction opposite to the mean's.
+    let along = points.iter().map(|&(x, y)| {
+        let [x, y] = [x - x0 - centre[0], y - y0 - centre[1]];
+        let [down, across] = [
+            -x * centre[0] - y * centre[1],
+            x * centre[1] - y * centre[0],
+        ];
+        across.atan2(down)
+    });
+    (is_arc && goes_back(&along.collect::<Vec<_>>())).then_some(radius)
+}
+
+/// Returns true if angles go through half of their range again, before or behind its ends, or
+/// go round.
+fn goes_back(angles: &[f64]) -> bool {
+    let place = |is_least: bool| {
+        let sign = if is_least { -1.0 } else { 1.0 };
+        let order =
+            |a: &usize, b: &usize| f64::total_cmp(&(sign * angles[*a]), &(sign * angles[*b]));
+        (0..angles.len()).max_by(order).unwrap_or(0)
+    };
+    let [least, most] = [true, false].map(place);
+    let range = angles[most] - angles[least];
+    let [first, last] = [least.min(most), least.max(most)];
+    let is_far = |from: usize| move |angle: &f64| (angle - angles[from]).abs() > 0.5 * range;
+    range > 1.5 * PI
+        || angles[..first].iter().any(is_far(first))
+        || angles[last..].iter().any(is_far(last))
 }

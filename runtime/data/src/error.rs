@@ -5,6 +5,7 @@ use std::io;
 use std::path::PathBuf;
 
 use super::cell::hint;
+use super::finding::counted;
 
 /// A place in a file: line and column counted from 1, and the column's name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,7 +106,7 @@ pub enum ReadErrorKind {
     #[error("has no line of numbers in at least two columns")]
     NoNumbers,
     /// Fewer rows of numbers than a motion needs.
-    #[error("has {found} rows of numbers; at least {needed} are needed")]
+    #[error("has {} of numbers; at least {needed} are needed", counted(*found, "row"))]
     TooFewRows {
         /// Number of rows.
         found: usize,
@@ -133,7 +134,7 @@ pub enum ReadErrorKind {
         unit: String,
     },
     /// A row with more or fewer cells than the header.
-    #[error("{found} cells where the table has {expected} columns")]
+    #[error("{} where the table has {}", counted(*found, "cell"), counted(*expected, "column"))]
     CellCount {
         /// Number of columns.
         expected: usize,
@@ -233,6 +234,21 @@ pub enum ReadErrorKind {
         name: String,
         /// The angle.
         value: f64,
+    },
+    /// Angles that jump too often to be those of a link.
+    #[error(
+        "`{name}` jumps in {count} of {measured} samples (first {first}): the frame rate is too low \
+         for this motion, or it is no angle of a link"
+    )]
+    Jumps {
+        /// The link.
+        name: String,
+        /// Number of samples that follow none before.
+        count: usize,
+        /// Number of all.
+        measured: usize,
+        /// Moments of the first ones.
+        first: String,
     },
     /// A column's unit is none of an angle or of a time.
     #[error("column `{name}` is in `{unit}`, which is no unit of {quantity}")]

@@ -3,8 +3,9 @@
 use std::iter;
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
-use super::header::{FileKind, Track};
+use super::finding::{Basis, Finding, counted, listed, rounded};
+use super::header::FileKind;
+use super::points::{Arrow, Places, Point};
 use super::recording::{LinkSeries, Recording, Sample};
 use super::table::Table;
 use super::timing::{Clock, Times};
@@ -74,9 +75,6 @@ impl Default for Markers {
     }
 }
 
-/// A vector, from marker to marker or from the origin, with the smaller likelihood of its ends.
-type Arrow = Option<([f64; 2], f64)>;
-
 impl Markers {
     /// Takes the angles out of a table of tracked points.
     ///
@@ -91,9 +89,13 @@ impl Markers {
         let mut findings = Vec::new();
         let times = Times::read(table, &self.clock)?;
         let pairs = self.pairs(table, &mut findings)?;
+        let mut places = Places::read(table, &pairs)?;
+        if self.outliers.is_some() {
+            findings.extend(places.mend(&times));
+        }
         let mut arrows = Vec::with_capacity(pairs.len());
-        for [upper, lower] in &pairs {
-            arrows.push(arrows_of(table, *upper, *lower)?);
+        for pair in &pairs {
+            arrows.push(places.arrows(table, *pair)?);
         }
         let down = self.down(table, &arrows, &mut findings)?;
         if self.mirrored {
@@ -108,17 +110,23 @@ impl Markers {
             self.series(name, arrows, down)
         });
         let links: Vec<LinkSeries> = links.collect();
-        for link in &links {
-            if let Some([mean, deviation]) = link.marker_distance {
-                let percent = 100.0 * deviation / mean;
-                let text = format!(
-                    "`{}`: its markers are {mean:.6} apart, to {percent:.3} % (rms)",
-                    link.name
-                );
-                findings.push(Finding::new(Basis::Detected, text));
-            }
+        let distances = links.iter().filter_map(|link| {
+            let [mean, deviation] = link.marker_distance?;
+            let (percent, mean) = (100.0 * deviation / mean, rounded(mean, 5));
+            Some(format!("`{}` {mean} to {percent:.3} % (rms)", link.name))
+        });
+        let distances: Vec<String> = distances.collect();
+        if !distances.is_empty() {
+            let text = format!("distances of markers: {}", listed(distances.into_iter()));
+            findings.push(Finding::new(Basis::Detected, text));
         }
-        Recording::new(table, times, links, self.outliers, findings)
+        let resolutions = links.iter().zip(&pairs).map(|(link, pair)| {
+            let steps = pair.map(|point| places.step(point));
+            let distance = link.marker_distance.map(|[mean, _]| mean);
+            distance.map_or(0.0, |mean| steps[0].max(steps[1]) / mean)
+        });
+        let resolutions: Vec<f64> = resolutions.collect();
+        Recording::new(table, times, links, &resolutions, self.outliers, findings)
     }
 
     fn pairs<'a>(
@@ -159,17 +167,18 @@ impl Markers {
             (None, (pairs @ [_, ..], [])) => pairs.to_vec(),
             _ => {
                 let what = format!(
-                    "{} tracks; a link needs two, from its pivot outwards: name those of each, \
-                     or give the place of the pivot",
-                    tracks.len()
+                    "{}; a link needs two, from its pivot outwards: name those of each, or give \
+                     the place of the pivot",
+                    counted(tracks.len(), "track")
                 );
                 return Err(table.refused(ReadErrorKind::Nothing { what }));
             }
         };
-        for [upper, lower] in &pairs {
-            let text = format!("a link from `{}` to `{}`", upper.name(), lower.name());
-            findings.push(Finding::new(Basis::Assumed, text));
-        }
+        let links = pairs.iter();
+        let links =
+            links.map(|[upper, lower]| format!("from `{}` to `{}`", upper.name(), lower.name()));
+        let text = format!("links by two markers each: {}", listed(links));
+        findings.push(Finding::new(Basis::Assumed, text));
         Ok(pairs)
     }
 
@@ -257,80 +266,4 @@ fn mean_direction(arrows: &[Arrow]) -> [f64; 2] {
         sum = [sum[0] + x / length, sum[1] + y / length];
     }
     sum
-}
-
-/// An end of a link: a track, or a place that does not move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Point<'a> {
-    Track(&'a Track),
-    Fixed([f64; 2]),
-}
-
-impl<'a> Point<'a> {
-    /// The track of that name, or the place that it gives.
-    fn named(table: &'a Table, name: &str) -> Result<Self, ReadError> {
-        match (table.track(name), place(name)) {
-            (Err(_), Some(place)) => Ok(Self::Fixed(place)),
-            (track, _) => track.map(Self::Track),
-        }
-    }
-
-    fn name(self) -> String {
-        match self {
-            Self::Track(track) => track.name.clone(),
-            Self::Fixed([0.0, 0.0]) => "origin".to_owned(),
-            Self::Fixed([x, y]) => format!("{x},{y}"),
-        }
-    }
-
-    /// The point in each row, with its likelihood. One without a likelihood is certain; one
-    /// whose likelihood is missing is not.
-    fn places(self, table: &Table) -> Result<Vec<Arrow>, ReadError> {
-        let track = match self {
-            Self::Track(track) => track,
-            Self::Fixed(place) => return Ok(vec![Some((place, 1.0)); table.rows()]),
-        };
-        let likelihood = track
-            .likelihood
-            .map(|column| table.values(column))
-            .transpose()?;
-        let points = table.values(track.x)?.iter().zip(table.values(track.y)?);
-        let places = points.enumerate().map(|(row, (x, y))| {
-            let likelihood = likelihood.map_or(1.0, |all| all[row].unwrap_or(0.0));
-            Some(([(*x)?, (*y)?], likelihood))
-        });
-        Ok(places.collect())
-    }
-}
-
-/// A place as text: `origin`, or `X,Y`.
-fn place(text: &str) -> Option<[f64; 2]> {
-    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
-    match text.split_once(',') {
-        Some((x, y)) => Some([number(x)?, number(y)?]),
-        None => (text == "origin").then_some([0.0; 2]),
-    }
-}
-
-fn arrows_of(table: &Table, upper: Point<'_>, lower: Point<'_>) -> Result<Vec<Arrow>, ReadError> {
-    let ends = upper.places(table)?.into_iter().zip(lower.places(table)?);
-    let arrows = ends.map(|(upper, lower)| {
-        let (([a, b], one), ([c, d], other)) = (upper?, lower?);
-        Some(([c - a, d - b], one.min(other)))
-    });
-    let arrows: Vec<Arrow> = arrows.collect();
-    let same = arrows
-        .iter()
-        .position(|arrow| matches!(arrow, Some(([0.0, 0.0], _))));
-    match same {
-        None => Ok(arrows),
-        Some(row) => {
-            let what = format!("`{}` and `{}` are at one place", upper.name(), lower.name());
-            let column = match lower {
-                Point::Track(track) => Some(track.x),
-                Point::Fixed(_) => None,
-            };
-            Err(table.refused_at(ReadErrorKind::Nothing { what }, row, column))
-        }
-    }
 }

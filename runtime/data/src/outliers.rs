@@ -1,7 +1,8 @@
 //! Samples that do not fit their neighbours.
 
 use super::recording::Sample;
-use super::timing::median;
+use super::timing::{median, quantile};
+use super::turns::Turns;
 
 /// Offsets of the neighbours whose polynomials tell what a sample should be. A bad sample
 /// deviates from all of them; a good one beside it, and one of a fast motion, agrees with
@@ -19,57 +20,97 @@ const WINDOW: usize = 12;
 const OWN: usize = 2;
 /// Median of |x| of a normal distribution of deviation 1, inverted.
 const NORMAL: f64 = 1.4826;
-/// Largest part of a record that can be called exceptional.
+/// Standard deviation of what is lost by rounding to whole numbers.
+const ROUNDING: f64 = 0.288_675;
+/// Largest part of a record that can be called exceptional, and the number that can be in any.
 const LARGEST_PART: f64 = 0.05;
+pub(crate) const FEW: usize = 5;
+
+/// Returns true if so many samples of a record cannot be exceptions, few of a long one aside.
+pub(crate) fn are_many(wrong: usize, of: usize, few: usize) -> bool {
+    wrong > few && wrong as f64 > LARGEST_PART * of as f64
+}
 
 /// Samples that were marked.
 pub(crate) enum Marked {
-    /// So many samples.
-    Some(usize),
+    /// These rows.
+    Rows(Vec<usize>),
     /// None: so many would be no exceptions.
     TooMany(usize),
 }
 
 /// Marks measured samples whose deviation from their neighbours is more than `threshold`
-/// times the usual one, of the record and of the surroundings. Linear in their number.
-pub(crate) fn mark(times: &[f64], samples: &mut [Sample], threshold: f64) -> Marked {
-    let used: Vec<(usize, f64)> = samples
-        .iter()
-        .enumerate()
-        .filter_map(|(index, sample)| match sample {
-            Sample::Measured(value) => Some((index, *value)),
+/// times the usual one, of the record and of the surroundings, and those that are far from all
+/// others whatever their turns. A usual deviation is at least that of rounding to the `resolution`.
+/// Linear in their number.
+pub(crate) fn mark(
+    times: &[f64],
+    samples: &mut [Sample],
+    threshold: f64,
+    resolution: f64,
+    turns: &Turns,
+) -> Marked {
+    let followed = turns.followed.iter();
+    let points: Vec<[f64; 2]> = followed
+        .filter_map(|&row| match samples[row] {
+            Sample::Measured(value) => Some([times[row], value]),
             _ => None,
         })
         .collect();
-    let points: Vec<[f64; 2]> = used
-        .iter()
-        .map(|&(index, value)| [times[index], value])
-        .collect();
-    let deviations: Vec<f64> = (0..points.len()).map(|at| deviation(&points, at)).collect();
-    let all = NORMAL * median(deviations.clone());
-    let is_outlier = |at: &usize| {
-        let size = deviations[*at];
-        size > threshold * all && size > threshold * around(&deviations, *at)
-    };
-    let outliers: Vec<usize> = (0..used.len()).filter(is_outlier).collect();
-    if outliers.len() as f64 > LARGEST_PART * used.len() as f64 {
-        return Marked::TooMany(outliers.len());
+    let own = |at: usize| deviation(&points, points[at], [at.checked_sub(1), Some(at + 1)]);
+    let deviations: Vec<f64> = (0..points.len()).map(own).collect();
+    let floor = ROUNDING * resolution;
+    let all = (NORMAL * median(deviations.clone())).max(floor);
+    let mut rows = Vec::new();
+    let mut measured = 0;
+    let mut next = 0;
+    for (row, sample) in samples.iter().enumerate() {
+        let Sample::Measured(value) = *sample else {
+            continue;
+        };
+        measured += 1;
+        let is_followed = turns.followed.get(next) == Some(&row);
+        let size = match is_followed {
+            true => deviations[next],
+            false => deviation(
+                &points,
+                [times[row], value],
+                [next.checked_sub(1), Some(next)],
+            ),
+        };
+        let is_outlier = turns.strays.binary_search(&row).is_ok()
+            || (size > threshold * all && size > threshold * around(&deviations, next).max(floor));
+        if is_outlier {
+            rows.push(row);
+        }
+        next += usize::from(is_followed);
     }
-    for &at in &outliers {
-        let (index, value) = used[at];
-        samples[index] = Sample::Outlier(value);
+    if are_many(rows.len(), measured, FEW.min(measured / 4)) {
+        return Marked::TooMany(rows.len());
     }
-    Marked::Some(outliers.len())
+    for &row in &rows {
+        if let Sample::Measured(value) = samples[row] {
+            samples[row] = Sample::Outlier(value);
+        }
+    }
+    Marked::Rows(rows)
 }
 
-/// Smallest distance of a point from the polynomials through its neighbours; 0 where fewer
-/// than two of them tell.
-fn deviation(points: &[[f64; 2]], at: usize) -> f64 {
-    let [time, value] = points[at];
+/// Smallest distance of a point from the polynomials through its neighbours, of which those next to
+/// it before and behind are given; 0 where fewer than two of them tell.
+fn deviation(
+    points: &[[f64; 2]],
+    [time, value]: [f64; 2],
+    [before, behind]: [Option<usize>; 2],
+) -> f64 {
     let mut smallest = f64::INFINITY;
     let mut count = 0;
     for offsets in NEIGHBOURS {
-        let neighbour = |offset: &isize| points.get(at.checked_add_signed(*offset)?).copied();
+        let neighbour = |offset: &isize| {
+            let nearest = if *offset < 0 { before } else { behind };
+            let index = nearest?.checked_add_signed(offset - offset.signum())?;
+            points.get(index).copied()
+        };
         let Some(nodes) = offsets.iter().map(neighbour).collect::<Option<Vec<_>>>() else {
             continue;
         };
@@ -95,10 +136,24 @@ fn interpolated(nodes: &[[f64; 2]], time: f64) -> f64 {
 fn around(deviations: &[f64], at: usize) -> f64 {
     let window = at.saturating_sub(WINDOW)..(at + WINDOW + 1).min(deviations.len());
     let others = window.filter(|other| other.abs_diff(at) > OWN);
-    let mut others: Vec<f64> = others.map(|other| deviations[other]).collect();
-    if others.is_empty() {
-        return 0.0;
-    }
-    let place = (others.len() * 9 / 10).min(others.len() - 1);
-    *others.select_nth_unstable_by(place, f64::total_cmp).1
+    quantile(others.map(|other| deviations[other]).collect(), 0.9)
+}
+
+/// The step in which values are written or counted: the smallest one between any two, if it is found
+/// more often than by chance; else 0.
+pub(crate) fn resolution(values: impl Iterator<Item = f64>) -> f64 {
+    const OFTEN: usize = 3;
+    const EQUAL: f64 = 1e-3;
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let largest = values
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let steps = || values.windows(2).map(|pair| pair[1] - pair[0]);
+    let steps = || steps().filter(|step| *step > 1e-12 * largest);
+    let smallest = steps().fold(f64::INFINITY, f64::min);
+    let often = steps()
+        .filter(|step| *step <= (1.0 + EQUAL) * smallest)
+        .count();
+    if often >= OFTEN { smallest } else { 0.0 }
 }

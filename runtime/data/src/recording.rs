@@ -1,11 +1,11 @@
 //! Angles against time, as the rest of the project takes them.
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
+use super::finding::{Basis, Finding, counted, listed, moments};
 use super::outliers::{self, Marked};
 use super::table::Table;
 use super::timing::{Times, Timing};
-use std::f64::consts::{PI, TAU};
+use super::turns::{self, Turns};
 
 /// The angle of a link at one time, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,16 +53,18 @@ pub struct Recording {
     pub links: Vec<LinkSeries>,
     /// How even the times are.
     pub timing: Timing,
-    /// Facts detected, assumed and marked, the table's findings first.
+    /// Doubts first, then facts detected, assumed and marked, those of the table before others.
     pub findings: Vec<Finding>,
 }
 
 impl Recording {
     /// Angles of links as they were read: takes jumps of a turn out and marks outliers.
+    /// `resolutions` (rad) are the steps in which angles of the links were counted or written.
     pub(crate) fn new(
         table: &Table,
         times: Times,
         mut links: Vec<LinkSeries>,
+        resolutions: &[f64],
         outliers: Option<f64>,
         of_angles: Vec<Finding>,
     ) -> Result<Self, ReadError> {
@@ -79,42 +81,22 @@ impl Recording {
         } = times;
         let mut findings = table.findings().to_vec();
         findings.extend(of_times.into_iter().chain(of_angles));
-        for link in &mut links {
-            let Unwrapped { jumps, doubtful } =
-                unwrap(&seconds, &mut link.samples, timing.interval);
-            let name = &link.name;
-            if jumps > 0 {
-                let text = format!("`{name}`: {jumps} jumps of a turn were taken out");
-                findings.push(Finding::new(Basis::Marked, text));
-            }
-            if doubtful > 0 {
-                let text = format!("`{name}`: turns across {doubtful} gaps are the nearest ones");
-                findings.push(Finding::new(Basis::Assumed, text));
-            }
-            if let Some(threshold) = outliers {
-                let text = match outliers::mark(&seconds, &mut link.samples, threshold) {
-                    Marked::Some(0) => None,
-                    Marked::Some(count) => Some(format!(
-                        "`{name}`: {count} outliers, beyond {threshold} times the usual \
-                         deviation from their neighbours"
-                    )),
-                    Marked::TooMany(count) => Some(format!(
-                        "`{name}`: no outliers, since {count} samples would be: the motion is \
-                         too fast for this rate, or the noise comes in spikes"
-                    )),
-                };
-                findings.extend(text.map(|text| Finding::new(Basis::Marked, text)));
-            }
-            let unlikely = link
-                .samples
-                .iter()
-                .filter(|s| matches!(s, Sample::Unlikely(_)))
-                .count();
-            if unlikely > 0 {
-                let text = format!("`{name}`: {unlikely} samples of small likelihood");
-                findings.push(Finding::new(Basis::Marked, text));
-            }
+        let mut all = Vec::with_capacity(links.len());
+        for (link, resolution) in links.iter_mut().zip(resolutions) {
+            let turns = turns::count(&seconds, &mut link.samples, &timing);
+            check_turns(table, &seconds, &timing, link, &turns)?;
+            let marked = outliers.map(|threshold| {
+                outliers::mark(&seconds, &mut link.samples, threshold, *resolution, &turns)
+            });
+            all.push((turns, marked));
         }
+        let marks = Marks {
+            times: &seconds,
+            interval: timing.interval,
+            links: &links,
+            all: &all,
+        };
+        findings.extend(marks.findings(outliers));
         // Doubts come first.
         findings.sort_by_key(|finding| finding.basis != Basis::Doubtful);
         Ok(Self {
@@ -123,6 +105,102 @@ impl Recording {
             timing,
             findings,
         })
+    }
+}
+
+/// Refuses a series that jumps too often to be angles of a link.
+fn check_turns(
+    table: &Table,
+    times: &[f64],
+    timing: &Timing,
+    link: &LinkSeries,
+    turns: &Turns,
+) -> Result<(), ReadError> {
+    let mut wild = [&turns.bends[..], &turns.strays].concat();
+    wild.sort_unstable();
+    wild.dedup();
+    let is_measured = |sample: &&Sample| matches!(sample, Sample::Measured(_));
+    let measured = link.samples.iter().filter(is_measured).count();
+    if !outliers::are_many(wild.len(), measured, outliers::FEW) {
+        return Ok(());
+    }
+    let kind = ReadErrorKind::Jumps {
+        name: link.name.clone(),
+        count: wild.len(),
+        measured,
+        first: moments(times, &wild, timing.interval),
+    };
+    Err(table.refused_at(kind, wild[0], None))
+}
+
+/// What was done to the links, to be told by kinds.
+struct Marks<'a> {
+    times: &'a [f64],
+    interval: f64,
+    links: &'a [LinkSeries],
+    all: &'a [(Turns, Option<Marked>)],
+}
+
+impl Marks<'_> {
+    /// Lists the links for which there is something to tell; nothing if there is none.
+    fn of_links(&self, of: impl Fn(&Turns, Option<&Marked>) -> Option<String>) -> Option<String> {
+        let links = self.links.iter().zip(self.all);
+        let told = links.filter_map(|(link, (turns, marked))| {
+            Some(format!("`{}`: {}", link.name, of(turns, marked.as_ref())?))
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| listed(told.into_iter()))
+    }
+
+    fn at(&self, rows: &[usize], thing: &str) -> Option<String> {
+        let places = || moments(self.times, rows, self.interval);
+        (!rows.is_empty()).then(|| format!("{} ({})", counted(rows.len(), thing), places()))
+    }
+
+    fn findings(&self, threshold: Option<f64>) -> Vec<Finding> {
+        let jumps = self.of_links(|turns, _| self.at(&turns.jumps, "jump"));
+        let jumps = jumps.map(|told| format!("jumps of a turn were taken out: {told}"));
+        let doubtful = self.of_links(|turns, _| self.at(&turns.doubtful, "place"));
+        let doubtful = doubtful.map(|told| {
+            format!(
+                "turns from there on are the nearest ones and may be others, behind gaps, sudden \
+                 changes, or in a whirl of fewer than four samples a turn: {told}"
+            )
+        });
+        let marked = self.of_links(|_, marked| match marked? {
+            Marked::Rows(rows) => self.at(rows, "outlier"),
+            Marked::TooMany(_) => None,
+        });
+        let marked = marked.zip(threshold).map(|(told, threshold)| {
+            format!("{told}, beyond {threshold} times the usual deviation from their neighbours")
+        });
+        let too_many = self.of_links(|_, marked| match marked? {
+            Marked::Rows(_) => None,
+            Marked::TooMany(count) => Some(format!("{count} samples")),
+        });
+        let too_many = too_many.map(|told| {
+            format!(
+                "no outliers, since so many would be: {told}; the motion is too fast for this rate, \
+                 or the noise comes in spikes"
+            )
+        });
+        let unlikely = self.links.iter().filter_map(|link| {
+            let is_unlikely = |sample: &&Sample| matches!(sample, Sample::Unlikely(_));
+            let count = link.samples.iter().filter(is_unlikely).count();
+            (count > 0).then(|| format!("`{}`: {}", link.name, counted(count, "sample")))
+        });
+        let unlikely: Vec<String> = unlikely.collect();
+        let unlikely = (!unlikely.is_empty())
+            .then(|| format!("of small likelihood: {}", listed(unlikely.into_iter())));
+        let all = [
+            (Basis::Marked, jumps),
+            (Basis::Doubtful, doubtful),
+            (Basis::Marked, marked),
+            (Basis::Marked, too_many),
+            (Basis::Marked, unlikely),
+        ];
+        let told = |(basis, text): (Basis, Option<String>)| Some(Finding::new(basis, text?));
+        all.into_iter().filter_map(told).collect()
     }
 }
 
@@ -140,53 +218,4 @@ fn check(table: &Table, links: &[LinkSeries]) -> Result<(), ReadError> {
         }
     }
     Ok(())
-}
-
-/// Changes to a series for the sake of its turns.
-struct Unwrapped {
-    jumps: usize,
-    doubtful: usize,
-}
-
-/// Adds whole turns so that each angle is the one nearest to where the last two lead, or
-/// to the last one behind a gap, which may hide turns.
-fn unwrap(times: &[f64], samples: &mut [Sample], interval: f64) -> Unwrapped {
-    const NEAR: f64 = 3.5;
-    let mut done = Unwrapped {
-        jumps: 0,
-        doubtful: 0,
-    };
-    let mut turns = 0.0;
-    let mut last: Option<(f64, f64, f64)> = None;
-    for (&time, sample) in times.iter().zip(samples) {
-        let (value, is_measured) = match sample {
-            Sample::Measured(value) => (value, true),
-            Sample::Outlier(value) | Sample::Unlikely(value) => (value, false),
-            Sample::Missing => continue,
-        };
-        let Some((before, angle, rate)) = last else {
-            if is_measured {
-                last = Some((time, *value, 0.0));
-            }
-            continue;
-        };
-        let step = time - before;
-        let near = step <= NEAR * interval;
-        let ahead = rate * step;
-        let expected = if near && ahead.is_finite() {
-            angle + ahead
-        } else {
-            angle
-        };
-        let own = ((expected - *value) / TAU).round();
-        *value += own * TAU;
-        if is_measured {
-            done.jumps += usize::from(own != turns);
-            done.doubtful += usize::from(!near && ahead.abs() > PI);
-            turns = own;
-            let rate = (*value - angle) / step;
-            last = Some((time, *value, rate));
-        }
-    }
-    done
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::cell::Entry;
 use super::error::{Place, ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
+use super::finding::{Basis, Finding, counted, listed};
 use super::format::{DecimalMark, Delimiter, Format, TextLine};
 use super::header::{FileKind, Header, Track};
 use super::names;
@@ -195,22 +195,43 @@ impl Table {
             FileKind::DeepLabCut => tell("a table of DeepLabCut".to_owned()),
         }
         if preamble > 0 {
-            let plural = if preamble == 1 { "line" } else { "lines" };
-            tell(format!(
-                "{preamble} {plural} above the names of the columns"
-            ));
+            let lines = counted(preamble, "line");
+            tell(format!("{lines} above the names of the columns"));
         }
         if bare {
             tell("no names of columns".to_owned());
         }
-        for (index, column) in self.columns.iter().enumerate() {
-            let missing = self.values[index].iter().filter(|v| v.is_none()).count();
-            if missing > 0 && self.faults[index].is_none() {
-                let (name, rows) = (&column.name, self.rows());
-                tell(format!("`{name}`: {missing} of {rows} values are missing"));
-            }
-        }
+        let missing = self.missing();
+        told.extend(missing.map(|text| Finding::new(Basis::Detected, text)));
         self.findings = told;
+    }
+
+    /// How many values are missing, a track counting as one column.
+    fn missing(&self) -> Option<String> {
+        let missing = |column: usize| match self.faults[column] {
+            None => self.values[column].iter().filter(|v| v.is_none()).count(),
+            Some(_) => 0,
+        };
+        let tracks = self.tracks.iter().map(|track| {
+            let columns = [Some(track.x), Some(track.y), track.likelihood];
+            let count = columns.into_iter().flatten().map(missing).max();
+            (count.unwrap_or(0), &track.name)
+        });
+        let is_alone = |column: &usize| {
+            let is_of =
+                |t: &Track| t.x == *column || t.y == *column || t.likelihood == Some(*column);
+            !self.tracks.iter().any(is_of)
+        };
+        let alone = (0..self.columns.len()).filter(is_alone);
+        let alone = alone.map(|column| (missing(column), &self.columns[column].name));
+        let told: Vec<String> = tracks
+            .chain(alone)
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, name)| format!("{count} of `{name}`"))
+            .collect();
+        let rows = counted(self.rows(), "row");
+        (!told.is_empty())
+            .then(|| format!("values missing in {rows}: {}", listed(told.into_iter())))
     }
 
     /// The file.

@@ -1,7 +1,7 @@
 //! Times of samples.
 
 use super::error::{ReadError, ReadErrorKind};
-use super::finding::{Basis, Finding};
+use super::finding::{Basis, Finding, counted, listed, moment, rounded};
 use super::header::FileKind;
 use super::names::{Meaning, is_frame, is_time};
 use super::table::Table;
@@ -23,11 +23,12 @@ pub enum Clock {
 /// How evenly samples follow each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Timing {
-    /// Median of the time from one sample to the next, s.
+    /// Usual time from one sample to the next, s: the mean but for gaps, or the median of uneven
+    /// times.
     pub interval: f64,
     /// Root mean square deviation from it, but for gaps, s.
     pub jitter: f64,
-    /// Places where samples are missing.
+    /// Places where samples are missing; of uneven times those far longer than the ones beside.
     pub gaps: Vec<Gap>,
 }
 
@@ -42,38 +43,100 @@ pub struct Gap {
 
 /// Intervals of so many usual ones are gaps.
 const GAP: f64 = 1.5;
+/// Intervals of uneven times that are so many times as long as both on either side are gaps.
+const GAP_OF_UNEVEN: f64 = 10.0;
+/// Part of all intervals that may be gaps in even times.
+const GAPS: f64 = 0.05;
 
 impl Timing {
     fn of(times: &[f64]) -> Self {
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let interval = median(steps.clone());
-        let usual = steps.iter().filter(|&&step| step <= GAP * interval);
-        let (count, sum) = usual.fold((0_u32, 0.0), |(count, sum), step| {
-            (count + 1, sum + (step - interval).powi(2))
-        });
-        let gaps = times
-            .windows(2)
-            .filter(|pair| pair[1] - pair[0] > GAP * interval);
+        let middle = median(steps.clone());
+        let is_uneven = are_uneven(&steps, middle);
+        let is_gap = |index: &usize| {
+            let beside = index.saturating_sub(2)..(index + 3).min(steps.len());
+            let beside = beside.filter(|other| other != index);
+            let longest = beside.map(|other| steps[other]).fold(0.0, f64::max);
+            steps[*index] > GAP * middle
+                && (!is_uneven || steps[*index] > GAP_OF_UNEVEN * longest.max(middle))
+        };
+        let (gaps, usual): (Vec<usize>, Vec<usize>) = (0..steps.len()).partition(is_gap);
+        let count = usual.len().max(1) as f64;
+        let interval = match is_uneven {
+            true => middle,
+            false => usual.iter().map(|&index| steps[index]).sum::<f64>() / count,
+        };
+        let square = |&index: &usize| (steps[index] - interval).powi(2);
         Self {
             interval,
-            jitter: (sum / f64::from(count.max(1))).sqrt(),
+            jitter: (usual.iter().map(square).sum::<f64>() / count).sqrt(),
             gaps: gaps
-                .map(|pair| Gap {
-                    start: pair[0],
-                    end: pair[1],
+                .iter()
+                .map(|&index| Gap {
+                    start: times[index],
+                    end: times[index + 1],
                 })
                 .collect(),
         }
     }
+
+    /// Returns true if rows are missing between two times of samples.
+    pub(crate) fn has_gap(&self, from: f64, to: f64) -> bool {
+        let next = self.gaps.partition_point(|gap| gap.start < from);
+        self.gaps.get(next).is_some_and(|gap| gap.end <= to)
+    }
+
+    /// The rate or the unevenness, and the gaps.
+    fn findings(&self, times: &[f64]) -> [Option<Finding>; 2] {
+        let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let text = if are_uneven(&steps, self.interval) {
+            let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);
+            let longest = steps.iter().copied().fold(0.0, f64::max);
+            let [shortest, longest, usual] =
+                [shortest, longest, self.interval].map(|step| rounded(step, 3));
+            format!(
+                "uneven times, {shortest} s to {longest} s apart, half of them less than {usual} s"
+            )
+        } else {
+            let rate = rounded(1.0 / self.interval, 6);
+            let percent = 100.0 * self.jitter / self.interval;
+            format!("{rate} samples a second, intervals even to {percent:.2} % (rms)")
+        };
+        let gaps = self.gaps.iter().map(|Gap { start, end }| {
+            let [start, end] = [*start, *end].map(|time| moment(time, self.interval));
+            format!("{start} and {end}")
+        });
+        let gaps = (gaps.len() > 0).then(|| format!("no rows between {}", listed(gaps)));
+        [Some(text), gaps].map(|text| Some(Finding::new(Basis::Detected, text?)))
+    }
+}
+
+/// Returns true if too many intervals are long for gaps, and few of those are several usual ones, as
+/// they are where single rows are lost.
+fn are_uneven(steps: &[f64], usual: f64) -> bool {
+    let long = || {
+        steps
+            .iter()
+            .map(|step| step / usual)
+            .filter(|&part| part > GAP)
+    };
+    let lost = long().filter(|part| (part - part.round()).abs() < 0.1);
+    let (long, lost) = (long().count(), lost.count());
+    long as f64 > GAPS * steps.len() as f64 && 2 * lost < long
 }
 
 /// Returns the middle value, 0 of none.
-pub(crate) fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() {
+pub(crate) fn median(values: Vec<f64>) -> f64 {
+    quantile(values, 0.5)
+}
+
+/// Returns the value that such a part of all is below, 0 of none.
+pub(crate) fn quantile(mut values: Vec<f64>, part: f64) -> f64 {
+    let place = (part * values.len() as f64) as usize;
+    if place >= values.len() {
         return 0.0;
     }
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// Times of a table's rows, the column that they stand in, and what was found.
@@ -113,14 +176,7 @@ impl Times {
             seconds.push(time);
         }
         let timing = Timing::of(&seconds);
-        let rate = 1.0 / timing.interval;
-        let percent = 100.0 * timing.jitter / timing.interval;
-        let text = format!("{rate:.6} samples a second, intervals even to {percent:.2} % (rms)");
-        findings.push(Finding::new(Basis::Detected, text));
-        for Gap { start, end } in &timing.gaps {
-            let text = format!("no rows between {start} s and {end} s");
-            findings.push(Finding::new(Basis::Detected, text));
-        }
+        findings.extend(timing.findings(&seconds).into_iter().flatten());
         Ok(Self {
             seconds,
             column,
@@ -190,8 +246,8 @@ impl Table {
             Repeated::First => "first",
             Repeated::Last => "last",
         };
-        let plural = if dropped == 1 { "row" } else { "rows" };
-        let text = format!("{dropped} {plural} dropped that repeat a time; the {word} counts");
+        let dropped = counted(dropped, "row");
+        let text = format!("{dropped} dropped that repeat a time; the {word} counts");
         self.tell(Finding::new(Basis::Given, text));
         Ok(self.keeping(&is_kept))
     }

@@ -33,10 +33,10 @@ pub(crate) struct Recording {
     #[pyo3(get)]
     names: Vec<String>,
     /// Statements about how the file was read, each beginning with "detected", "assumed",
-    /// "given" or "marked".
+    /// "given", "marked" or "doubtful"; the doubtful ones come first.
     #[pyo3(get)]
     findings: Vec<String>,
-    /// Median of the time from one row to the next, s.
+    /// Usual time from one row to the next, s.
     #[pyo3(get)]
     interval: f64,
     /// Root mean square deviation from that, but for gaps, s.

@@ -1,12 +1,14 @@
 //! Files of numbers, written and read.
 
 mod cells;
+mod findings;
 mod headers;
 mod malformed;
 mod points;
 mod reading;
 mod refused;
 mod writing;
+mod wrong_pictures;
 
 use branched_pendulum_data::{
     AngleColumns, Clock, LinkMarkers, Markers, ReadError, Recording, Table, TableOptions,
@@ -79,6 +81,31 @@ fn assert_read(recording: &Recording, times: &[f64], expected: &[&[f64]]) {
             let found = found.unwrap();
             assert!(close(found, *expected), "{found} rad, not {expected} rad");
         }
+    }
+}
+
+/// Random numbers that are the same every time.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(0x2545_f491_4f6c_dd1d ^ seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end.max(1) as u64) as usize
+    }
+
+    /// Between 0 and 1.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

@@ -2,7 +2,7 @@
 
 use branched_pendulum_data::{AngleColumns, Clock, LinkMarkers, Markers, Table, TableOptions};
 
-use super::{frames, swing, table};
+use super::{Random, frames, swing, table};
 
 #[test]
 fn mutations_never_panic() {
@@ -34,13 +34,8 @@ fn mutate(rounds: usize) {
         ",", ";", "\t", "\n", "", "nan", "1e999", "-", "\"", "0,5", "x", "é", "\u{0}", " ",
         "scorer", "coords", "frame", "9e-320",
     ];
-    let mut state = 0x2545_f491_4f6c_dd1d_u64;
-    let mut random = |below: usize| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state % below.max(1) as u64) as usize
-    };
+    let mut random = Random::new(0);
+    let mut random = |end: usize| random.below(end);
     let mut read = 0;
     for round in 0..rounds {
         let mut characters: Vec<char> = [wide.as_str(), camera.as_str(), tracker][round % 3]
@@ -104,7 +99,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n",
-            "a.csv: has 1 rows of numbers; at least 3 are needed",
+            "a.csv: has 1 row of numbers; at least 3 are needed",
         ),
         (
             "t,a\n0.0,1\n0.1,x1\n0.2,3\n",
@@ -132,7 +127,7 @@ fn malformed_files_name_their_place() {
         ),
         (
             "t,a\n0.0,1\n0.1\n0.2,1\n",
-            "a.csv, line 3: 1 cells where the table has 2 columns",
+            "a.csv, line 3: 1 cell where the table has 2 columns",
         ),
         (
             "t,a\n0.0,1\n0.1,1,7\n0.2,1\n",
@@ -306,7 +301,7 @@ fn wrong_requests_name_what_there_is() {
     );
     assert_eq!(
         refused(Markers::default()),
-        "swing.csv: 1 tracks; a link needs two, from its pivot outwards: name those of each, or give the place of the pivot"
+        "swing.csv: 1 track; a link needs two, from its pivot outwards: name those of each, or give the place of the pivot"
     );
     let folder =
         std::env::temp_dir().join(format!("branched-pendulum-reading-{}", std::process::id()));

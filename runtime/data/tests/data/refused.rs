@@ -132,6 +132,9 @@ fn an_arc_is_no_pair_of_angles() {
         let expected = format!("swing.csv: columns {names} lie on a circle of radius 0.");
         assert!(error.starts_with(&expected), "{error}");
     }
+    // A unit says that they are angles.
+    let named = by_columns(&arc("t,p [rad],q [rad]\n", 0.3, 0.8), &[]);
+    assert_eq!(named.unwrap().links.len(), 2);
     assert_eq!(
         by_columns(&arc("t,p,q\n", 0.3, 0.8), &["p", "q"])
             .unwrap()
@@ -139,6 +142,26 @@ fn an_arc_is_no_pair_of_angles() {
             .len(),
         2
     );
+}
+
+/// Two angles of a smooth motion are read, be they on an arc for a while or not.
+#[test]
+fn pairs_of_angles_are_no_points() {
+    for case in 0..400 {
+        let [one, two] = [0.37, 0.59].map(|part| TAU * (part * f64::from(case)).fract());
+        let size = 0.4 + 0.002 * f64::from(case);
+        let length = 12 + case % 97;
+        let rate = [100.0, 240.0, 1000.0][case as usize % 3];
+        let mut text = String::from("t,p,q\n");
+        for row in 0..length {
+            let time = f64::from(row) / rate;
+            let a = size * (6.1 * time + one).cos() + 0.1 * (14.7 * time).cos();
+            let b = 0.7 * (5.3 * time + two).cos() - 0.3 * (14.7 * time).cos();
+            text += &format!("{time},{a:.5},{b:.5}\n");
+        }
+        let read = by_columns(&text, &[]);
+        assert_eq!(read.map(|read| read.links.len()), Ok(2), "{case}");
+    }
 }
 
 /// Angles without a unit are radians where they may be, with a doubt that comes first, and
