@@ -24,13 +24,14 @@ GENERATED = ["-p", "branched-pendulum-tests", "--test", "generated"]
 LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
+DATA = ["-p", "branched-pendulum-data", "--test", "data"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
 CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
 
-C, R = "codegen/src", "runtime/src"
+C, R, D = "codegen/src", "runtime/src", "runtime/data/src"
 
 # Name, file, text, mutant, test binary, test.
 EXPRESSIONS = [
@@ -126,6 +127,26 @@ EXPRESSIONS = [
     ("frequencies in radians", f"{R}/analysis/modes.rs",
      "squared.sqrt() / TAU", "squared.sqrt()", RUNTIME,
      "modes::the_paper_s_frequencies_to_seven_digits"),
+    ("turns are told without looking ahead", f"{D}/turns.rs",
+     "let expected = self.value + ahead;", "let expected = self.value;", DATA,
+     "findings::turns_are_counted_ahead"),
+    ("a wrong picture counts among the turns", f"{D}/turns.rs",
+     "*bend > limit", "false", DATA, "findings::a_glitch_adds_no_turn"),
+    ("no samples are lost between two", f"{D}/timing.rs",
+     "gap.end <= to", "false", DATA,
+     "findings::rows_at_the_edges_of_an_encoder"),
+    ("outliers of rounding", f"{D}/outliers.rs",
+     "let floor = ROUNDING * resolution;", "let floor = 0.0;", DATA,
+     "findings::rounding_makes_no_outliers"),
+    ("an exchange that goes on", f"{D}/exchange.rs",
+     "let turned = difference.plus(-2.0, difference);", "let turned = difference;", DATA,
+     "exchanges::exchanged_columns_are_changed_back"),
+    ("dots that jump together are exchanged", f"{D}/exchange.rs",
+     "!sums.is_far(distance)", "true", DATA,
+     "exchanges::one_dot_that_is_wrong_is_no_exchange"),
+    ("the rate of rounded times", f"{D}/timing.rs",
+     "usual.iter().map(|&index| steps[index]).sum::<f64>() / count", "middle", DATA,
+     "findings::the_rate_of_rounded_times"),
 ]
 
 CONSTANTS = [

@@ -1,5 +1,6 @@
 //! Files of numbers, written and read.
 
+mod exchanges;
 mod findings;
 mod malformed;
 mod reading;
