@@ -1,6 +1,7 @@
 //! Files of numbers, written and read.
 
 mod cells;
+mod exchanges;
 mod findings;
 mod headers;
 mod malformed;
