@@ -1,5 +1,6 @@
 //! Files of measured angles, as programs that analyse them take them.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use branched_pendulum_data::{
@@ -73,20 +74,23 @@ impl MeasuredFile {
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
     pub fn read(&self, file: &Path, links: usize) -> Result<Recording, Failure> {
-        self.angles(Table::read(file, &TableOptions::default())?, links)
+        self.angles(&Table::read(file, &TableOptions::default())?, links)
     }
 
     /// Takes the angles of so many links out of a table.
     ///
     /// # Errors
     /// Those of [`read`](Self::read).
-    pub fn angles(&self, table: Table, links: usize) -> Result<Recording, Failure> {
+    pub fn angles(&self, table: &Table, links: usize) -> Result<Recording, Failure> {
         let clock = self.clock();
-        let table = match self.drop_repeated {
-            None => table,
-            Some(Counts::First) => table.without_repeated_times(&clock, Repeated::First)?,
-            Some(Counts::Last) => table.without_repeated_times(&clock, Repeated::Last)?,
-        };
+        let mut table = Cow::Borrowed(table);
+        if let Some(counts) = self.drop_repeated {
+            let counts = match counts {
+                Counts::First => Repeated::First,
+                Counts::Last => Repeated::Last,
+            };
+            table = Cow::Owned(table.into_owned().without_repeated_times(&clock, counts)?);
+        }
         let columns = AngleColumns {
             clock: clock.clone(),
             columns: self.columns.clone(),

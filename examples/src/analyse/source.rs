@@ -28,7 +28,7 @@ impl<const N: usize> Source<N> {
     ///
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn read(table: Table, arguments: &Arguments) -> Result<Self, Failure> {
+    pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
         let recording = arguments.measured.angles(table, N)?;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
@@ -46,7 +46,7 @@ impl<const N: usize> Source<N> {
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
     pub fn open(file: &std::path::Path, arguments: &Arguments) -> Result<Self, Failure> {
-        Self::read(Table::read(file, &TableOptions::default())?, arguments)
+        Self::read(&Table::read(file, &TableOptions::default())?, arguments)
     }
 
     /// The angles with their times.

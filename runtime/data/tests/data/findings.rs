@@ -26,14 +26,14 @@ fn read(text: &str) -> Recording {
     columns.read(&table(text)).unwrap()
 }
 
-pub fn told(recording: &Recording, part: &str) -> bool {
+pub(crate) fn told(recording: &Recording, part: &str) -> bool {
     recording
         .findings
         .iter()
         .any(|finding| finding.text.contains(part))
 }
 
-pub fn outliers(recording: &Recording, link: usize) -> Vec<usize> {
+pub(crate) fn outliers(recording: &Recording, link: usize) -> Vec<usize> {
     let samples = recording.links[link].samples.iter().enumerate();
     let outliers = samples.filter(|(_, sample)| matches!(sample, Sample::Outlier(_)));
     outliers.map(|(row, _)| row).collect()
