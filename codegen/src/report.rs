@@ -6,6 +6,7 @@
 
 mod message;
 mod nearest;
+mod settings;
 
 use std::fmt::Write as _;
 
@@ -17,6 +18,7 @@ pub use message::{
     UnequalUse, ValueMessage,
 };
 pub use nearest::nearest;
+pub use settings::SceneSetting;
 
 /// One error and its place.
 #[derive(Debug, Clone)]

@@ -29,7 +29,7 @@ pub struct ParameterError {
     pub what: &'static str,
     /// Its value, in SI units.
     pub value: f64,
-    /// The condition on it, as in "positive".
+    /// The condition on it, as in "finite and positive".
     pub requirement: &'static str,
 }
 

@@ -17,7 +17,7 @@ pub fn require_finite(what: &'static str, value: f64) -> Result<(), ParameterErr
 /// # Errors
 /// The error that `what` is negative or not finite.
 pub fn require_non_negative(what: &'static str, value: f64) -> Result<(), ParameterError> {
-    require(what, value, "zero or positive", value >= 0.0)
+    require(what, value, "finite and not negative", value >= 0.0)
 }
 
 /// Passes a finite positive value.
@@ -25,7 +25,7 @@ pub fn require_non_negative(what: &'static str, value: f64) -> Result<(), Parame
 /// # Errors
 /// The error that `what` is not positive or not finite.
 pub fn require_positive(what: &'static str, value: f64) -> Result<(), ParameterError> {
-    require(what, value, "positive", value > 0.0)
+    require(what, value, "finite and positive", value > 0.0)
 }
 
 fn require(

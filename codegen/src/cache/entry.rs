@@ -2,6 +2,7 @@
 
 use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
 use std::collections::hash_map::DefaultHasher;
+use std::ffi::OsStr;
 use std::fmt::{self, Display, Formatter};
 use std::hash::{Hash, Hasher};
 
@@ -12,6 +13,18 @@ const COMPILER: &str = concat!(
     env!("BRANCHED_PENDULUM_COMPILER")
 );
 
+/// End of the names of files.
+const ENDING: &str = ".expansion";
+
+/// Start of files, before the checksum.
+const MARK: &str = "branched-pendulum expansion ";
+
+/// Digits of a checksum.
+const CODE: usize = 16;
+
+/// Bytes of the first line.
+pub(super) const HEAD: usize = MARK.len() + CODE + 1;
+
 /// A question and its answer.
 pub(super) struct CacheEntry<'a> {
     pub(super) question: &'a str,
@@ -21,7 +34,30 @@ pub(super) struct CacheEntry<'a> {
 impl CacheEntry<'_> {
     /// Name of the file that answers a question, if there is one.
     pub(super) fn file_name(question: &str) -> String {
-        format!("{:016x}.expansion", hash(question))
+        format!("{:016x}{ENDING}", hash(question))
+    }
+
+    /// Name of a file while process `id` writes it as its `number`-th.
+    pub(super) fn part_name(name: &str, id: u32, number: u64) -> String {
+        format!("{name}.{id}-{number}")
+    }
+
+    /// Returns true for names that the two functions above give.
+    pub(super) fn is_name(name: &OsStr) -> bool {
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        let Some((code, rest)) = name.to_str().and_then(|name| name.split_once(ENDING)) else {
+            return false;
+        };
+        let part = rest.strip_prefix('.').and_then(|part| part.split_once('-'));
+        is_code(code.as_bytes())
+            && (rest.is_empty() || part.is_some_and(|(id, number)| digits(id) && digits(number)))
+    }
+
+    /// Returns true if a file starts as those of the cache do.
+    pub(super) fn is_head(start: &[u8; HEAD]) -> bool {
+        let rest = start.strip_prefix(MARK.as_bytes());
+        let code = rest.and_then(|rest| rest.strip_suffix(b"\n"));
+        code.is_some_and(is_code)
     }
 
     /// Reads the answer to `question` from a file's text; `None` if the file is
@@ -39,8 +75,14 @@ impl CacheEntry<'_> {
     /// First line of the file.
     fn head(&self) -> String {
         let checksum = hash(&(self.question, self.expansion));
-        format!("branched-pendulum expansion {checksum:016x}")
+        format!("{MARK}{checksum:016x}")
     }
+}
+
+/// Returns true for a number as names and heads hold it.
+fn is_code(text: &[u8]) -> bool {
+    let is_digit = |byte: &u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(byte);
+    text.len() == CODE && text.iter().all(is_digit)
 }
 
 impl Display for CacheEntry<'_> {

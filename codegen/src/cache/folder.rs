@@ -1,9 +1,11 @@
 //! The folder of kept expansions: found, read, written whole, kept small.
 
+use super::entry::{CacheEntry, HEAD};
+use super::trust;
 use directories::BaseDirs;
 use std::ffi::OsString;
-use std::fs;
-use std::io;
+use std::fs::{self, DirBuilder, File, Metadata, OpenOptions};
+use std::io::{self, Read as _, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
@@ -53,23 +55,28 @@ fn target_folder(inside: &Path) -> Option<&Path> {
     above.find(|folder| MARKS.iter().any(|mark| folder.join(mark).is_file()))
 }
 
-/// A folder of files that may vanish at any time.
+/// A folder of files that may vanish at any time, among others that are not the cache's.
 #[derive(Debug, Clone)]
 pub(super) struct Folder {
     path: PathBuf,
+    /// Most files and bytes of the cache's own.
+    most: (usize, u64),
 }
 
 impl Folder {
     pub(super) fn new(path: PathBuf) -> Self {
-        Self { path }
+        let most = (MOST_FILES, MOST_BYTES);
+        Self { path, most }
     }
 
-    /// The text of a file, if it can be read. The file counts as used now.
+    /// The text of a file, if it is the cache's and can be read. The file counts as used
+    /// now.
     pub(super) fn read(&self, name: &str) -> Option<String> {
-        let path = self.path.join(name);
-        let text = fs::read_to_string(&path).ok()?;
+        let path = self.trusted()?.join(name);
+        let mut text = String::new();
+        own_file(&path)?.read_to_string(&mut text).ok()?;
         // Old files go first; one that cannot be marked as used is only read again.
-        if let Ok(file) = fs::File::options().append(true).open(path) {
+        if let Ok(file) = File::options().append(true).open(path) {
             let _ = file.set_modified(SystemTime::now());
         }
         Some(text)
@@ -78,44 +85,67 @@ impl Folder {
     /// Writes a file, so that nobody ever reads half of it. Whoever cannot write
     /// derives again the next time.
     pub(super) fn write(&self, name: &str, text: &str) {
-        if text.len() as u64 <= MOST_BYTES {
+        let (_, most) = self.most;
+        if text.len() as u64 <= most {
             let _ = self.try_write(name, text);
             let _ = self.make_room();
         }
     }
 
+    /// The folder, if there is one that this user alone writes.
+    fn trusted(&self) -> Option<&Path> {
+        let private = trust::is_private(&fs::metadata(&self.path).ok()?);
+        if !private {
+            trust::tell(&self.path);
+        }
+        private.then_some(&self.path)
+    }
+
     fn try_write(&self, name: &str, text: &str) -> io::Result<()> {
         static WRITTEN: AtomicU64 = AtomicU64::new(0);
-        fs::create_dir_all(&self.path)?;
+        private_folder().create(&self.path)?;
+        let Some(path) = self.trusted() else {
+            return Ok(());
+        };
+        let whole = path.join(name);
+        if fs::symlink_metadata(&whole).is_ok() && own_file(&whole).is_none() {
+            // Somebody else's.
+            return Ok(());
+        }
         let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
-        let id = std::process::id();
-        let whole = self.path.join(name);
-        let part = self.path.join(format!("{name}.{id}-{number}"));
-        let written = fs::write(&part, text).and_then(|()| fs::rename(&part, &whole));
+        let part = path.join(CacheEntry::part_name(name, std::process::id(), number));
+        let mut file = private_file().open(&part)?;
+        let written = file.write_all(text.as_bytes());
+        // Clocks of file systems are coarser than this one, by which others are marked as used.
+        let _ = file.set_modified(SystemTime::now());
+        drop(file);
+        let written = written.and_then(|()| fs::rename(&part, &whole));
         if written.is_err() {
             let _ = fs::remove_file(&part);
         }
         written
     }
 
-    /// Removes the files that have not been used for longest, until the rest is
-    /// within the limits.
+    /// Removes those of the cache's files that have not been used for longest, until the
+    /// rest is within the limits.
     fn make_room(&self) -> io::Result<()> {
         let mut files = Vec::new();
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
             // Others remove files too.
-            if let Ok(data) = entry.metadata()
-                && data.is_file()
+            if CacheEntry::is_name(&entry.file_name())
+                && let Some(file) = own_file(&entry.path())
+                && let Ok(data) = file.metadata()
             {
                 files.push((data.modified()?, data.len(), entry.path()));
             }
         }
         files.sort();
+        let (most_files, most_bytes) = self.most;
         let mut bytes: u64 = files.iter().map(|(_, length, _)| length).sum();
         let mut count = files.len();
         for (_, length, path) in files {
-            if bytes <= MOST_BYTES && count <= MOST_FILES {
+            if bytes <= most_bytes && count <= most_files {
                 break;
             }
             let _ = fs::remove_file(path);
@@ -126,45 +156,36 @@ impl Folder {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_target_folder_is_told_by_the_compilers_arguments() {
-        let root = std::env::temp_dir().join(format!("target-{}", std::process::id()));
-        let deps = root.join("debug/deps");
-        fs::create_dir_all(&deps).unwrap();
-        for arguments in [
-            vec!["rustc".into(), "--out-dir".into(), deps.clone().into()],
-            vec![
-                "rustc".into(),
-                format!("--out-dir={}", deps.display()).into(),
-            ],
-        ] {
-            let output = output_folder(arguments.into_iter());
-            assert_eq!(output.as_deref(), Some(deps.as_path()));
-        }
-        assert_eq!(target_folder(&deps), None);
-        for mark in MARKS {
-            fs::write(root.join(mark), "").unwrap();
-            assert_eq!(target_folder(&deps), Some(root.as_path()));
-            fs::remove_file(root.join(mark)).unwrap();
-        }
-        fs::remove_dir_all(root).unwrap();
-    }
-
-    #[test]
-    fn files_that_were_used_last_stay() {
-        let path = std::env::temp_dir().join(format!("room-{}", std::process::id()));
-        let folder = Folder::new(path.clone());
-        folder.write("first", "a");
-        for number in 0..MOST_FILES + 20 {
-            folder.write(&format!("{number}"), "b");
-            assert_eq!(folder.read("first").as_deref(), Some("a"));
-        }
-        assert_eq!(fs::read_dir(&path).unwrap().count(), MOST_FILES);
-        assert_eq!(folder.read("0"), None);
-        fs::remove_dir_all(path).unwrap();
-    }
+/// Opens a file that the cache has written and nobody else, known by its head. What is no
+/// plain file is not opened: a pipe would wait for a writer.
+fn own_file(path: &Path) -> Option<File> {
+    let is_plain = |data: &Metadata| data.is_file() && trust::is_private(data);
+    fs::symlink_metadata(path).ok().filter(is_plain)?;
+    let mut file = File::open(path).ok()?;
+    file.metadata().ok().filter(is_plain)?;
+    let mut head = [0; HEAD];
+    file.read_exact(&mut head).ok()?;
+    file.rewind().ok()?;
+    CacheEntry::is_head(&head).then_some(file)
 }
+
+/// What makes a folder that only its user writes, whatever others may by default.
+fn private_folder() -> DirBuilder {
+    let mut builder = DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder
+}
+
+/// What makes a new file that only its user writes.
+fn private_file() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options
+}
+
+#[cfg(test)]
+mod tests;

@@ -9,13 +9,16 @@
 //!
 //! A file holds the state of this compiler, the tokens that it answers, their
 //! expansion and a checksum. Whatever differs in the first two, or is damaged, is no
-//! answer, and is written anew.
+//! answer, and is written anew. Other files may stand in the folder: only those with a name
+//! and a head of the cache's own are read, replaced, counted or removed, and only where no
+//! other user may have written them ([`trust`]): what is kept is compiled.
 
 mod entry;
 mod folder;
 mod placed;
 #[cfg(test)]
 mod tests;
+mod trust;
 
 use crate::stages;
 use entry::CacheEntry;
@@ -54,7 +57,7 @@ impl ExpansionCache {
 
     /// Expands the attribute as [`expand`](crate::expand) does, or answers with the
     /// kept expansion. The tokens are the same in both cases. A folder that cannot
-    /// be written keeps nothing.
+    /// be written, or that others may write, keeps nothing.
     pub fn expand(&self, attribute: TokenStream, item: TokenStream) -> TokenStream {
         let question = entry::question(&attribute, &item);
         let name = CacheEntry::file_name(&question);

@@ -4,7 +4,7 @@ use crate::{expand, layout};
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A folder of a test's own, removed at the end.
 struct Own(PathBuf);
@@ -19,10 +19,28 @@ impl Own {
         ExpansionCache::in_folder(self.0.clone())
     }
 
+    /// Writes the file that answers a question, which only its user may write.
+    fn plant(&self, question: &str, entry: &CacheEntry<'_>) -> PathBuf {
+        let path = self.0.join(CacheEntry::file_name(question));
+        fs::create_dir_all(&self.0).unwrap();
+        fs::write(&path, entry.to_string()).unwrap();
+        mode(&self.0, 0o700);
+        mode(&path, 0o600);
+        path
+    }
+
     fn files(&self) -> Vec<PathBuf> {
         let entries = fs::read_dir(&self.0).into_iter().flatten();
         entries.map(|entry| entry.unwrap().path()).collect()
     }
+}
+
+/// Sets who may do what, where the system knows it.
+fn mode(path: &Path, mode: u32) {
+    #[cfg(unix)]
+    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(mode)).unwrap();
+    #[cfg(not(unix))]
+    let _ = (path, mode);
 }
 
 impl Drop for Own {
@@ -63,20 +81,24 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
         question: &question,
         expansion: "fn kept() {}",
     };
-    fs::create_dir_all(&own.0).unwrap();
-    fs::write(
-        own.0.join(CacheEntry::file_name(&question)),
-        entry.to_string(),
+    let path = own.plant(&question, &entry);
+    let planted = quote!(
+        fn kept() {}
     )
-    .unwrap();
+    .to_string();
     let tokens = own.cache().expand(attribute(), item());
-    assert_eq!(
-        tokens.to_string(),
-        quote!(
-            fn kept() {}
-        )
-        .to_string()
-    );
+    assert_eq!(tokens.to_string(), planted);
+
+    // One that others may have written is compiled by nobody.
+    #[cfg(unix)]
+    for (at, open, shut) in [(&path, 0o666, 0o600), (&own.0, 0o777, 0o700)] {
+        mode(at, open);
+        let derived = own.cache().expand(attribute(), item());
+        assert_ne!(derived.to_string(), planted);
+        mode(at, shut);
+        assert_eq!(fs::read_to_string(&path).unwrap(), entry.to_string());
+    }
+    assert_eq!(own.cache().expand(attribute(), item()).to_string(), planted);
 
     // Other tokens, and another compiler, are other questions.
     let other = own
@@ -89,19 +111,9 @@ fn what_is_kept_is_the_answer_and_nothing_is_derived() {
         question: &older,
         expansion: "fn kept() {}",
     };
-    fs::write(
-        own.0.join(CacheEntry::file_name(&question)),
-        entry.to_string(),
-    )
-    .unwrap();
+    own.plant(&question, &entry);
     let tokens = own.cache().expand(attribute(), item());
-    assert_ne!(
-        tokens.to_string(),
-        quote!(
-            fn kept() {}
-        )
-        .to_string()
-    );
+    assert_ne!(tokens.to_string(), planted);
 }
 
 #[test]
@@ -121,19 +133,29 @@ fn damaged_files_are_no_answer_and_are_written_anew() {
         panic!("{files:?}")
     };
     let whole = fs::read_to_string(path).unwrap();
+    let (head, _) = whole.split_once('\n').unwrap();
     let damages = [
-        String::new(),
+        format!("{head}\n"),
         whole[..whole.len() / 2].to_owned(),
         whole.replacen("Rod", "Rot", 3),
         whole.replace("mul", "nul") + " ",
-        whole.replacen("branched-pendulum expansion ", "", 1),
+        whole.replacen(&head[head.len() - 8..], "01234567", 1),
     ];
     for damaged in damages {
         fs::write(path, &damaged).unwrap();
         assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
         assert_eq!(fs::read_to_string(path).unwrap(), whole);
     }
-    fs::write(path, b"\xff\xfe").unwrap();
+    // Without the head it may be anybody's.
+    for foreign in [&b"\xff\xfe"[..], b"", whole[10..].as_bytes()] {
+        fs::write(path, foreign).unwrap();
+        assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
+        assert_eq!(fs::read(path).unwrap(), foreign);
+    }
+    let mut bytes = whole.into_bytes();
+    bytes.truncate(200);
+    bytes.push(0xff);
+    fs::write(path, bytes).unwrap();
     assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
 }
 
@@ -148,7 +170,8 @@ fn many_threads_share_one_folder() {
                     let tokens = own.cache().expand(attribute(), item());
                     assert_eq!(layout(tokens).unwrap(), plain);
                     for file in own.files() {
-                        let _ = fs::write(file, "half");
+                        let text = fs::read(&file).unwrap_or_default();
+                        let _ = fs::write(file, &text[..text.len() / 2]);
                     }
                 }
             });

@@ -6,7 +6,7 @@ use syn::parse::ParseStream;
 use syn::{Token, token};
 
 use super::Multiplicity;
-use super::list::{ListFault, expected, next_name, parse_all};
+use super::list::{ListFault, expected, next_name, parse_all, shortened};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Diagnostic, SyntaxMessage, ValueMessage};
 
@@ -210,7 +210,10 @@ impl Expression {
         if input.peek(syn::Ident::peek_any) {
             let name = Ident::parse_any(input).map_err(|_| expected(input, Self::WHAT))?;
             if input.peek(token::Paren) && name == "each" {
-                let message = SyntaxMessage::Expected { what: EACH_WHOLE };
+                let message = SyntaxMessage::Expected {
+                    what: EACH_WHOLE,
+                    found: "each(...)".to_owned(),
+                };
                 return Err(Diagnostic::new(name.span(), message).into());
             }
             if input.peek(token::Paren) {
@@ -310,15 +313,6 @@ pub(super) fn number(input: ParseStream<'_>) -> Result<Rational, ListFault> {
     })
 }
 
-/// A text as far as a message shows it.
-fn shortened(text: String) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text,
-    }
-}
-
 /// Returns true if a literal comes next. `true` is one, and refused: a name it is not either.
 fn is_literal(input: ParseStream<'_>) -> bool {
     let next = input.cursor();
@@ -349,11 +343,10 @@ pub(super) fn whole_number(
     input: ParseStream<'_>,
     what: &'static str,
 ) -> Result<Multiplicity, ListFault> {
-    let span = input.span();
-    let fault = || Diagnostic::new(span, SyntaxMessage::Expected { what }).into();
+    let (span, fault) = (input.span(), expected(input, what));
     let digits = literal(input, what)?.replace('_', "");
     if digits.is_empty() || !digits.bytes().all(|byte| byte.is_ascii_digit()) {
-        return Err(fault());
+        return Err(fault);
     }
     let count = digits.parse().unwrap_or(u32::MAX);
     Ok(Multiplicity { count, span })

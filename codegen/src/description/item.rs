@@ -27,6 +27,15 @@ pub(super) fn deepest(tokens: &TokenStream) -> Option<Span> {
     None
 }
 
+/// The place of a word among tokens.
+fn place_of(word: &str, tokens: TokenStream) -> Option<Span> {
+    tokens.into_iter().find_map(|token| match token {
+        TokenTree::Ident(own) if own == word => Some(own.span()),
+        TokenTree::Group(group) => place_of(word, group.stream()),
+        _ => None,
+    })
+}
+
 /// Types that emitted models name without a path: their type parameter, and
 /// primitive ones.
 const RESERVED_TYPES: [&str; 5] = ["T", "f64", "usize", "bool", "str"];
@@ -41,6 +50,14 @@ impl StructItem {
             tokens: quote!(struct #ident;),
             ident,
         }
+    }
+
+    /// The place of a trait among those that are derived for the struct.
+    pub fn derived(&self, name: &str) -> Option<Span> {
+        let derives = self.attrs.iter().filter(|attribute| attribute.is("derive"));
+        derives
+            .into_iter()
+            .find_map(|derive| place_of(name, derive.tokens.clone()))
     }
 
     /// Returns true if the struct is called as a type that the code of a model names.

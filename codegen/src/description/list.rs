@@ -1,6 +1,6 @@
 //! Reading lists, and what stands between their members, past mistakes.
 
-use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, Spacing, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
 use syn::parse::{ParseStream, Parser as _};
 use syn::{Token, token};
@@ -107,7 +107,7 @@ fn read_members(
     };
     if let Err(error) = read.parse2(tokens) {
         damaged = true;
-        report.error(error.span(), SyntaxMessage::Expected { what: "`,`" });
+        report.error(error.span(), SyntaxMessage::Ended { what: "`,`" });
     }
     damaged
 }
@@ -218,7 +218,41 @@ pub(super) fn expected(input: ParseStream<'_>, what: &'static str) -> ListFault 
     if input.is_empty() {
         ListFault::AtEnd(what)
     } else {
-        Diagnostic::new(input.span(), SyntaxMessage::Expected { what }).into()
+        let found = found(input);
+        Diagnostic::new(input.span(), SyntaxMessage::Expected { what, found }).into()
+    }
+}
+
+/// The next token as a message shows it: marks together with what they belong to.
+pub(super) fn found(input: ParseStream<'_>) -> String {
+    let mut text = String::new();
+    for token in input.cursor().token_stream() {
+        let goes_on = matches!(
+            &token,
+            TokenTree::Punct(mark) if mark.as_char() == '-' || mark.spacing() == Spacing::Joint
+        );
+        match &token {
+            TokenTree::Group(group) => match group.delimiter() {
+                Delimiter::Parenthesis => text.push_str("( )"),
+                Delimiter::Bracket => text.push_str("[ ]"),
+                Delimiter::Brace => text.push_str("{ }"),
+                Delimiter::None => text.push_str(&group.stream().to_string()),
+            },
+            token => text.push_str(&token.to_string()),
+        }
+        if !goes_on {
+            break;
+        }
+    }
+    shortened(text)
+}
+
+/// A text as far as a message shows it.
+pub(super) fn shortened(text: String) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
     }
 }
 

@@ -46,6 +46,7 @@
 mod expression;
 mod item;
 mod list;
+mod misread;
 mod parse;
 mod properties;
 mod requests;

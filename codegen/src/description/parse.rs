@@ -4,21 +4,23 @@
 //! comma of the same list, so that one missing `=` does not hide what follows.
 
 use proc_macro2::{Delimiter, Ident, Span, TokenStream};
+use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::{Token, token};
 
 use super::expression::whole_number;
 use super::item::{MAX_NESTING, deepest, parse_item};
 use super::list::{
-    List, ListFault, brackets, colon, expected, group, identifier, list, parse_all, take,
+    List, ListFault, brackets, colon, expected, found, group, identifier, list, parse_all, take,
 };
+use super::misread::{lone_name, not_a_link, not_an_entry, shape_by_equals};
 use super::properties;
 use super::requests::{observable, request};
 use super::{
     CratePath, Description, DriveClause, Expression, LockedClause, Node, ObservableClause,
     ParameterClause, PrescribedClause, Property, Reductions, Request, StructItem,
 };
-use crate::report::{Diagnostic, Faults, SyntaxMessage};
+use crate::report::{Diagnostic, Faults, SceneSetting, SyntaxMessage};
 
 /// Reads an attribute and the struct that it stands on.
 ///
@@ -149,10 +151,7 @@ enum Member {
 }
 
 fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFault> {
-    let name = identifier(
-        input,
-        "a link, `gravity`, `drive`, `emit`, `observe` or `crate`",
-    )?;
+    let name = Ident::parse_any(input).map_err(|_| not_an_entry(input))?;
     if input.peek(Token![=]) {
         return assignment(name, input);
     }
@@ -222,7 +221,10 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
     }
-    node(name, input, report).map(Member::Link)
+    match not_a_link(&name, input) {
+        Some(fault) => Err(fault),
+        None => node(name, input, report).map(Member::Link),
+    }
 }
 
 /// Returns true if parentheses without values follow: a link may be called
@@ -257,7 +259,13 @@ fn assignment(name: Ident, input: ParseStream<'_>) -> Result<Member, ListFault> 
         let value = identifier(input, "`loops` or `unrolled`")?;
         return Ok(Member::Code(name, value));
     }
-    let message = SyntaxMessage::unknown_entry(name.to_string());
+    let message = match SceneSetting::named(&name.to_string()) {
+        Some(setting) => SyntaxMessage::SettingForm { setting },
+        None => match shape_by_equals(&name, input) {
+            Some(fault) => return Err(fault),
+            None => SyntaxMessage::unknown_entry(name.to_string()),
+        },
+    };
     Err(Diagnostic::new(name.span(), message).into())
 }
 
@@ -288,6 +296,10 @@ fn path(input: ParseStream<'_>) -> Result<CratePath, ListFault> {
 
 /// A link, after its name.
 fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node, ListFault> {
+    let misread = lone_name(&name, input).or_else(|| shape_by_equals(&name, input));
+    if let Some(fault) = misread {
+        return Err(fault);
+    }
     let shape = if input.peek(Token![:]) {
         take::<Token![:]>(input, "`:`")?;
         Some(identifier(input, "a shape, as in `rod`")?)
@@ -311,7 +323,7 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node
     let children = if input.peek(token::Bracket) {
         let children = group(input, Delimiter::Bracket, "`[` and the children")?;
         list(children, report, |input, report| {
-            let name = identifier(input, "a link, as in `child(mass = 0.1, ...)`")?;
+            let name = identifier(input, "a link, as in `child(mass = 0.1, ...) * 2`")?;
             node(name, input, report)
         })
     } else {
@@ -319,7 +331,12 @@ fn node(name: Ident, input: ParseStream<'_>, report: &mut Faults) -> Result<Node
     };
     let copies = if input.peek(Token![*]) {
         take::<Token![*]>(input, "`*`")?;
-        Some(whole_number(input, "a whole number, the number of copies")?)
+        let (span, found) = (input.span(), found(input));
+        let copies = whole_number(input, "a whole number, the number of copies");
+        Some(copies.map_err(|fault| match fault {
+            ListFault::Found(_) => Diagnostic::new(span, SyntaxMessage::NotCopies { found }).into(),
+            ended => ended,
+        })?)
     } else {
         None
     };

@@ -44,19 +44,9 @@ impl Emission<'_> {
     }
 
     fn missing_derives(&self) -> TokenStream {
-        let written: String = self
-            .item
-            .attrs
-            .iter()
-            .filter(|attribute| attribute.is("derive"))
-            .map(|attribute| quote!(#attribute).to_string())
-            .collect();
-        let words: Vec<&str> = written
-            .split(|c: char| !c.is_alphanumeric() && c != '_')
-            .collect();
         let missing = DERIVED
             .iter()
-            .filter(|name| !words.contains(*name))
+            .filter(|name| self.item.derived(name).is_none())
             // Loops hold their constants on the heap.
             .filter(|name| **name != "Copy" || !self.scene.in_loops())
             .map(|name| {

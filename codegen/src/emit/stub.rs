@@ -256,16 +256,22 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
     let mut names = description.parameter_names();
     names.retain(|name| is_plain(&name.to_string()));
     if names.is_empty() {
+        // One that is derived is refused, and there all the same.
+        let default = description.item.derived("Default").is_none().then(|| {
+            quote! {
+                #[allow(missing_docs, clippy::all)]
+                impl<T> ::core::default::Default for #name<T> {
+                    fn default() -> Self { ::core::unimplemented!() }
+                }
+            }
+        });
         return quote! {
             #[allow(missing_docs, clippy::all)]
             impl #name<f64> {
                 pub fn new() -> Self { ::core::unimplemented!() }
             }
 
-            #[allow(missing_docs, clippy::all)]
-            impl<T> ::core::default::Default for #name<T> {
-                fn default() -> Self { ::core::unimplemented!() }
-            }
+            #default
         };
     }
     let parameters = format_ident!("{name}Parameters");

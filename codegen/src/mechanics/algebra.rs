@@ -240,19 +240,23 @@ impl Formula {
 
     /// All symbols replaced at once.
     pub fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
-        if replacements.is_empty() {
-            return self.clone();
-        }
         spend_on(CALL, self, BYTES);
+        // A pattern takes as long as its formula is long: none for what does not occur.
+        let present = self.symbols();
         let replacements: Vec<Replacement> = replacements
             .iter()
+            .filter(|(id, _)| present.binary_search(id).is_ok())
             .map(|(id, value)| {
+                spend_on(CALL, value, BYTES);
                 Replacement::new(
                     Atom::var(algebra_symbol(*id)).to_pattern(),
                     value.0.to_pattern(),
                 )
             })
             .collect();
+        if replacements.is_empty() {
+            return self.clone();
+        }
         Self(self.0.replace_multiple(replacements.iter()))
     }
 

@@ -35,6 +35,7 @@ mod resolve;
 mod rule;
 mod run_time;
 mod sectors;
+mod shape_names;
 mod singular;
 mod small_sectors;
 mod symbols;

@@ -1,11 +1,10 @@
 //! The parentheses of a link: which properties there are, which are missing,
 //! and the body that follows.
 
-use super::bodies::{
-    Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN, SHAPES,
-};
+use super::bodies::{Body, BodyShape, COMMON, Condition, Dimension, GivenProperties, PLAIN};
 use super::names::motion;
 use super::rule::{COUNTS, Counts, GenerationRule, changes_shape, ratios, scaled};
+use super::shape_names::{find_shape, forgotten_shape};
 use super::template::accept_body;
 use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
@@ -53,7 +52,14 @@ impl Properties {
                 })
             })
         };
-        let fault = matches!(shape, Some(Err(())));
+        let forgotten = match is_rule {
+            true => None,
+            false => forgotten_shape(node),
+        };
+        let fault = matches!(shape, Some(Err(()))) || forgotten.is_some();
+        if let Some(message) = forgotten {
+            report.error(node.name.span(), message);
+        }
         let kind = LinkKind::new(shape.and_then(Result::ok), is_rule);
         // The properties of an unknown shape are unknown too.
         let given = if fault {
@@ -115,35 +121,6 @@ fn stand_in() -> Body {
         com: origin.clone(),
         joint: Some(origin),
     }
-}
-
-/// Other words for shapes.
-const SYNONYMS: &[(&str, &str)] = &[
-    ("sphere", "ball"),
-    ("bar", "rod"),
-    ("stick", "rod"),
-    ("mass", "point"),
-    ("bob", "point"),
-    ("hoop", "ring"),
-];
-
-/// A shape by its name.
-pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, TreeMessage> {
-    SHAPES
-        .iter()
-        .find(|shape| shape.name == name)
-        .ok_or_else(|| {
-            let mut known: Vec<&'static str> = SHAPES.iter().map(|shape| shape.name).collect();
-            known.push("generations");
-            let meant = SYNONYMS.iter().find(|(other, _)| *other == name);
-            TreeMessage::UnknownShape {
-                name: name.to_owned(),
-                nearest: meant
-                    .map(|(_, shape)| *shape)
-                    .or_else(|| nearest(name, &known)),
-                known,
-            }
-        })
 }
 
 impl LinkKind {

@@ -10,10 +10,11 @@ use super::requests::{check_symmetry, resolve_requests};
 use super::rule::resolve_code;
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
+use super::symbols::check_meanings;
 use super::template::TreeBuilder;
 use super::values::{Usage, Values, check_used};
 use super::{Quantity, Scene, Sign, Solve};
-use crate::description::{Description, Node, Property, Value};
+use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::Ident;
 
@@ -133,6 +134,8 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         }
         resolve_observables(&description.observables, &mut scene, &owners, report);
     }
+    check_meanings(&scene, &values.spans, report);
+    check_derives(&description.item, &scene, report);
     // A link whose own values are wrong would look singular.
     if report.is_empty() {
         check_used(&scene.parameters, &values.spans, report);
@@ -197,6 +200,20 @@ fn check_roots(description: &Description, report: &mut Faults) {
                 report.error(other.name.span(), TreeMessage::SecondRoot { first });
             }
         }
+    }
+}
+
+/// Checks that no trait is derived that the attribute writes, or that the model cannot have.
+fn check_derives(item: &StructItem, scene: &Scene, report: &mut Faults) {
+    let default = match scene.parameters.is_empty() {
+        true => SyntaxMessage::DefaultDerived,
+        false => SyntaxMessage::DefaultOfParameters,
+    };
+    if let Some(span) = item.derived("Default") {
+        report.error(span, default);
+    }
+    if let Some(span) = item.derived("Copy").filter(|_| scene.in_loops()) {
+        report.error(span, SyntaxMessage::CopyInLoops);
     }
 }
 

@@ -3,7 +3,8 @@
 use proc_macro2::{Ident, Span};
 
 use super::bodies::{BodyShape, COMMON, Dimension, GivenProperties};
-use super::properties::{LinkKind, find_shape};
+use super::properties::LinkKind;
+use super::shape_names::find_shape;
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
 use crate::exact::{ExactError, Rational};

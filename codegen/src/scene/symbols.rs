@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
 use super::observables::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
+use crate::report::{Faults, OutputMessage};
+use proc_macro2::Span;
+
 use super::{FrictionPlace, LinkId, ParameterId, PassiveTorques, Quantity, Scene};
 
 /// The meaning of a name.
@@ -24,6 +27,23 @@ pub(super) struct ObservableSymbols {
 impl ObservableSymbols {
     /// The symbols of a scene whose tree is complete.
     pub(super) fn of(scene: &Scene) -> Self {
+        let mut symbols = Self::without_constants(scene);
+        for name in constants(scene) {
+            symbols.add(name.clone(), ObservedAtom::Constant(name));
+        }
+        for (index, parameter) in scene.parameters.iter().enumerate() {
+            // `gravity = gravity` is no contradiction.
+            if !is_gravity(scene, index) {
+                let quantity = Quantity::parameter(ParameterId(index));
+                symbols.add(parameter.name.clone(), ObservedAtom::Known(quantity));
+            }
+        }
+        symbols
+    }
+
+    /// Those that no parameter can have as well: coordinates, their velocities and momenta,
+    /// energies and gravity.
+    fn without_constants(scene: &Scene) -> Self {
         let mut symbols = Self {
             meanings: BTreeMap::new(),
             example: scene
@@ -46,20 +66,10 @@ impl ObservableSymbols {
                 symbols.coordinate(&coordinate.name, CoordinateIndex::Symmetric(index));
             }
         }
-        for name in constants(scene) {
-            symbols.add(name.clone(), ObservedAtom::Constant(name));
-        }
         symbols.add("kinetic_energy".into(), ObservedAtom::KineticEnergy);
         symbols.add("potential_energy".into(), ObservedAtom::PotentialEnergy);
         let gravity = ObservedAtom::Known(scene.gravity.clone());
         symbols.add("gravity".into(), gravity);
-        for (index, parameter) in scene.parameters.iter().enumerate() {
-            let quantity = Quantity::parameter(ParameterId(index));
-            // `gravity = gravity` is no contradiction.
-            if parameter.name != "gravity" || quantity != scene.gravity {
-                symbols.add(parameter.name.clone(), ObservedAtom::Known(quantity));
-            }
-        }
         symbols
     }
 
@@ -110,6 +120,35 @@ impl ObservableSymbols {
     pub(super) fn is_constant(&self, name: &str) -> bool {
         let meaning = self.get(name);
         matches!(meaning, Some(Meaning::One(ObservedAtom::Constant(_))))
+    }
+}
+
+/// First words of the names of symbols that are no constants of the model.
+const FIRST_WORDS: [&str; 6] = ["theta", "omega", "p", "kinetic", "potential", "gravity"];
+
+/// Returns true if a parameter is gravity, and is called so.
+fn is_gravity(scene: &Scene, parameter: usize) -> bool {
+    scene.parameters[parameter].name == "gravity"
+        && scene.gravity == Quantity::parameter(ParameterId(parameter))
+}
+
+/// Reports parameters whose names mean something else in expressions. Names of constants of
+/// the model may be theirs: `inertia = inertia_arm` says what it is, and where both are in
+/// reach, in observables, the name is refused.
+pub(super) fn check_meanings(scene: &Scene, spans: &[Span], report: &mut Faults) {
+    let mut first_words = scene
+        .parameters
+        .iter()
+        .filter_map(|own| own.name.split('_').next());
+    if !first_words.any(|word| FIRST_WORDS.contains(&word)) {
+        return;
+    }
+    let symbols = ObservableSymbols::without_constants(scene);
+    for (index, (parameter, &span)) in scene.parameters.iter().zip(spans).enumerate() {
+        if symbols.get(&parameter.name).is_some() && !is_gravity(scene, index) {
+            let name = parameter.name.clone();
+            report.error(span, OutputMessage::AmbiguousSymbol { name });
+        }
     }
 }
 

@@ -209,7 +209,7 @@ def test_mistakes():
     assert error.value.mistakes[0][:2] == (2, 10) and "`mas`" in error.value.mistakes[0][2]
     with pytest.raises(ValueError, match="no value for `m`"):
         bp.Tree(PAPER)
-    with pytest.raises(ValueError, match="mass of `child` is -1, must be zero or positive"):
+    with pytest.raises(ValueError, match="mass of `child` is -1, must be finite and not negative"):
         bp.Tree(PAPER, m=-1)
     tree = bp.Tree(PAPER, m=0.1)
     assert tree.changed(m=0.2).parameters == {"m": 0.2}

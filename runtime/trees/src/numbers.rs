@@ -1,7 +1,9 @@
 //! Links in numbers: the quantities of a description at values of its parameters, in some
 //! 106 bits, so that what is formed of them is rounded once.
 
-use branched_pendulum::emitted::{LinkBody, free_link};
+use branched_pendulum::emitted::{
+    LinkBody, free_link, require_finite, require_non_negative, require_positive,
+};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
     Layout, Link, LinkId, Offset, PassiveTorques, Quantity, QuantityAtom, RationalExpression,
@@ -93,19 +95,16 @@ pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeErro
 }
 
 fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), TreeError> {
-    let (requirement, met) = match sign {
-        Sign::Any => ("finite", true),
-        Sign::NonNegative => ("zero or positive", value >= 0.0),
-        Sign::Positive => ("positive", value > 0.0),
+    let check = match sign {
+        Sign::Any => require_finite,
+        Sign::NonNegative => require_non_negative,
+        Sign::Positive => require_positive,
     };
-    match met && value.is_finite() {
-        true => Ok(()),
-        false => Err(TreeError::Value {
-            what: what(),
-            value,
-            requirement,
-        }),
-    }
+    check("", value).map_err(|error| TreeError::Value {
+        what: what(),
+        value,
+        requirement: error.requirement,
+    })
 }
 
 /// The links of a scene, parents before children; in generations those of the whole tree.

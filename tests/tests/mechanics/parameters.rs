@@ -105,12 +105,23 @@ fn impossible_parameters_are_refused() {
     assert_eq!(negative_mass.value, -0.1);
     assert_eq!(
         negative_mass.to_string(),
-        "mass of `parent` is -0.1, must be zero or positive"
+        "mass of `parent` is -0.1, must be finite and not negative"
     );
     assert_eq!(refuse(|p| p.i_2 = -1.0).what, "inertia of `child`");
     assert_eq!(refuse(|p| p.c = -1e-9).what, "friction of `child`");
     assert!(refuse(|p| p.g = f64::NAN).value.is_nan());
-    assert_eq!(refuse(|p| p.l = f64::INFINITY).value, f64::INFINITY);
+    for infinite in [
+        refuse(|p| p.l = f64::INFINITY),
+        refuse(|p| p.m_1 = f64::INFINITY),
+        refuse(|p| p.c = f64::INFINITY),
+        refuse(|p| p.g = f64::INFINITY),
+    ] {
+        assert_eq!(infinite.value, f64::INFINITY);
+        assert!(
+            infinite.to_string().contains(" is inf, must be finite"),
+            "{infinite}"
+        );
+    }
 }
 
 /// A child without mass and inertia, or a parent that nothing gives inertia,

@@ -1,7 +1,7 @@
 //! Messages about a description: its tokens, the struct and the settings.
 
 use super::{Problem, suggest};
-use crate::report::nearest::nearest;
+use crate::report::SceneSetting;
 
 messages! {
     /// A mistake in a description: its tokens, the struct and the settings.
@@ -14,10 +14,44 @@ messages! {
         "write a description as in `gravity = 9.80665, rod: rod(mass = 1, length = 1)`",
     ),
     /// Another token should stand here.
-    Expected { what: &'static str } => (
+    Expected { what: &'static str, found: String } => (
         format!("expected {what}"),
-        "something else stands here",
-        OUTLINE,
+        format!("`{found}` stands here"),
+        format!("in place of `{found}` write {what}"),
+    ),
+    /// Neither a link nor a setting.
+    NotAnEntry { found: String } => (
+        "expected a link or a setting",
+        format!("`{found}` stands here"),
+        format!(
+            "write a link as in `rod: rod(mass = 0.2, length = 1)`, of which copies stand behind \
+             it, as in `child(...) * 2`; settings are {}",
+            SceneSetting::listed(),
+        ),
+    ),
+    /// A description between quotes.
+    Quoted => (
+        "the description is a string",
+        "quotes",
+        "write its tokens without quotes: `gravity = 9.80665, rod: rod(mass = 0.2, length = 1)`",
+    ),
+    /// A name without anything behind it.
+    LoneName { name: String } => (
+        format!("`{name}` stands alone"),
+        "neither a link nor a setting",
+        format!("write a link with its shape, as in `{name}: rod(mass = 0.2, length = 1)`"),
+    ),
+    /// `=` between a link and its shape.
+    LinkByEquals { link: String, shape: String } => (
+        format!("`=` between the link `{link}` and its shape"),
+        "`:` stands here",
+        format!("write `{link}: {shape}(...)`"),
+    ),
+    /// A number of copies that is no whole number.
+    NotCopies { found: String } => (
+        "the number of copies is not a whole number",
+        format!("`{found}` stands here"),
+        "write a literal, as in `child(...) * 2`: the number of links is part of the code",
     ),
     /// `:` where a value follows.
     Colon { name: String } => (
@@ -47,7 +81,7 @@ messages! {
     Ended { what: &'static str } => (
         format!("expected {what}"),
         "missing before this",
-        OUTLINE,
+        format!("write {what}"),
     ),
     /// Brackets or parentheses nested too deeply.
     Nesting { limit: usize } => (
@@ -73,16 +107,36 @@ messages! {
         "must be without parameters",
         format!("write `struct {name};`, its functions are generic over the scalar"),
     ),
+    /// `Default` among the derives of a struct of which the attribute writes it.
+    DefaultDerived => (
+        "`Default` is derived, and the attribute writes it too",
+        "written by the attribute",
+        "leave it out of `derive(...)`: a model without parameters is `Default`; every model is \
+         `Clone`, `Debug` and `PartialEq`, and `Copy` unless its code is loops, derived or not",
+    ),
+    /// `Default` among the derives of a struct with parameters.
+    DefaultOfParameters => (
+        "`Default` is derived for a model with parameters",
+        "would set masses and lengths to zero",
+        "leave it out of `derive(...)`, and build the model with `new` from its parameters",
+    ),
+    /// `Copy` among the derives of a struct whose code is loops.
+    CopyInLoops => (
+        "`Copy` is derived for a model whose code is loops",
+        "holds its constants on the heap",
+        "leave it out of `derive(...)`, or ask for `code = unrolled`; `Clone` is there",
+    ),
     /// An unknown setting of the scene.
     UnknownEntry { name: String, nearest: Option<&'static str> } => (
         format!("unknown setting `{name}`"),
         "not a setting of the scene",
-        suggest(
-            nearest,
-            "settings are `gravity = ...`, `crate = ...`, `solve = ...`, `code = ...`, \
-             `parameters(...)`, `drive(...)`, `emit(...)`, `observe(...)`, `in_phase(...)`, \
-             `locked(...)`, `prescribed(...)`",
-        ),
+        suggest(nearest, format!("settings are {}", SceneSetting::listed())),
+    ),
+    /// A setting with parentheses in place of `=`, or the other way round.
+    SettingForm { setting: &'static SceneSetting } => (
+        format!("expected `{}` behind `{}`", setting.mark(), setting.name),
+        "something else stands there",
+        format!("write it as in `{}`", setting.example),
     ),
     /// No gravity.
     MissingGravity => (
@@ -123,26 +177,7 @@ impl SyntaxMessage {
 
     /// An unknown setting of the scene.
     pub fn unknown_entry(name: String) -> Self {
-        let nearest = nearest(
-            &name,
-            &[
-                "gravity",
-                "crate",
-                "solve",
-                "code",
-                "parameters",
-                "drive",
-                "emit",
-                "observe",
-                "in_phase",
-                "locked",
-                "prescribed",
-            ],
-        );
+        let nearest = SceneSetting::nearest(&name).map(|setting| setting.name);
         Self::UnknownEntry { name, nearest }
     }
 }
-
-/// Outline of an attribute, for tokens out of place.
-const OUTLINE: &str = "an attribute looks like `gravity = 9.80665, parent(mass = 0.1, com = 0.1, \
-     inertia = 0, joint = 0.3) [child: rod(mass = 0.1, length = 0.2) * 2], emit(energies)`";

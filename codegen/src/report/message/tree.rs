@@ -60,6 +60,21 @@ messages! {
         "not a shape",
         suggest(nearest, format!("shapes are {}", listed(known))),
     ),
+    /// A shape where the name of a link stands.
+    ShapeWithoutName { shape: &'static str } => (
+        format!("the shape `{shape}` without the name of a link"),
+        "a shape",
+        format!("write a name before the shape: `{shape}: {shape}(...)`"),
+    ),
+    /// A property that only shapes have, on a link without one.
+    ShapeForgotten { link: String, property: &'static str, shape: &'static str } => (
+        format!("`{link}` has a `{property}`, but no shape"),
+        "no shape",
+        format!(
+            "write a shape behind the name, as in `{link}: {shape}(...)`; without one a link has \
+             `mass`, `com` and `inertia`"
+        ),
+    ),
     /// A property that the body does not have.
     UnknownProperty {
         name: String,

@@ -112,7 +112,10 @@ fn a_parameter_gives_the_tree_of_its_value() {
     }
     assert_eq!(tree.value("m"), Some(0.05));
     let wrong = tree.with("m", -1.0).unwrap_err().to_string();
-    assert_eq!(wrong, "mass of `twig` is -1, must be zero or positive");
+    assert_eq!(
+        wrong,
+        "mass of `twig` is -1, must be finite and not negative"
+    );
     let unknown = tree.with("n", 1.0).unwrap_err().to_string();
     assert_eq!(unknown, "no parameter `n`: there are `m`");
     let missing = PendulumTree::parse(BENT).unwrap_err().to_string();

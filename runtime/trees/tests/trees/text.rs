@@ -73,6 +73,15 @@ fn texts_that_are_no_tokens_or_too_much_are_refused() {
     assert!(message(&" ".repeat(2 << 20)).contains("bytes"));
     let many = "gravity = 1, tree: generations(count = 17, branching = 2, shape = rod, mass = 1, length = 1)";
     assert!(message(many).contains("more than 65536 links"));
+    let many = "gravity = 1, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 4096]";
+    assert!(message(many).contains("more than 4096 links"));
+    let page = include_str!("../../../../docs/limits.md");
+    for limit in [
+        "| 65,536 links | trees by rule that are",
+        "| 4,096 links | all other trees",
+    ] {
+        assert!(page.contains(limit), "{limit}");
+    }
 }
 
 /// Cost of a large tree, and that it is right at all.

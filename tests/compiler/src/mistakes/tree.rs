@@ -13,6 +13,22 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))] struct Pendulum { x: f64 }",
     ),
     (
+        "derived_default",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))]
+#[derive(Debug, Clone, Copy, PartialEq, Default)] pub struct Pendulum;",
+    ),
+    (
+        "derived_default_of_parameters",
+        "#[branched_pendulum(gravity = 1, a: rod(mass = m, length = 1))]
+#[derive(Debug)] #[derive(std::default::Default)] pub struct Pendulum;",
+    ),
+    (
+        "derived_copy",
+        "#[branched_pendulum(gravity = 1,
+    a: generations(count = 7, branching = 2, shape = rod, mass = 1, length = 1))]
+#[derive(Clone, Copy)] pub struct Pendulum;",
+    ),
+    (
         "struct_generics",
         "#[branched_pendulum(gravity = 1, a: rod(mass = 1, length = 1))] struct Pendulum<T>;",
     ),
@@ -82,6 +98,58 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "#[branched_pendulum(gravty = 9.8, zeal = 1, a: rod(mass = 1, length = 1))] struct Pendulum;",
     ),
     (
+        "misspelt_settings",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+    emitt(energies), emt(transfer(angle = 1), momenta), obsrve(x = theta_a), observ(h = cos(theta_a)),
+    driv(torque = 1), drvie(x = 0.1 * cos(t)), in_phse(b), inphase(all), lockd(a, 0.3),
+    perscribed(a), paramters(m, l), crat = ::bp, slove = recursion, cod = loops, emitt(),
+    plots(energies), gravty(9.8), prescribd,
+)] struct Pendulum;",
+    ),
+    (
+        "setting_forms",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1),
+    emit = energies, observe = theta_a, drive = cos(t), locked = a, in_phase = all,
+    parameters = (m, l), prescribed = [a], solve(recursion), code(loops), solve, emit = transfer(angle = 1),
+)] struct Pendulum;",
+    ),
+    (
+        "link_by_equals",
+        "#[branched_pendulum(gravity = 9.8,
+    a = rod(mass = 1, length = 1),
+    tree = generations(count = 3, shape = rod, mass = 1, length = 1),
+    b: rod(mass = 1, length = 1) [ c = disc(mass = 1, radius = 1, length = 1) * 2, d = rdo(length = 1) ],
+    rod = rod(mass = 1, length = 1),
+    e = 3,
+)] struct Pendulum;",
+    ),
+    (
+        "not_an_entry",
+        "#[branched_pendulum(gravity = 9.8, 2 * a: rod(mass = 1, length = 1), -1, (b: rod(mass = 1)),
+    c: rod(mass = 1, length = 1) [ 2 * d: rod(mass = 1, length = 1), 'e' ], = 2, ::bp,
+)] struct Pendulum;",
+    ),
+    (
+        "quoted",
+        "#[branched_pendulum(\"gravity = 9.8, rod: rod(mass = 1, length = 1)\")] struct Pendulum;",
+    ),
+    (
+        "lone_name",
+        "#[branched_pendulum(gravity = 9.8, rod, a: rod(mass = 1, length = 1) [ tip, b * 2 ], bob)] struct Pendulum;",
+    ),
+    (
+        "not_copies",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) [
+    b: rod(mass = 1, length = 1) * n,
+    c: rod(mass = 1, length = 1) * -1,
+    d: rod(mass = 1, length = 1) * 2.5,
+    e: rod(mass = 1, length = 1) * (1 + 1),
+    f: rod(mass = 1, length = 1) * \"2\",
+    g: rod(mass = 1, length = 1) * 2 * 3,
+    h: rod(mass = 1, length = 1) *,
+])] struct Pendulum;",
+    ),
+    (
         "missing_gravity",
         "#[branched_pendulum(a: rod(mass = 1, length = 1))] struct Pendulum;",
     ),
@@ -141,6 +209,22 @@ pub(super) const MISTAKES: &[Mistake] = &[
     (
         "unknown_shape",
         "#[branched_pendulum(gravity = 9.8, a: rdo(mass = 1) [ b: banana(mass = 1), c: sphere(mass = 1) ])] struct Pendulum;",
+    ),
+    (
+        "shape_without_name",
+        "#[branched_pendulum(gravity = 9.8, rod(mass = 0.1, length = 0.3) [
+    disc(mass = 1, radius = 0.1) * 2,
+    generations(count = 3, shape = rod, mass = 1, length = 1),
+    rod_with_bob(bob_mass = 1),
+])] struct Pendulum;",
+    ),
+    (
+        "shape_forgotten",
+        "#[branched_pendulum(gravity = 9.8, arm(mass = 0.1, length = 0.3) [
+    bob(mass = 1, length = 1) * 2,
+    rdo(mass = 1, length = 1),
+    plat(mass = 1, com = 1, width = 1),
+])] struct Pendulum;",
     ),
     (
         "unknown_property",
@@ -280,6 +364,22 @@ pub(super) const MISTAKES: &[Mistake] = &[
     (
         "function_call",
         "#[branched_pendulum(gravity = sqrt(96), a: rod(mass = 1, length = 1))] struct Pendulum;",
+    ),
+    (
+        "two_meanings",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1, friction = gravity) [
+        b: rod(mass = kinetic_energy, length = 2 * p_a, spring = p_d) * 2,
+        c: rod(mass = potential_energy, length = p_q),
+    ],
+    drive(torque = theta_a * cos(omega * t + omega_a)),
+)] struct Pendulum;",
+    ),
+    (
+        "two_meanings_declared",
+        "#[branched_pendulum(gravity = 2 * gravity, parameters(theta_a, gravity, omega_m, m), a: rod(mass = m, length = 1) [
+    b: rod(mass = m, length = 1) * 2 ], drive(x = omega_m * cos(theta_a * t)),
+)] struct Pendulum;",
     ),
     (
         "not_exact",

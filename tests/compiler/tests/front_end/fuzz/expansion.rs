@@ -175,6 +175,28 @@ const CURED: &[&str] = &[
         hand: rod(mass = 1, length = each(2.5, 9.80665, 3.7)) * 3,
         finger: rod(mass = x, length = 1.88e-3)], drive(x = 1e3 * x * t^2),
         emit(momenta, symmetric))] struct A;",
+    "#[branched_pendulum(gravity = 9.80665, arm: point(mass = 2.5, length = 0.1) [
+        hand: rod(mass = each(m, 0.1), length = n, drag = 0.1) [
+            finger(mass = coupling_hand_arm, com = w * (n * 0.25 + 1), inertia = 9.80665,
+                joint = (2.5, 1e-3 / 0.25 / w), drag = 4 * w + a / x) * 2,
+            tip: generations(mass = 4, length = k, shape = point, count = 4, branching = 2,
+                length_ratio = 0.27, spring = 1)] * 2],
+        emit(momenta, symmetric))] struct A;",
+    "#[branched_pendulum(gravity = g, trunk: rod(mass = m, length = l, spring = k) [
+        bough(mass = each(a, b), com = (c, d), inertia = i, joint = (l, n), drag = q) [
+            twig: generations(mass = w, length = x, shape = rod, count = 3, branching = 2)] * 3],
+        emit(momenta, symmetric, energies))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, trunk: disc(mass = 1, length = l, radius = 0.1) [
+        bough: rod(mass = 1, length = each(a, b + c, 2 * a), friction = q) [
+            twig: rod(mass = m, length = 0.2, spring = k, rest = 0.1) [
+                leaf: rod(mass = n, length = w, drag = p) * 2] * 2] * 3],
+        emit(symmetric, modes))] struct A;",
+    "#[branched_pendulum(gravity = 9.8, trunk: rod(mass = m, length = 1) [
+        bough: rod(mass = each(1, n), length = l) [
+            twig(mass = a, com = (b, 0.1), inertia = i, joint = (c, d), at = (l / 2, w)) [
+                leaf: point(mass = q, length = k) * 2] * 2,
+            tip: point(mass = 1, length = x) * 3] * 2],
+        emit(symmetric, momenta, energies))] struct A;",
 ];
 
 #[test]

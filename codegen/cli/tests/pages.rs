@@ -1,0 +1,162 @@
+//! What the pages of the repository say of the tool and of what is in it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn repository() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// All pages below a folder, with their text.
+fn pages(folder: &Path, found: &mut Vec<(PathBuf, String)>) {
+    for entry in std::fs::read_dir(folder).expect("the folder can be read") {
+        let path = entry.expect("the folder can be read").path();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let is_made = ["target", "node_modules", "book"].contains(&name.as_str());
+        if name.starts_with('.') || is_made {
+            continue;
+        }
+        if path.is_dir() {
+            pages(&path, found);
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            let text = std::fs::read_to_string(&path).expect("a page is text");
+            found.push((path, text));
+        }
+    }
+}
+
+/// Commands of the tool in a page: lines of listings, and code within sentences.
+fn commands(page: &str) -> BTreeSet<String> {
+    let lines = page.lines().map(str::trim_start);
+    let sentences = page.split('`').skip(1).step_by(2);
+    let all = lines
+        .map(str::to_owned)
+        .chain(sentences.map(|code| code.replace('\n', " ")));
+    let name = "branched-pendulum ";
+    all.filter_map(|text| Some(text.strip_prefix(name)?.trim().to_owned()))
+        .filter(|rest| rest.contains("--") || rest.contains(".rs"))
+        .filter(|rest| !rest.starts_with('='))
+        .collect()
+}
+
+fn tool(arguments: &[&str], folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_branched-pendulum"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the tool starts")
+}
+
+/// Whether a file is there or not: a wrong command line ends with 2. Without a source,
+/// within sentences, the options are those that there are.
+#[test]
+fn commands_of_all_pages_are_understood() {
+    let mut found = Vec::new();
+    pages(&repository(), &mut found);
+    let empty = std::env::temp_dir().join(format!("pages-{}", std::process::id()));
+    std::fs::create_dir_all(&empty).expect("the temporary folder is writable");
+    let help = tool(&["--help"], &empty).stdout;
+    let help = String::from_utf8_lossy(&help);
+    let (mut whole, mut options) = (0, 0);
+    for (path, page) in found {
+        for command in commands(&page) {
+            let place = format!("{}: {command}", path.display());
+            let arguments: Vec<&str> = command.split_whitespace().collect();
+            if arguments.iter().any(|argument| argument.ends_with(".rs")) {
+                whole += 1;
+                let output = tool(&arguments, &empty);
+                let errors = String::from_utf8_lossy(&output.stderr);
+                assert_ne!(output.status.code(), Some(2), "{place}: {errors}");
+                continue;
+            }
+            for option in arguments.iter().filter(|word| word.starts_with("--")) {
+                options += 1;
+                assert!(help.contains(*option), "{place}");
+            }
+        }
+    }
+    assert!(
+        whole >= 7 && options >= 7,
+        "{whole} commands, {options} options"
+    );
+    std::fs::remove_dir_all(empty).expect("the folder is ours");
+}
+
+/// Packages that the macro and the tool are made of, by licence, of those that neither the
+/// MIT licence nor the Apache License alone covers.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn licences() -> BTreeMap<String, BTreeSet<String>> {
+    let output = Command::new(env!("CARGO"))
+        .args([
+            "tree",
+            "--offline",
+            "--edges",
+            "normal,build",
+            "--prefix",
+            "none",
+        ])
+        .args([
+            "--package",
+            "branched-pendulum-macros",
+            "--package",
+            "branched-pendulum-cli",
+        ])
+        .args(["--format", "{p}|{l}"])
+        .current_dir(repository())
+        .output()
+        .expect("cargo starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let tree = String::from_utf8(output.stdout).expect("cargo writes UTF-8");
+    let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for line in tree.lines().filter(|line| !line.is_empty()) {
+        let (package, licence) = line.split_once('|').expect("a package and its licence");
+        let name = package.split(' ').next().unwrap_or_default();
+        let licence = licence.trim_end_matches(" (*)");
+        let mut choices = licence.split(" OR ").flat_map(|choice| choice.split('/'));
+        if !choices.any(|choice| ["MIT", "Apache-2.0"].contains(&choice)) {
+            found
+                .entry(licence.to_owned())
+                .or_default()
+                .insert(name.to_owned());
+        }
+    }
+    found
+}
+
+/// The table of the page, read from the page.
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[test]
+fn licences_are_those_of_the_page() {
+    let mut found = licences();
+    // Its own section.
+    let own = found.remove("").unwrap_or_default();
+    assert_eq!(own, BTreeSet::from(["symbolica".to_owned()]));
+    let page = std::fs::read_to_string(repository().join("docs/licences.md"));
+    let page = page.expect("the page exists");
+    let (_, table) = page
+        .split_once("| licence | packages |\n|---|---|\n")
+        .expect("a table");
+    let rows = table.lines().take_while(|line| line.starts_with('|'));
+    let told: BTreeMap<String, BTreeSet<String>> = rows
+        .map(|row| {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            let [licence, packages] = cells[..] else {
+                panic!("{row}")
+            };
+            let packages = packages
+                .split(", ")
+                .map(|name| name.trim_matches('`').to_owned());
+            (licence.to_owned(), packages.collect())
+        })
+        .collect();
+    assert_eq!(told, found);
+}

@@ -1,0 +1,73 @@
+//! The settings of a description, by name.
+
+use super::nearest::nearest;
+
+/// A member of a description that is no link.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SceneSetting {
+    /// Its name.
+    pub name: &'static str,
+    /// How one writes it.
+    pub example: &'static str,
+}
+
+impl SceneSetting {
+    const ALL: &[Self] = &[
+        Self::new("gravity", "gravity = 9.80665"),
+        Self::new("crate", "crate = ::branched_pendulum"),
+        Self::new("solve", "solve = recursion"),
+        Self::new("code", "code = loops"),
+        Self::new("parameters", "parameters(m, l)"),
+        Self::new("drive", "drive(torque = 0.1 * cos(2 * t))"),
+        Self::new("emit", "emit(energies)"),
+        Self::new("observe", "observe(height = cos(theta_arm))"),
+        Self::new("in_phase", "in_phase(child)"),
+        Self::new("locked", "locked(arm, 0.3)"),
+        Self::new("prescribed", "prescribed(arm)"),
+    ];
+
+    const fn new(name: &'static str, example: &'static str) -> Self {
+        Self { name, example }
+    }
+
+    /// The setting of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        Self::ALL.iter().find(|setting| setting.name == name)
+    }
+
+    /// The setting that a misspelt name probably means. One letter in three may be wrong:
+    /// most names of links are short too.
+    pub fn nearest(name: &str) -> Option<&'static Self> {
+        let names: Vec<&str> = Self::ALL.iter().map(|setting| setting.name).collect();
+        let most = name.chars().count() / 3;
+        nearest(name, &names)
+            .filter(|near| strsim::osa_distance(name, near) <= most)
+            .and_then(Self::named)
+    }
+
+    /// Returns true if parentheses follow its name, false for `=`.
+    pub fn in_parentheses(&self) -> bool {
+        let behind = self.example.strip_prefix(self.name);
+        behind.is_some_and(|behind| behind.starts_with('('))
+    }
+
+    /// The mark behind its name.
+    pub(super) fn mark(&self) -> &'static str {
+        match self.in_parentheses() {
+            true => "(",
+            false => "=",
+        }
+    }
+
+    /// All of them, as they are written.
+    pub(super) fn listed() -> String {
+        let forms = Self::ALL.iter().map(|setting| {
+            let name = setting.name;
+            match setting.in_parentheses() {
+                true => format!("`{name}(...)`"),
+                false => format!("`{name} = ...`"),
+            }
+        });
+        forms.collect::<Vec<_>>().join(", ")
+    }
+}
