@@ -2,7 +2,8 @@
 //! from version to version: expand a scene with the version that runs it.
 
 pub use crate::requirements::{
-    LinkBody, free_link, require_finite, require_non_negative, require_positive, require_regular,
+    HANGING, LinkBody, STANDING, free_link, require_downward, require_finite, require_non_negative,
+    require_positive, require_regular, require_upward,
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, Simd, outlined};

@@ -1,7 +1,7 @@
 //! Links in numbers: the quantities of a description at values of its parameters, in some
 //! 106 bits, so that what is formed of them is rounded once.
 
-use branched_pendulum::emitted::{LinkBody, free_link};
+use branched_pendulum::emitted::{HANGING, LinkBody, STANDING, free_link};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
     Layout, Link, LinkId, Offset, PassiveTorques, Quantity, QuantityAtom, RationalExpression,
@@ -95,6 +95,8 @@ pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeErro
 fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), TreeError> {
     let (requirement, met) = match sign {
         Sign::Any => ("finite", true),
+        Sign::Hanging => (HANGING, value >= 0.0),
+        Sign::Standing => (STANDING, value <= 0.0),
         Sign::NonNegative => ("zero or positive", value >= 0.0),
         Sign::Positive => ("positive", value > 0.0),
     };
