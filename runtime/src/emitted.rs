@@ -3,7 +3,8 @@
 //! sealed, and the registers that implement it cannot be named: see `simd`.
 
 pub use crate::requirements::{
-    LinkBody, free_link, require_finite, require_non_negative, require_positive, require_regular,
+    LinkBody, free_link, require_downward, require_finite, require_non_negative, require_positive,
+    require_regular, require_upward,
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, Simd, outlined};

@@ -20,7 +20,7 @@
 //! - [`model`]: what emitted models return, and what they refuse.
 //!
 //! SI units throughout; angles are absolute, in radians from the downward
-//! vertical.
+//! vertical, or from the upward one in trees that stand (negative gravity).
 //!
 //! # Example
 //!

@@ -12,6 +12,28 @@ pub fn require_finite(what: &'static str, value: f64) -> Result<(), ParameterErr
     require(what, value, "finite", true)
 }
 
+/// Condition on gravity of a tree that hangs.
+const HANGING: &str = "finite and not negative: for a tree that stands up write `gravity = -g`";
+
+/// Condition on gravity of a tree that stands.
+const STANDING: &str = "finite and not positive: for a tree that hangs write `gravity = g`";
+
+/// Passes finite gravity of a tree that hangs.
+///
+/// # Errors
+/// The error that `what` is negative or not finite.
+pub fn require_downward(what: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(what, value, HANGING, value >= 0.0)
+}
+
+/// Passes finite gravity of a tree that stands.
+///
+/// # Errors
+/// The error that `what` is positive or not finite.
+pub fn require_upward(what: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(what, value, STANDING, value <= 0.0)
+}
+
 /// Passes a finite value that is not negative.
 ///
 /// # Errors

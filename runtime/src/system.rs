@@ -60,8 +60,8 @@ pub use workspace::Workspace;
 
 /// Equations of motion in absolute angles.
 ///
-/// Angles are measured from the downward vertical, in radians; links stand in
-/// parent-before-child order.
+/// Angles are measured from the downward vertical (from the upward one where gravity is
+/// written as negative), in radians; links stand in parent-before-child order.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no equations of motion in `{T}`",
     note = "a model has them in its own numbers: `model.cast(…)` takes it to others, `linearised(AbsoluteAngles(&model))` to those of variational equations"
@@ -169,7 +169,7 @@ pub trait Energy<T: Scalar>: Pendulum<T> {
     fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T;
 
     /// Potential energy for angles `theta` (rad), of length
-    /// [`Pendulum::LINKS`]; zero where every link hangs straight down.
+    /// [`Pendulum::LINKS`]; zero where all angles are zero and the springs at rest.
     fn potential_energy_of(&self, theta: &[T]) -> T;
 
     /// Returns the kinetic energy, in memory that the caller keeps: trees in loops

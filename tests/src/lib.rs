@@ -5,6 +5,7 @@
 // crate: this one compiles all fixture scenes.
 #![deny(warnings, missing_docs)]
 
+pub mod bodies;
 pub mod oracle;
 pub mod promised;
 pub mod scenes;

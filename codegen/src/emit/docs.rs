@@ -36,9 +36,10 @@ impl Emission<'_> {
         }
         let links: Vec<&str> = scene.links.iter().map(|link| link.name.as_str()).collect();
         let mut lines = vec![format!(
-            "A planar tree of {} rigid {}; angles are absolute, from the downward vertical, in the order {} SI units throughout, angles in radians.",
+            "A planar tree of {} rigid {}; angles are absolute, from the {}, in the order {} SI units throughout, angles in radians.",
             links.len(),
             if links.len() == 1 { "link" } else { "links" },
+            scene.vertical(),
             wrapped_names(&links),
         )];
         if let Some(frame) = &self.mechanics.symmetric {
@@ -313,9 +314,10 @@ impl Emission<'_> {
             Purpose::Link(function) => vec![function.meaning().into()],
             Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
-            Purpose::RootDrive => vec![
-                "What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and −a_y/l, and its torque τ/(m l²) on the root.".into(),
-            ],
+            Purpose::RootDrive => {
+                let sign = if self.scene.stands() { "" } else { "−" };
+                vec![format!("What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and {sign}a_y/l, and its torque τ/(m l²) on the root.")]
+            }
         };
         lines
     }

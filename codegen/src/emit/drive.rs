@@ -107,6 +107,17 @@ impl Emission<'_> {
         power.chain(self.drive_formulas()).collect()
     }
 
+    /// The drive of a model in loops, in the directions of the equations.
+    pub(super) fn inner_drive(&self) -> TokenStream {
+        match self.scene.stands() {
+            true => quote!({
+                let [x, y, torque] = self.drive(time);
+                [x, -y, torque]
+            }),
+            false => quote!(self.drive(time)),
+        }
+    }
+
     /// The drive as the tree takes it.
     pub(super) fn drive_at_time(&self) -> TokenStream {
         self.drive_of(&quote!(self))

@@ -4,9 +4,28 @@ use super::Emission;
 use crate::functions::{Cause, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
 use crate::mechanics::{BrakingTorque, EnergyParts, Frame, WrittenOut};
+use std::collections::BTreeSet;
 
 impl Emission<'_> {
+    /// The formulas of a function, and what angles and rates of joints in them are.
     pub(super) fn formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
+        let mut formulas = self.own_formulas(purpose);
+        let symbols = &self.mechanics.symbols;
+        let mut joints = BTreeSet::new();
+        for formula in &formulas {
+            formula.right.for_each_symbol(&mut |symbol| {
+                joints.insert(symbol);
+            });
+        }
+        let joints = joints.into_iter();
+        formulas.extend(joints.filter_map(|symbol| {
+            let joint = self.mechanics.joints.get(&symbol)?;
+            Some(NamedFormula::of_symbol(symbols, symbol, &joint.formula()))
+        }));
+        formulas
+    }
+
+    fn own_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
         let mechanics = self.mechanics;
         let absolute = &mechanics.absolute;
         let symmetric = mechanics.symmetric.as_ref();

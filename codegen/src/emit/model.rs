@@ -126,6 +126,7 @@ impl Emission<'_> {
             self.scene
                 .requirements
                 .iter()
+                .filter(|r| r.sign >= Sign::NonNegative)
                 .any(|r| r.quantity == Quantity::parameter(ParameterId(index)))
         };
         let finite = self
@@ -160,8 +161,8 @@ impl Emission<'_> {
                 ///
                 /// # Errors
                 /// A parameter that is not finite, one that makes a mass, an
-                /// inertia or a friction coefficient impossible, or ones that
-                /// make the mass matrix singular.
+                /// inertia or a friction coefficient impossible or turns gravity
+                /// round, or ones that make the mass matrix singular.
                 pub fn new(
                     parameters: #parameters<T>,
                 ) -> ::core::result::Result<Self, #runtime::ParameterError> {
@@ -225,6 +226,8 @@ impl Emission<'_> {
         let runtime = self.runtime();
         let check = match sign {
             Sign::Any => quote!(require_finite),
+            Sign::Hanging => quote!(require_downward),
+            Sign::Standing => quote!(require_upward),
             Sign::NonNegative => quote!(require_non_negative),
             Sign::Positive => quote!(require_positive),
         };

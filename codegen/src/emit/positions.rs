@@ -41,7 +41,11 @@ impl Emission<'_> {
                 .into(),
                 "```".into(),
                 String::new(),
-                "A force on another point r of link i has the torques of this force on one of its points, and (r − r_i) × F more on link i. A couple on a link is a torque of that link as it is.".into(),
+                match self.scene.stands() {
+                    true => "A force on another point r of link i has the torques of this force on one of its points, and F × (r − r_i) more on link i, since positive angles turn it with the clock. A couple with the clock on a link is a torque of that link as it is.",
+                    false => "A force on another point r of link i has the torques of this force on one of its points, and (r − r_i) × F more on link i. A couple on a link is a torque of that link as it is.",
+                }
+                .into(),
             ],
             _ => {
                 let mut lines = vec![
@@ -172,7 +176,14 @@ impl Emission<'_> {
         torques: TokenStream,
     ) -> TokenStream {
         let runtime = self.runtime();
+        let stands = self.scene.stands().then(|| {
+            quote!(
+                const STANDS: bool = true;
+            )
+        });
         quote! {
+            #stands
+
             fn properties_of(
                 &self,
                 link: usize,

@@ -10,10 +10,11 @@ impl Emission<'_> {
             false => " Energies can be asked for with `emit(energies)`.",
         };
         let rows = self.scene.links.len();
+        let vertical = self.scene.vertical();
         let mut lines = match self.scene.layout {
             Layout::Generations { branching, links } => vec![
                 format!(
-                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the downward vertical; SI units throughout."
+                    "A planar tree of {links} rigid links in {rows} generations, {branching} under each link but the last ones. Angles are absolute, in radians from the {vertical}; SI units throughout."
                 ),
                 String::new(),
                 "Links stand generation by generation, and in a generation copy by copy: copy c (from 0) under link i of a generation of n links is number c n + i of the next one. `link` finds one by its path.".into(),
@@ -24,7 +25,7 @@ impl Emission<'_> {
             ],
             _ => vec![
                 format!(
-                    "A planar tree of {rows} rigid links. Angles are absolute, in radians from the downward vertical, in the order of `LINK_NAMES`; SI units throughout."
+                    "A planar tree of {rows} rigid links. Angles are absolute, in radians from the {vertical}, in the order of `LINK_NAMES`; SI units throughout."
                 ),
                 String::new(),
                 format!(
@@ -45,6 +46,13 @@ impl Emission<'_> {
             String::new(),
             "Subtrees that hang at (ℓ, w) answer the acceleration **a** of their pivot with the force σ **a** + γ − N **a**. Their articulated inertia is σ − N; σ is the mass of those that are single links, and zero for others. J is the moment of inertia that the joint feels, b the first moment, κ the bias torque, f the force with the joint held; primed are N and γ of the subtree that the link carries, and the acceleration of its children's pivot. The code carries −**a**, the apparent gravity, has all masses over m and all lengths over l of the commonest leaf, and angles of a link by its own length.".to_owned(),
         ];
+        if self.scene.stands() {
+            lines.push(String::new());
+            lines.push(
+                "In these equations y is downwards, against the direction of links of angle 0."
+                    .into(),
+            );
+        }
         if !self.scene.prescribed.is_empty() {
             lines.push(String::new());
             lines.push("Of a held link the angular acceleration is given where the torque from outside stands, nothing of it is eliminated (ch. 9), and where accelerations are told stands the torque that it takes, in N m.".into());

@@ -77,12 +77,13 @@ impl Emission<'_> {
             "with the velocities **V** of the centres of mass in the frame that moves with the pivot.".to_owned(),
         ]);
         let power = self.scene.requests.energies.then(|| {
+            let inner = self.inner_drive();
             quote! {
                 #power
                 #[must_use]
                 pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
                     let mut workspace = #runtime::system::Workspace::new();
-                    self.bodies.drive_power(&mut workspace, self.drive(time), theta, omega)
+                    self.bodies.drive_power(&mut workspace, #inner, theta, omega)
                 }
             }
         });

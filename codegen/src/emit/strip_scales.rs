@@ -59,7 +59,10 @@ impl Emission<'_> {
         let copies = copies.map(Literal::usize_unsuffixed);
         let (runtime, name, time) = (self.runtime(), &self.item.ident, self.time_name());
         let drive = match self.mechanics.drive {
-            Some(_) => quote!(::core::option::Option::Some(self.drive(time))),
+            Some(_) => {
+                let drive = self.inner_drive();
+                quote!(::core::option::Option::Some(#drive))
+            }
             None => quote!(::core::option::Option::None),
         };
         Some(quote! {

@@ -89,13 +89,16 @@ impl Emission<'_> {
         });
         let with_rests = rests.as_ref().map(|[_, rows]| quote!(.with_rests(#rows)));
         let with_laws = laws.as_ref().map(|[_, rows]| quote!(.with_laws(#rows)));
+        let standing = self.scene.stands().then(|| quote!(.standing(true)));
         let shape = quote!(#runtime::tree::Shape::#shape);
         let body_field = bodies.as_ref().map(|[_, rows]| {
             quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows) #with_rests #with_laws)
         });
         let property_field = properties
             .as_ref()
-            .map(|[_, rows]| quote!(properties: #runtime::tree::PropertyTable::new(#shape, #rows)));
+            .map(|[_, rows]| {
+                quote!(properties: #runtime::tree::PropertyTable::new(#shape, #rows) #standing)
+            });
         let tables = [&bodies, &rests, &laws, &properties].into_iter().flatten();
         let tables = tables.map(|[table, _]| table);
         let stored = self.stored_constants();

@@ -4,6 +4,7 @@
 use super::algebra::Formula;
 use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
+use super::joint::JointDifference;
 use super::observable::CompositeObservable;
 use super::observables::EnergySymbols;
 use super::print::latex_name;
@@ -53,6 +54,7 @@ pub(super) struct Derivation<'s> {
     pub(super) of_two: BTreeMap<(SymbolId, SymbolId), (SymbolId, SymbolId)>,
     pub(super) combinations: Vec<AngleCombination>,
     pub(super) drive: DerivedDrive,
+    pub(super) joints: BTreeMap<SymbolId, JointDifference<Formula>>,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
@@ -85,6 +87,7 @@ impl<'s> Derivation<'s> {
             of_two: BTreeMap::new(),
             combinations: Vec::new(),
             drive: DerivedDrive::default(),
+            joints: BTreeMap::new(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
             composites: BTreeMap::new(),
@@ -111,7 +114,14 @@ impl<'s> Derivation<'s> {
         );
     }
 
-    fn indexed(&mut self, role: Role, code: &str, text: &str, latex: &str, name: &str) -> SymbolId {
+    pub(super) fn indexed(
+        &mut self,
+        role: Role,
+        code: &str,
+        text: &str,
+        latex: &str,
+        name: &str,
+    ) -> SymbolId {
         let latex = format!("{latex}_{{\\mathrm{{{}}}}}", latex_name(name));
         self.symbols.intern(
             role,
@@ -240,11 +250,14 @@ impl<'s> Derivation<'s> {
         self.of_two[&(a, b)]
     }
 
-    /// ∂/∂(coordinate) of a symbol that stands for a function, if it depends on
-    /// it.
-    fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
+    /// ∂/∂(coordinate or velocity) of a symbol that stands for a function, if it depends
+    /// on it.
+    pub(super) fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
         if let Some(&slope) = self.given_slopes.get(&(symbol, coordinate)) {
             return Some(Formula::symbol(slope));
+        }
+        if let Some(joint) = self.joints.get(&symbol) {
+            return joint.slope(coordinate);
         }
         if let Some(composite) = self.composites.get(&symbol) {
             return Some(self.composite_slope(symbol, composite, coordinate));
@@ -295,8 +308,8 @@ impl<'s> Derivation<'s> {
         }
     }
 
-    /// Partial derivative with respect to a coordinate, through every sine
-    /// and cosine that depends on it.
+    /// Partial derivative with respect to a coordinate or a velocity, through every sine and
+    /// cosine, and through angles and rates of joints that depend on it.
     pub(super) fn partial(&self, formula: &Formula, coordinate: SymbolId) -> Formula {
         let mut terms = vec![];
         for symbol in formula.symbols() {
@@ -321,8 +334,16 @@ impl<'s> Derivation<'s> {
                 Some(Trigonometric::CosBetween(a, b) | Trigonometric::SinBetween(a, b)) => {
                     found.extend([*a, *b]);
                 }
-                None if self.symbols.get(symbol).role == Role::Coordinate => found.push(symbol),
-                None => {}
+                None => {
+                    let joint = self.joints.get(&symbol);
+                    let of_joint = joint.map(|joint| [Some(joint.own), joint.parent]);
+                    let members = of_joint.unwrap_or([Some(symbol), None]).into_iter();
+                    found.extend(
+                        members
+                            .flatten()
+                            .filter(|&member| self.symbols.get(member).role == Role::Coordinate),
+                    );
+                }
             }
         }
         found.sort_unstable();

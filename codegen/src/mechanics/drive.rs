@@ -38,6 +38,8 @@ pub struct PivotMotion {
     pub position: Expr,
     /// Acceleration, m/s²; `None` where it is zero at all times.
     pub acceleration: Option<SymbolId>,
+    /// The same in the directions of the equations.
+    pub inner_acceleration: Expr,
 }
 
 /// The torque and the forces that act on the tree from outside.
@@ -69,8 +71,16 @@ pub(super) struct DerivedDrive {
     /// Sine and cosine of each argument.
     rotations: Vec<(Formula, SymbolId, SymbolId)>,
     torque: Option<SymbolId>,
-    pivot: Vec<(&'static str, Formula, Option<SymbolId>)>,
+    pivot: Vec<DerivedMotion>,
     friction: Formula,
+}
+
+/// A [`PivotMotion`] while it is derived.
+struct DerivedMotion {
+    name: &'static str,
+    position: Formula,
+    acceleration: Option<SymbolId>,
+    inner_acceleration: Formula,
 }
 
 impl Default for DerivedDrive {
@@ -120,8 +130,8 @@ impl Derivation<'_> {
         work.into_iter().sum()
     }
 
-    /// Torque on the root and acceleration of its pivot, as symbols; zero where there
-    /// are none.
+    /// Torque on the root and acceleration of its pivot in the directions of the equations,
+    /// as symbols; zero where there are none.
     pub(super) fn drive_signals(&mut self) -> (Formula, [Formula; 2]) {
         let mut accelerations = [Formula::zero(), Formula::zero()];
         let Some(scene) = self.scene.drive.as_ref() else {
@@ -144,8 +154,17 @@ impl Derivation<'_> {
                 &format!("a_{{{name}}}"),
                 acceleration,
             );
-            *place = symbol.map_or_else(Formula::zero, Formula::symbol);
-            self.drive.pivot.push((name, position, symbol));
+            let outer = symbol.map_or_else(Formula::zero, Formula::symbol);
+            *place = match name {
+                "y" => self.upwards(outer),
+                _ => outer,
+            };
+            self.drive.pivot.push(DerivedMotion {
+                name,
+                position,
+                acceleration: symbol,
+                inner_acceleration: place.clone(),
+            });
         }
         let torque = self.drive.torque;
         (
@@ -295,10 +314,11 @@ impl Derivation<'_> {
             torque: *torque,
             pivot: pivot
                 .iter()
-                .map(|(name, position, acceleration)| PivotMotion {
-                    name,
-                    position: expr(position),
-                    acceleration: *acceleration,
+                .map(|motion| PivotMotion {
+                    name: motion.name,
+                    position: expr(&motion.position),
+                    acceleration: motion.acceleration,
+                    inner_acceleration: expr(&motion.inner_acceleration),
                 })
                 .collect(),
             power: frame.map(power),

@@ -29,6 +29,8 @@ pub enum Role {
     Coordinate,
     /// A generalized velocity.
     Velocity,
+    /// The angle or the rate of a joint.
+    Joint,
     /// A generalized acceleration; appears in the rates of observables only.
     Acceleration,
     /// A generalized momentum.

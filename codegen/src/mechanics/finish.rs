@@ -5,6 +5,7 @@ use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::DerivedExpansion;
+use super::joint::JointDifference;
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::SubHamiltonian;
@@ -95,6 +96,15 @@ impl Derivation<'_> {
                 unit: entry.unit,
             })
             .collect();
+        let joints = self.joints.iter();
+        mechanics.joints = joints
+            .map(|(&symbol, joint)| {
+                let JointDifference { own, parent, rest } = joint;
+                let rest = self.expr(rest);
+                let (own, parent) = (*own, *parent);
+                (symbol, JointDifference { own, parent, rest })
+            })
+            .collect();
         mechanics.trigonometry = self.trigonometry;
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
@@ -163,7 +173,7 @@ impl Derivation<'_> {
                 .momenta
                 .then(|| self.exprs(&frame.momentum_rates(self))),
             torques,
-            dissipative_forces: self.exprs(&frame.dissipative_forces()),
+            dissipative_forces: self.exprs(&frame.dissipative_forces(self)),
             drive: self.exprs(&frame.drive_forces(self)),
             bias: self.exprs(&frame.bias(self)),
         }

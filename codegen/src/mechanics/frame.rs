@@ -135,11 +135,9 @@ impl DerivedFrame {
     }
 
     /// −∂R/∂v_i, the generalized forces of friction and drag.
-    pub(super) fn dissipative_forces(&self) -> Vec<Formula> {
-        self.velocities
-            .iter()
-            .map(|&velocity| (-self.dissipation.derivative(velocity)).expand())
-            .collect()
+    pub(super) fn dissipative_forces(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
+        let torque = |&velocity| (-derivation.partial(&self.dissipation, velocity)).expand();
+        self.velocities.iter().map(torque).collect()
     }
 
     /// The generalized forces of the drive, at fixed time.
@@ -177,7 +175,7 @@ impl DerivedFrame {
             }
         }
         let forces = self
-            .dissipative_forces()
+            .dissipative_forces(derivation)
             .into_iter()
             .zip(self.drive_forces(derivation));
         rows.into_iter()

@@ -106,7 +106,7 @@ impl Derivation<'_> {
                 }
                 self.name_law(index, place, law);
                 let rate = match place {
-                    FrictionPlace::Joint => self.relative(index, velocities),
+                    FrictionPlace::Joint => self.joint_rate(index, velocities),
                     FrictionPlace::Ground => Formula::symbol(velocities[index]),
                 };
                 let link = LinkId(index);
@@ -243,24 +243,25 @@ impl Derivation<'_> {
         (found, replacements)
     }
 
-    /// The derivative by a velocity, through the torques that depend on it.
-    pub(super) fn velocity_slope(
+    /// By how much a torque of friction or its slope changes with the rate that it depends
+    /// on; zero for other symbols.
+    pub(super) fn braking_change(
         &self,
         frame: &DerivedFrame,
-        function: &Formula,
-        velocity: SymbolId,
+        symbol: SymbolId,
+        change_of: impl Fn(&Formula) -> Formula,
     ) -> Formula {
-        let mut slopes = vec![function.derivative(velocity)];
         for torque in &frame.torques {
             if let DerivedSource::Link { rate, .. } = &torque.source {
                 let [slope, curvature] = torque.slopes;
-                for (symbol, slope) in [(torque.symbol, slope), (slope, curvature)] {
-                    let own = &rate.derivative(velocity) * &Formula::symbol(slope);
-                    slopes.push(&function.derivative(symbol) * &own);
+                for (own, slope) in [(torque.symbol, slope), (slope, curvature)] {
+                    if own == symbol {
+                        return &Formula::symbol(slope) * &change_of(rate);
+                    }
                 }
             }
         }
-        slopes.into_iter().sum()
+        Formula::zero()
     }
 
     /// The torques of a frame as plain data.

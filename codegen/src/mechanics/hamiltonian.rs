@@ -18,7 +18,7 @@ impl DerivedFrame {
 
     /// ∂L/∂q_i + Q_i, of friction, drag and drive.
     pub(super) fn momentum_rates(&self, derivation: &Derivation<'_>) -> Vec<Formula> {
-        let others = self.dissipative_forces().into_iter();
+        let others = self.dissipative_forces(derivation).into_iter();
         self.forces(derivation)
             .into_iter()
             .zip(others.zip(self.drive_forces(derivation)))

@@ -99,6 +99,7 @@ impl Derivation<'_> {
             };
             replacements.push((symbol, value));
         }
+        let formula = self.with_rests(formula);
         let table = formula.substitute(&replacements).coefficients(&[epsilon]);
         (0..=order)
             .map(|n| table.get(&vec![n]).cloned().unwrap_or_else(Formula::zero))

@@ -6,6 +6,7 @@ use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::friction::DerivedTorque;
+use super::joint::JointQuantity;
 use super::letters;
 use crate::scene::{Link, LinkId, Offset, Quantity, QuantityAtom};
 use std::convert::Infallible;
@@ -217,7 +218,7 @@ impl Derivation<'_> {
             let passive = &scene.links[index].passive;
             if !passive.friction.is_zero() {
                 let meaning = format!("viscous friction in the pivot of `{orbit}`");
-                let relative = self.relative(index, velocities);
+                let relative = self.joint_rate(index, velocities);
                 let value = self.quantity(&passive.friction);
                 let c = self.lettered(letters::FRICTION, &[&orbit], &meaning, value);
                 terms.push(half_square(&c, &relative));
@@ -244,22 +245,13 @@ impl Derivation<'_> {
             let meaning = format!("angle at which the torsion spring of `{orbit}` is at rest");
             let value = self.quantity(&passive.rest);
             let rest = self.lettered(letters::REST, &[&orbit], &meaning, value);
-            let strain = &self.relative(index, angles) - &rest;
+            let strain = self.joint_of(JointQuantity::Angle, index, angles, rest);
             let meaning = format!("stiffness of the torsion spring in the pivot of `{orbit}`");
             let value = self.quantity(&passive.spring);
             let stiffness = self.lettered(letters::SPRING, &[&orbit], &meaning, value);
             terms.push(half_square(&stiffness, &strain));
         }
         terms.into_iter().sum::<Formula>()
-    }
-
-    /// A link's angle or velocity less its parent's.
-    pub(super) fn relative(&self, link: usize, symbols: &[SymbolId]) -> Formula {
-        let own = Formula::symbol(symbols[link]);
-        match self.scene.links[link].parent {
-            Some(LinkId(parent)) => &own - &Formula::symbol(symbols[parent]),
-            None => own,
-        }
     }
 
     pub(super) fn orbit_name(&self, link: usize) -> String {

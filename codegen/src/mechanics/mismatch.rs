@@ -184,6 +184,7 @@ impl Derivation<'_> {
         let zero: Vec<(SymbolId, Formula)> = (constants.mismatches.iter())
             .map(|&symbol| (symbol, Formula::zero()))
             .collect();
+        let zero = [self.joints_without(&zero), zero].concat();
         let mean = |formula: &Formula| formula.substitute(&zero);
         DerivedFrame {
             coordinates: frame.coordinates.clone(),

@@ -16,6 +16,7 @@ mod frame;
 mod friction;
 mod hamiltonian;
 mod inverse_mass;
+mod joint;
 mod lagrangian;
 mod letters;
 mod link;
@@ -43,6 +44,7 @@ pub use articulation::{Articulation, Joint};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use friction::{BrakingTorque, TorqueSource};
+pub use joint::JointDifference;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
@@ -250,6 +252,8 @@ pub struct Mechanics {
     pub symbols: Symbols,
     /// Symbols of the scene's parameters, in their order.
     pub parameters: Vec<SymbolId>,
+    /// Meaning of the angles and rates of joints.
+    pub joints: BTreeMap<SymbolId, JointDifference>,
     /// Meaning of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
     /// Combinations of differences whose sine and versine appear.

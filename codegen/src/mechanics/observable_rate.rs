@@ -243,11 +243,7 @@ impl Derivation<'_> {
                 }
             }
         };
-        let torques = || -> Vec<Formula> {
-            let torque = |&velocity| -frame.dissipation.derivative(velocity);
-            let torques = frame.velocities.iter().map(torque);
-            torques.map(|torque| torque.expand()).collect()
-        };
+        let torques = || -> Vec<Formula> { frame.dissipative_forces(self) };
         // The drive acts like a force of the Lagrangian at fixed time.
         let with_drive = |forces: Vec<Formula>, sign: i64| -> Vec<Formula> {
             let drive = frame.drive_forces(self);

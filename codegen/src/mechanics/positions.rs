@@ -58,7 +58,8 @@ const END: Letters = Letters {
 };
 
 impl Derivation<'_> {
-    /// (x, y) of a point at these distances along and across a link.
+    /// (x, y) of a point at these distances along and across a link, y against the direction
+    /// of links of angle 0.
     pub(super) fn point_at(
         &self,
         along: &Formula,
@@ -71,6 +72,14 @@ impl Derivation<'_> {
             &(along * &sin) + &(across * &cos),
             &(across * &sin) - &(along * &cos),
         ]
+    }
+
+    /// A component along y of the equations, upwards; or one upwards, along that y.
+    pub(super) fn upwards(&self, component: Formula) -> Formula {
+        match self.scene.stands() {
+            true => -component,
+            false => component,
+        }
     }
 
     pub(super) fn positions(&mut self, frame: &DerivedFrame) -> Vec<LinkPositions> {
@@ -122,7 +131,8 @@ impl Derivation<'_> {
         };
         let along = constant("along", "", "", &offset.along);
         let across = constant("across", "⊥", "^{\\perp}", &offset.lateral);
-        let position = self.point_at(&along, &across, angle);
+        let [x, y] = self.point_at(&along, &across, angle);
+        let position = [x, self.upwards(y)];
         let lever = position.each_ref().map(|value| self.partial(value, angle));
         let omega = Formula::symbol(frame.velocities[link]);
         let velocity = lever.each_ref().map(|slope| (slope * &omega).expand());

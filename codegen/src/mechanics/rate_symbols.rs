@@ -71,7 +71,10 @@ impl Derivation<'_> {
     ) -> RateSymbols {
         let resisted = |frame: &DerivedFrame, index: usize| {
             let velocity = frame.velocities[index];
-            !frame.dissipation.derivative(velocity).expand().is_zero()
+            !self
+                .partial(&frame.dissipation, velocity)
+                .expand()
+                .is_zero()
         };
         let has_torque = match coordinates {
             Some(coordinates) if frame.has_symbols_alone() => {

@@ -23,6 +23,12 @@ impl fmt::Display for Mechanics {
                 constant.meaning
             )?;
         }
+        if !self.joints.is_empty() {
+            writeln!(f, "joints")?;
+        }
+        for (&symbol, joint) in &self.joints {
+            self.line(f, &self.name(symbol), &joint.formula())?;
+        }
         if let Some(drive) = &self.drive {
             self.drive(f, drive)?;
         }

@@ -95,8 +95,9 @@ impl Derivation<'_> {
                 })
                 .collect()
         };
+        let joints = self.symmetric_joints(absolute, coordinates, [&ids, &velocities], constants);
         let with_constants = |mut linear: Vec<(SymbolId, Formula)>| {
-            linear.extend(constants.replacements.iter().cloned());
+            linear.extend(joints.iter().chain(&constants.replacements).cloned());
             linear
         };
         let springs = absolute

@@ -56,7 +56,7 @@ impl Derivation<'_> {
         let gravity = &weight * &modulus;
         // Differences are orthogonal: no spring couples two of them.
         let angle = frame.coordinates[coordinate];
-        let stiffness = frame.springs.derivative(angle).derivative(angle);
+        let stiffness = self.partial(&self.partial(&frame.springs, angle), angle);
         let half = Formula::integer(2).pow(-1);
         let spring = &(&half * &stiffness) * &Formula::symbol(angle).pow(2);
         let potential = &gravity + &spring;
@@ -104,7 +104,7 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         coordinates: &[usize],
     ) -> Formula {
-        let mut reduced = formula.expand();
+        let mut reduced = self.with_rests(formula).expand();
         for &index in coordinates {
             let cos = self.cos(frame.coordinates[index]);
             let sin = Formula::symbol(self.sin(frame.coordinates[index]));
@@ -242,7 +242,7 @@ impl Derivation<'_> {
     pub(super) fn friction_power(&self, frame: &DerivedFrame, energy: &SubHamiltonian) -> Formula {
         let s = energy.coordinate;
         let velocity = self.own_velocity(frame, energy);
-        let torque = -frame.dissipation.derivative(frame.velocities[s]);
+        let torque = -self.partial(&frame.dissipation, frame.velocities[s]);
         (&velocity * &torque).expand()
     }
 

@@ -10,8 +10,10 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
+use super::joint::JointQuantity;
 use super::small::SmallMechanics;
 use crate::scene::TransverseCopies;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The equations of one sector: M δ̈ + residual = 0.
@@ -54,6 +56,9 @@ pub(super) struct SmallMotion {
     accelerations: Vec<SymbolId>,
     differences: Vec<SymbolId>,
     rates: Vec<SymbolId>,
+    /// Angles and rates of joints by their symbols: the link, and by how much they change
+    /// where the parent does not change and where it does.
+    joints: BTreeMap<SymbolId, (usize, [Formula; 2])>,
 }
 
 impl SmallMotion {
@@ -63,6 +68,36 @@ impl SmallMotion {
 
     fn rate(&self, link: usize) -> Formula {
         Formula::symbol(self.rates[link])
+    }
+
+    /// By how much an angle or a rate, of a link or of a joint, changes where these links move;
+    /// none where the symbol is no such thing.
+    fn change(
+        &self,
+        derivation: &Derivation<'_>,
+        frame: &DerivedFrame,
+        symbol: SymbolId,
+        block: &Range<usize>,
+    ) -> Option<Formula> {
+        if let Some((link, [alone, relative])) = self.joints.get(&symbol) {
+            let parent = derivation.scene.links[*link].parent.map(|parent| parent.0);
+            let holder = parent.filter(|parent| block.contains(parent));
+            return Some(match (block.contains(link), holder) {
+                (true, Some(_)) => relative.clone(),
+                (true, None) => alone.clone(),
+                (false, _) => Formula::zero(),
+            });
+        }
+        let of = |symbols: &[SymbolId], changes: &[SymbolId]| {
+            let link = symbols.iter().position(|own| *own == symbol)?;
+            let moves = block.contains(&link);
+            Some(if moves {
+                Formula::symbol(changes[link])
+            } else {
+                Formula::zero()
+            })
+        };
+        of(&frame.coordinates, &self.differences).or_else(|| of(&frame.velocities, &self.rates))
     }
 }
 
@@ -77,11 +112,13 @@ impl Derivation<'_> {
                 |name| format!("{latex}_{{\\mathrm{{{name}}}}}"),
             )
         };
-        let small = SmallMotion {
+        let mut small = SmallMotion {
             accelerations: symbols(Role::Acceleration, "alpha", "α", "\\alpha"),
             differences: symbols(Role::Derived, "delta", "δ", "\\delta"),
             rates: symbols(Role::Derived, "delta_rate", "δ̇", "\\dot\\delta"),
+            joints: BTreeMap::new(),
         };
+        self.small_joints(frame, &mut small);
         let balances = self.balances(frame, &small);
         let sectors = self.scene.transverse_sectors().into_iter();
         let sectors: Vec<TransverseFormulas> = sectors
@@ -91,6 +128,28 @@ impl Derivation<'_> {
             small: self.small(frame, &small, &sectors),
             sectors,
             accelerations: small.accelerations,
+        }
+    }
+
+    /// Forms what angles and rates of joints change by.
+    fn small_joints(&mut self, frame: &DerivedFrame, small: &mut SmallMotion) {
+        for (quantity, of_links, changes) in [
+            (
+                JointQuantity::SmallAngle,
+                &frame.coordinates,
+                &small.differences,
+            ),
+            (JointQuantity::SmallRate, &frame.velocities, &small.rates),
+        ] {
+            for (link, own) in of_links.iter().enumerate() {
+                let mut joints = self.joints.iter();
+                let Some((&symbol, _)) = joints.find(|(_, joint)| joint.own == *own) else {
+                    continue;
+                };
+                let relative = self.joint_of(quantity, link, changes, Formula::zero());
+                let changes = [Formula::symbol(changes[link]), relative];
+                small.joints.insert(symbol, (link, changes));
+            }
         }
     }
 
@@ -120,18 +179,15 @@ impl Derivation<'_> {
             .clone()
             .map(|i| self.linearised(frame, small, &balances[i], block.clone()))
             .collect();
-        let forces = frame.dissipative_forces();
-        let friction: Formula = block
-            .clone()
-            .map(|i| &self.linearised(frame, small, &forces[i], block.clone()) * &small.rate(i))
-            .sum();
+        let friction = self.small_friction(frame, small, block.clone());
         let energy = self.small_energy(frame, small, block.clone());
         // M δ̈ is −r, which has friction in it.
-        let mut change = self.rate_at_steady_rates(frame, small, &energy, block.clone());
+        let forces = frame.dissipative_forces(self);
+        let mut transfer = self.rate_at_steady_rates(frame, small, &energy, block.clone());
         for (i, residual) in block.clone().zip(&residual) {
-            change = &change - &(residual * &small.rate(i));
+            let force = self.linearised(frame, small, &forces[i], block.clone());
+            transfer = &transfer - &(&(residual + &force) * &small.rate(i));
         }
-        let transfer = &change - &friction;
         let entries = block
             .clone()
             .flat_map(|row| (block.start..=row).map(move |column| (row, column)));
@@ -165,12 +221,46 @@ impl Derivation<'_> {
         function: &Formula,
         block: Range<usize>,
     ) -> Formula {
-        let terms = block.map(|j| {
-            let stiffness = self.partial(function, frame.coordinates[j]);
-            let damping = self.velocity_slope(frame, function, frame.velocities[j]);
-            &(&stiffness * &small.difference(j)) + &(&damping * &small.rate(j))
+        let mut terms = Vec::new();
+        for symbol in function.symbols() {
+            let direct = small.change(self, frame, symbol, &block);
+            let change = match direct {
+                Some(change) => change,
+                None => {
+                    let through = block.clone().map(|j| {
+                        let slope = |variable| self.slope(symbol, variable);
+                        let turned =
+                            slope(frame.coordinates[j]).map(|by| &by * &small.difference(j));
+                        turned.unwrap_or_else(Formula::zero)
+                    });
+                    let braked = self.braking_change(frame, symbol, |rate| {
+                        self.linearised(frame, small, rate, block.clone())
+                    });
+                    &through.sum::<Formula>() + &braked
+                }
+            };
+            if !change.is_zero() {
+                terms.push(&function.derivative(symbol) * &change);
+            }
+        }
+        terms.into_iter().sum::<Formula>().expand()
+    }
+
+    /// −Σ ∂²R/∂w∂w (δw)² over the rates w of links and joints, those of torques that are not
+    /// viscous among them.
+    fn small_friction(
+        &self,
+        frame: &DerivedFrame,
+        small: &SmallMotion,
+        block: Range<usize>,
+    ) -> Formula {
+        let rates = frame.dissipation.symbols().into_iter();
+        let powers = rates.filter_map(|rate| {
+            let change = small.change(self, frame, rate, &block)?;
+            let torque = frame.dissipation.derivative(rate);
+            Some(&self.linearised(frame, small, &torque, block.clone()) * &change)
         });
-        terms.sum::<Formula>().expand()
+        -powers.sum::<Formula>()
     }
 
     /// ½ Σ M_ij δ̇_i δ̇_j + ½ Σ K_ij δ_i δ_j with K = ∂²U/∂θ∂θ where all angles are zero.
@@ -180,7 +270,6 @@ impl Derivation<'_> {
         small: &SmallMotion,
         block: Range<usize>,
     ) -> Formula {
-        let gradient = frame.potential_gradient(self);
         let angles = frame.coordinates.iter();
         let zero_angles: Vec<(SymbolId, Formula)> = angles
             .flat_map(|&angle| {
@@ -193,13 +282,11 @@ impl Derivation<'_> {
         let pairs = block
             .clone()
             .flat_map(|i| block.clone().map(move |j| (i, j)));
-        let terms = pairs.map(|(i, j)| {
-            let stiffness = self.partial(&gradient[i], frame.coordinates[j]);
-            let stiffness = stiffness.substitute(&zero_angles);
-            let kinetic = &(&frame.mass.get(i, j) * &small.rate(i)) * &small.rate(j);
-            &kinetic + &(&(&stiffness * &small.difference(i)) * &small.difference(j))
-        });
-        let twice = terms.sum::<Formula>();
+        let kinetic =
+            pairs.map(|(i, j)| &(&frame.mass.get(i, j) * &small.rate(i)) * &small.rate(j));
+        let along = |function: &Formula| self.linearised(frame, small, function, block.clone());
+        let potential = along(&along(&frame.potential)).substitute(&zero_angles);
+        let twice = &kinetic.sum::<Formula>() + &potential;
         (&Formula::integer(2).pow(-1) * &twice).expand()
     }
 
@@ -215,7 +302,7 @@ impl Derivation<'_> {
             let omega = Formula::symbol(frame.velocities[frame.index(coordinate)]);
             &self.partial(energy, coordinate) * &omega
         });
-        let changing = block.map(|i| &energy.derivative(small.differences[i]) * &small.rate(i));
+        let changing = block.map(|i| &self.partial(energy, small.differences[i]) * &small.rate(i));
         turning.chain(changing).sum()
     }
 }

@@ -12,7 +12,8 @@ use super::symmetric::OrbitLinks;
 use crate::functions::Argument;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
-    Frame, LinearSystem, MassExpansion, MatrixEntry, MeanTree, Mechanics, ObservableFrame,
+    Frame, JointDifference, LinearSystem, MassExpansion, MatrixEntry, MeanTree, Mechanics,
+    ObservableFrame,
 };
 use std::collections::BTreeMap;
 
@@ -121,6 +122,17 @@ impl<'a> Lowering<'a> {
                     Some(argument) => self.builder.input(argument, index),
                     None => self.velocities(environment)[index],
                 }
+            }
+            Role::Joint => {
+                let JointDifference { own, parent, rest } = &self.mechanics.joints[&symbol];
+                let mut value = self.symbol(environment, *own);
+                if let Some(parent) = parent {
+                    let parent = self.symbol(environment, *parent);
+                    value = self.builder.sub(value, parent);
+                }
+                let rest = self.expr(environment, rest);
+                let value = self.builder.sub(value, rest);
+                self.builder.name(value, &entry.code)
             }
             Role::Momentum => {
                 let index = position(&environment.frame.momenta, symbol);

@@ -86,7 +86,8 @@ pub struct Scene {
     pub name: String,
     /// Path of the runtime crate, as in `::branched_pendulum`.
     pub crate_path: CratePath,
-    /// Gravitational acceleration, m/s².
+    /// Gravitational acceleration, m/s²: towards where links of angle 0 point, so that the
+    /// tree [stands](Scene::stands) where it is negative.
     pub gravity: Quantity,
     /// All links, parent before child.
     pub links: Vec<Link>,
@@ -126,6 +127,21 @@ impl Scene {
         self.layout != Layout::Unrolled
     }
 
+    /// Returns true if gravity is written as negative: the tree stands up, and angles are
+    /// those from the upward vertical. What users give and see of y is upwards, whereas the
+    /// equations have it against the direction of links of angle 0, whichever that is.
+    pub fn stands(&self) -> bool {
+        self.gravity.is_written_negative()
+    }
+
+    /// The direction of links of angle 0, in words.
+    pub fn vertical(&self) -> &'static str {
+        match self.stands() {
+            true => "upward vertical",
+            false => "downward vertical",
+        }
+    }
+
     /// Returns true if any centre of mass or pivot is beside a link's axis.
     pub fn is_lateral(&self) -> bool {
         let beside = |offset: &Offset| !offset.lateral.is_zero();
@@ -134,7 +150,7 @@ impl Scene {
     }
 }
 
-/// A rigid link. Its angle is absolute, from the downward vertical.
+/// A rigid link. Its angle is absolute, from the [vertical](Scene::vertical).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// Snake-case name, unique in the scene.
@@ -162,8 +178,8 @@ pub struct Link {
 
 /// A point of a link, from the link's pivot, m.
 ///
-/// At angle 0 `along` points down and `lateral` in the direction in which
-/// positive angles move the link's end.
+/// At angle 0 `along` points down, or up in a tree that [stands](Scene::stands), and
+/// `lateral` in the direction in which positive angles move the link's end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offset {
     /// Component along the link.
@@ -282,6 +298,10 @@ pub struct Parameter {
 pub enum Sign {
     /// Any finite number.
     Any,
+    /// Zero or above: gravity of a tree that hangs.
+    Hanging,
+    /// Zero or below: gravity of a tree that [stands](Scene::stands).
+    Standing,
     /// Zero or above.
     NonNegative,
     /// Above zero.

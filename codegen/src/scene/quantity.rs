@@ -57,6 +57,19 @@ impl Quantity {
         self.exact().is_some_and(Rational::is_zero)
     }
 
+    /// Returns true if a minus stands before all of the value: for a negative number, and
+    /// for what is negative where all factors are positive, as `-g` and `-2 * g - h`.
+    pub fn is_written_negative(&self) -> bool {
+        match self {
+            Self::Atom(Exact(value)) => value.is_negative(),
+            Self::Atom(QuantityAtom::Parameter(_)) | Self::Power(..) => false,
+            Self::Negative(inner) => !inner.is_written_negative(),
+            Self::Sum(members) => members.iter().all(Self::is_written_negative),
+            Self::Product(factors) => factors.first().is_some_and(Self::is_written_negative),
+            Self::Quotient(above, _) => above.is_written_negative(),
+        }
+    }
+
     /// The sum of `members`.
     pub fn sum(members: impl IntoIterator<Item = Self>) -> Self {
         Self::sum_of(members.into_iter().collect())

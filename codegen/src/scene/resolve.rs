@@ -153,14 +153,17 @@ fn gravity(
     let usage = Usage {
         what: "gravity".to_owned(),
         unit: "m/s²",
-        // Below zero the angles are those from the upward vertical.
         sign: Sign::Any,
     };
     match &description.gravity {
         Some(Property {
             value: Value::Single(value),
             ..
-        }) => values.evaluate(value, &usage, report),
+        }) => {
+            let gravity = values.evaluate(value, &usage, report)?;
+            values.require_direction(&gravity, usage.what);
+            Some(gravity)
+        }
         Some(Property {
             value: Value::Each { span, .. },
             ..

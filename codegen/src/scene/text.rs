@@ -185,6 +185,8 @@ impl Display for Sign {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Any => "any",
+            Self::Hanging => "non-negative",
+            Self::Standing => "non-positive",
             Self::NonNegative => "non-negative",
             Self::Positive => "positive",
         })

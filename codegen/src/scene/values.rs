@@ -117,6 +117,21 @@ impl Values {
         Some(value)
     }
 
+    /// Requires that gravity points where it is written to point: all directions depend on it.
+    pub(super) fn require_direction(&mut self, gravity: &Quantity, what: String) {
+        let sign = match gravity.is_written_negative() {
+            true => Sign::Standing,
+            false => Sign::Hanging,
+        };
+        if gravity.exact().is_none() {
+            self.requirements.push(Requirement {
+                what,
+                quantity: gravity.clone(),
+                sign,
+            });
+        }
+    }
+
     /// A part of an expression.
     pub(super) fn operand(
         &mut self,

@@ -65,7 +65,10 @@ impl Translation<'_> {
         let parameters = list(parameters.iter().map(|p| p.name.as_str()).collect());
         let lines = [
             format!("{name}: equations of a pendulum tree. Written by `branched-pendulum`."),
-            "SI units; angles in rad from the downward vertical.".to_owned(),
+            format!(
+                "SI units; angles in rad from the {}.",
+                self.scene.vertical()
+            ),
             format!("Links: {links}"),
             format!("Parameters: {parameters}"),
         ];

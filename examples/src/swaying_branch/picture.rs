@@ -5,7 +5,7 @@ use branched_pendulum_charts::{ChartError, Color, Film};
 use super::motion::Seen;
 use super::scene::{Branch, HELD};
 use super::weather::{PULL, Weather};
-use crate::film::links;
+use crate::film::{angles, links};
 
 /// Pictures in a second, between which browsers interpolate.
 const RATE: f64 = 20.0;
@@ -32,18 +32,17 @@ pub fn film(branch: &Branch, seen: &Seen, weather: &Weather) -> Result<Film, Cha
     let stride = (1.0 / (RATE * seen.frame)).round().max(1.0) as usize;
     let interval = seen.frame * stride as f64;
     let links = links(branch);
-    let pictures: Vec<&[f64]> = seen
+    let pictures: Vec<Vec<f64>> = seen
         .states
         .iter()
         .step_by(stride)
-        .map(|s| &s[..links.len()])
+        .map(|s| angles(branch, &s[..links.len()]))
         .collect();
     let title = format!(
         "A branch of {} links in the wind, pulled by a hand and let go",
         links.len()
     );
     let mut film = Film::new(title, interval)
-        .upwards()
         .background(Color::rgb(244, 247, 249))
         .tree("", &links, &pictures)?;
     let scale = film.scale()?;

@@ -4,6 +4,7 @@ use branched_pendulum::approximate::Approximation;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::UnderTorques;
+use branched_pendulum_examples::film;
 use branched_pendulum_examples::swaying_branch::motion::{Branches, reference};
 use branched_pendulum_examples::swaying_branch::scene::{Branch, LINKS};
 use branched_pendulum_examples::swaying_branch::storm;
@@ -118,4 +119,31 @@ fn a_short_run_leaves_frames_picture_and_chart() {
         assert!(file.metadata().unwrap().len() > 1000);
     }
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// The film draws the branch where it stands, by angles from the downward vertical.
+#[test]
+fn the_film_stands_as_the_branch_does() {
+    let branch = Branch::new();
+    let theta: [f64; LINKS] = std::array::from_fn(|link| 0.3 - 0.05 * link as f64);
+    let (links, angles) = (film::links(&branch), film::angles(&branch, &theta));
+    let mut pivots: Vec<[f64; 2]> = Vec::new();
+    for (index, link) in links.iter().enumerate() {
+        let turned = |[along, across]: [f64; 2], link: usize| {
+            let (sine, cosine) = angles[link].sin_cos();
+            [
+                along * sine + across * cosine,
+                across * sine - along * cosine,
+            ]
+        };
+        let [x, y] = link.parent.map_or([0.0; 2], |parent| {
+            let [x, y] = turned(link.pivot, parent);
+            [pivots[parent][0] + x, pivots[parent][1] + y]
+        });
+        pivots.push([x, y]);
+        let [along, up] = turned(link.end, index);
+        let end = branch.ends(&theta)[index];
+        assert!((end[0] - x - along).abs() < 1e-14 && (end[1] - y - up).abs() < 1e-14);
+    }
+    assert!(branch.ends(&[0.0; LINKS]).iter().all(|[_, y]| *y > 0.0));
 }

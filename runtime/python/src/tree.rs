@@ -240,7 +240,7 @@ impl Tree {
     }
 
     /// Returns the positions x, y (m) of a point of each link, `"pivot"`, `"centre"` or `"end"`,
-    /// at angles `theta` (rad): y is upwards, from the root's pivot.
+    /// at angles `theta` (rad): y is upwards, from the root's pivot, in trees that stand too.
     #[pyo3(signature = (theta, point = "end"))]
     fn points<'py>(
         &self,

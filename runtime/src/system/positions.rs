@@ -23,7 +23,8 @@ impl LinkPoint {
 }
 
 /// A link as data. SI units; places are along the link and across it: at angle 0
-/// downwards, and to the side to which positive angles move the link's end.
+/// downwards (upwards in a tree that [stands](Positions::STANDS)), and to the side to which
+/// positive angles move the link's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkProperties<T> {
     /// Index of the link that it hangs from; none of the root.
@@ -91,6 +92,11 @@ impl<T: Scalar> LinkProperties<T> {
 /// moves with it. All slices have length [`LINKS`](Pendulum::LINKS); for others the
 /// results are NaN.
 ///
+/// So it is too where gravity is written as negative and the tree [stands](Self::STANDS): at
+/// angle 0 ends are above their pivots, and positive angles turn a link with the clock. The
+/// moment of a force F at r from a pivot, as the torque of a link, is x F_y − y F_x in a tree
+/// that hangs and y F_x − x F_y in one that stands.
+///
 /// # Examples
 ///
 /// A branch in the wind, as air drags at its ends, and held by a thread at a point of
@@ -145,6 +151,9 @@ impl<T: Scalar> LinkProperties<T> {
     note = "a model knows it with `emit(positions)` in its attribute"
 )]
 pub trait Positions<T: Scalar>: Pendulum<T> {
+    /// True if angles are those from the upward vertical: gravity is written as negative.
+    const STANDS: bool = false;
+
     /// Mass, inertia and places of a link, and its parent; none where there is no such
     /// link.
     fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
@@ -184,6 +193,7 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
 
 by_reference! {
     impl<T: Scalar> Positions<T> for &P {
+        const STANDS: bool;
         fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
         fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
         fn point_velocities_into(

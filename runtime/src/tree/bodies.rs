@@ -91,16 +91,16 @@ impl<T: Scalar> Bodies<T> {
     }
 
     /// Linear momentum Σ m (V + **W** ω), kg m/s, to the side in which positive
-    /// angles move a link's end, and upwards. NaN for slices of another length than
-    /// there are links.
+    /// angles move a link's end, and against the direction of links of angle 0. NaN for
+    /// slices of another length than there are links.
     #[must_use]
     pub fn momentum(&self, workspace: &mut Workspace<T>, theta: &[T], omega: &[T]) -> [T; 2] {
         compiled::<Momentum, T>()(self, workspace, theta, omega)
     }
 
     /// Power τ ω₀ − **a**·**P**, W, of a torque τ on the root and an acceleration
-    /// **a** of its pivot, **P** the momentum: of the inertial forces −m **a** in the
-    /// centres of mass. NaN for slices of another length than there are links.
+    /// **a** of its pivot in the directions of the momentum **P**: of the inertial forces
+    /// −m **a** in the centres of mass. NaN for slices of another length than there are links.
     #[must_use]
     pub fn drive_power(
         &self,

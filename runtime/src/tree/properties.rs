@@ -13,12 +13,15 @@ use crate::system::{LinkPoint, LinkProperties};
 ///
 /// All functions but [`of`](Self::of) take O(links), and allocate some numbers for each
 /// link. With u = (sin θ, −cos θ) and v = (cos θ, sin θ), a point at p along and q across
-/// a link is at p u + q v from its pivot, and ω (p v − q u) is its velocity.
+/// a link is at p u + q v from its pivot, and ω (p v − q u) is its velocity; y is the
+/// opposite of that in trees that [stand](Self::standing).
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropertyTable<T> {
     shape: Shape,
     /// Rows of all links or generations, one after the other.
     rows: Vec<T>,
+    /// 1, or −1 in trees that stand.
+    up: T,
 }
 
 /// A link in the order from the root: its number, its parent, its properties.
@@ -29,7 +32,16 @@ impl<T: Scalar> PropertyTable<T> {
     /// SI units, in the order of the fields of [`LinkProperties`].
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
-        Self { shape, rows }
+        let up = T::from_f64(1.0);
+        Self { shape, rows, up }
+    }
+
+    /// Returns the same links in a tree that stands, or hangs: angles are those from the
+    /// upward vertical, or from the downward one as at first.
+    #[must_use]
+    pub fn standing(self, stands: bool) -> Self {
+        let up = T::from_f64(if stands { -1.0 } else { 1.0 });
+        Self { up, ..self }
     }
 
     /// Returns the same links on other scalars.
@@ -38,6 +50,7 @@ impl<T: Scalar> PropertyTable<T> {
         PropertyTable {
             shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
+            up: convert(self.up),
         }
     }
 
@@ -94,7 +107,7 @@ impl<T: Scalar> PropertyTable<T> {
             let from = |start: [T; 2], place, carrier: usize| {
                 let [x, y] = step(place, directions[carrier]);
                 let factor = factors[carrier];
-                [start[0] + factor * x, start[1] + factor * y]
+                [start[0] + factor * x, start[1] + self.up * factor * y]
             };
             if let Some(parent) = parent {
                 pivots[link] = from(pivots[parent], properties.pivot, parent);
@@ -126,7 +139,7 @@ impl<T: Scalar> PropertyTable<T> {
         for (link, parent, properties) in self.visited().into_iter().rev() {
             let torque = |place, carrier: usize, [force_x, force_y]: [T; 2]| {
                 let [x, y] = lever(place, directions[carrier]);
-                x * force_x + y * force_y
+                x * force_x + self.up * y * force_y
             };
             if let Some(place) = properties.place(point) {
                 torques[link] = torques[link] + torque(place, link, forces[link]);

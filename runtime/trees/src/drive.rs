@@ -8,7 +8,11 @@ use crate::numbers::{evaluate, value};
 
 /// The drive in numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Courses<T>(Drive<T>);
+pub(crate) struct Courses<T> {
+    drive: Drive<T>,
+    /// True if angles are those from the upward vertical.
+    stands: bool,
+}
 
 /// Returns the value of a function of time in any numbers that constants can be taken to.
 fn value_at<T: Scalar, S: Scalar>(signal: &Signal<T>, time: S, lift: &impl Fn(T) -> S) -> S {
@@ -33,21 +37,25 @@ fn acceleration<T: Scalar>(signal: &Signal<T>, time: T) -> T {
 }
 
 impl<T: Scalar> Courses<T> {
-    pub(crate) fn of(drive: &Drive, parameters: &[Double]) -> Self {
-        Self(drive.map(&|quantity| {
+    pub(crate) fn of(drive: &Drive, stands: bool, parameters: &[Double]) -> Self {
+        let drive = drive.map(&|quantity| {
             let number = value(quantity, parameters);
             T::from_parts(number.high(), number.low())
-        }))
+        });
+        Self { drive, stands }
     }
 
     pub(crate) fn cast<S>(&self, convert: &impl Fn(T) -> S) -> Courses<S> {
-        Courses(self.0.map(&|value| convert(*value)))
+        Courses {
+            drive: self.drive.map(&|value| convert(*value)),
+            stands: self.stands,
+        }
     }
 
     /// Returns the drive at a time: acceleration x, y of the root's pivot, torque.
     pub(crate) fn at(&self, time: T) -> [T; 3] {
         let zero = T::from_f64(0.0);
-        let Drive { torque, x, y } = &self.0;
+        let Drive { torque, x, y } = &self.drive;
         let [x, y] = [x, y].map(|position| match position {
             Some(position) => acceleration(position, time),
             None => zero,
@@ -59,9 +67,16 @@ impl<T: Scalar> Courses<T> {
         [x, y, torque]
     }
 
+    /// Returns that drive in the directions of the equations: y against that of links of
+    /// angle 0.
+    pub(crate) fn inner(&self, time: T) -> [T; 3] {
+        let [x, y, torque] = self.at(time);
+        [x, if self.stands { -y } else { y }, torque]
+    }
+
     /// Returns that drive as the equations take it, which are in SI units.
     pub(crate) fn root(&self, time: T) -> RootDrive<T> {
-        let [x, y, torque] = self.at(time);
+        let [x, y, torque] = self.inner(time);
         RootDrive {
             pivot: [-x, -y],
             torque,

@@ -21,7 +21,7 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     /// Returns the potential energy (J) at angles `theta` (rad), that of springs among it;
-    /// zero where every link hangs straight down with its spring at rest.
+    /// zero where all angles are zero and the springs at rest.
     #[must_use]
     pub fn potential_energy(&self, theta: &[T]) -> T {
         self.bodies.potential_energy(&mut Workspace::new(), theta)
@@ -51,7 +51,7 @@ impl<T: Scalar> PendulumTree<T> {
     pub fn drive_power(&self, time: T, theta: &[T], omega: &[T]) -> T {
         let zero = T::from_f64(0.0);
         let drive = match &self.drive {
-            Some(drive) => drive.at(time),
+            Some(drive) => drive.inner(time),
             None => [zero; 3],
         };
         let workspace = &mut Workspace::new();

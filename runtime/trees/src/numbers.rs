@@ -2,7 +2,8 @@
 //! 106 bits, so that what is formed of them is rounded once.
 
 use branched_pendulum::emitted::{
-    LinkBody, free_link, require_finite, require_non_negative, require_positive,
+    LinkBody, free_link, require_downward, require_finite, require_non_negative, require_positive,
+    require_upward,
 };
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
@@ -97,6 +98,8 @@ pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeErro
 fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), TreeError> {
     let check = match sign {
         Sign::Any => require_finite,
+        Sign::Hanging => require_downward,
+        Sign::Standing => require_upward,
         Sign::NonNegative => require_non_negative,
         Sign::Positive => require_positive,
     };

@@ -13,7 +13,8 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     /// Returns the positions x, y (m) of a point of each link, from the root's pivot: x to
-    /// the side to which positive angles move a link's end, y upwards.
+    /// the side to which positive angles move a link's end, y upwards. Where gravity is written
+    /// as negative, ends are above their pivots at angle 0.
     #[must_use]
     pub fn points(&self, point: LinkPoint, theta: &[T]) -> Vec<[T; 2]> {
         let mut points = self.pairs();

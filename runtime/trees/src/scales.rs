@@ -162,7 +162,7 @@ impl<T: Scalar> PendulumTree<T> {
         let mut budget = ScaleBudget::new();
         let workspace = &mut Workspace::new();
         let given = [&own[..], &rates, &on_links];
-        let drive = self.drive(time);
+        let drive = self.drive.as_ref().map(|drive| drive.inner(time));
         rule.tree
             .budget_by_scale(workspace, drive, given, &mut budget);
         Some(budget)

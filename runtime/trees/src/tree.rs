@@ -116,7 +116,7 @@ impl<T: Scalar> PendulumTree<T> {
         let links = numbers::links(scene, &parameters)?;
         let gravity = numbers::value(&scene.gravity, &parameters);
         let (parents, carries) = rows::parents(&links);
-        let drive = scene.drive.as_ref();
+        let (drive, stands) = (scene.drive.as_ref(), scene.stands());
         let above = constant(-gravity);
         let form = Form::of(&links, drive.is_some());
         let rows = in_numbers(&form.rows(&links, &carries));
@@ -139,8 +139,9 @@ impl<T: Scalar> PendulumTree<T> {
             described: Arc::new(described),
             equations,
             bodies: bodies(&links, gravity, &shape),
-            properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links))),
-            drive: drive.map(|drive| Courses::of(drive, &parameters)),
+            properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links)))
+                .standing(stands),
+            drive: drive.map(|drive| Courses::of(drive, stands, &parameters)),
             rule,
             #[cfg(feature = "strips")]
             held,

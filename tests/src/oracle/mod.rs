@@ -94,17 +94,15 @@ impl Link {
     }
 
     /// Torque of friction and spring that the parent exerts on the link in its
-    /// pivot, N m, and the sum of its absolute terms.
+    /// pivot, N m, and the sum of its absolute terms. Angles and rates are what they are:
+    /// their differences are terms, and angles and rates themselves are none.
     pub(crate) fn pivot_torque(&self, index: usize, theta: &[f64], omega: &[f64]) -> (f64, f64) {
-        let torque = self.friction * self.relative(omega[index], omega)
-            + self.spring * (self.relative(theta[index], theta) - self.rest);
-        let size = |own: f64, all: &[f64]| own.abs() + self.parent.map_or(0.0, |p| all[p].abs());
-        let terms = self.friction * size(omega[index], omega)
-            + self.spring * (size(theta[index], theta) + self.rest.abs());
-        let (braking, braking_terms) = self.laws[0].torque(
-            self.relative(omega[index], omega),
-            size(omega[index], omega),
-        );
+        let angle = self.relative(theta[index], theta);
+        let (strain, rate) = (angle - self.rest, self.relative(omega[index], omega));
+        let torque = self.friction * rate + self.spring * strain;
+        let rounded = if self.rest == 0.0 { 0.0 } else { angle.abs() };
+        let terms = self.friction * rate.abs() + self.spring * (strain.abs() + rounded);
+        let (braking, braking_terms) = self.laws[0].torque(rate, rate.abs());
         (-torque - braking, terms + braking_terms)
     }
 }

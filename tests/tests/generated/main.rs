@@ -11,6 +11,7 @@ mod loops;
 mod positions;
 mod scalars;
 mod sectors;
+mod standing;
 mod table;
 mod toolchain;
 mod transfer_forms;

@@ -4,11 +4,11 @@
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{LinkPoint, OdeFn, UnderTorques};
-use branched_pendulum_codegen::scene::{Offset, Quantity};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source;
+use branched_pendulum_tests::bodies::{bodies_of, point};
+use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::points::Place;
-use branched_pendulum_tests::oracle::{Link, Tree};
 use branched_pendulum_tests::scenes::branch::{Branch, BranchParameters};
 
 /// One tree in loops and written out, and its text for the tests' own route.
@@ -43,28 +43,8 @@ fn oracle(text: &str) -> (Tree, Vec<[f64; 2]>) {
     let text =
         format!("#[branched_pendulum(gravity = 9.80665, code = unrolled, {text})] struct Sample;");
     let scene = source::stages_of(&text).scene;
-    let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
-    let point = |offset: &Offset| [number(&offset.along), number(&offset.lateral)];
-    let links = scene.links.iter().map(|link| Link {
-        parent: link.parent.map(|parent| parent.0),
-        mass: number(&link.mass),
-        inertia: number(&link.inertia),
-        com: point(&link.com),
-        pivot: point(&link.pivot),
-        friction: 0.0,
-        drag: 0.0,
-        spring: 0.0,
-        rest: 0.0,
-        laws: Default::default(),
-    });
-    let tree = Tree {
-        gravity: 9.80665,
-        links: links.collect(),
-    };
-    (
-        tree,
-        scene.links.iter().map(|link| point(&link.end)).collect(),
-    )
+    let ends = scene.links.iter().map(|link| point(&link.end));
+    (bodies_of(&scene), ends.collect())
 }
 
 /// Index in the model of each link of the tree written out, by name.

@@ -5,10 +5,11 @@ mod random_trees;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum_codegen::scene::{Layout, Quantity, Scene};
+use branched_pendulum_codegen::scene::{Layout, Scene};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source;
-use branched_pendulum_tests::oracle::{Link, Tree, closed_form};
+use branched_pendulum_tests::bodies::bodies_of;
+use branched_pendulum_tests::oracle::{Tree, closed_form};
 use nalgebra::DMatrix;
 
 /// A tree in a table, the same one written out, and its text.
@@ -59,29 +60,6 @@ pair!(LargeTable, LargeUnrolled, LARGE:
 
 fn scene_of(text: &str) -> Scene {
     source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;")).scene
-}
-
-fn number(quantity: &Quantity) -> f64 {
-    quantity.exact().expect("no parameters").to_f64()
-}
-
-fn oracle_of(scene: &Scene) -> Tree {
-    let links = scene.links.iter().map(|link| Link {
-        parent: link.parent.map(|parent| parent.0),
-        mass: number(&link.mass),
-        inertia: number(&link.inertia),
-        com: [number(&link.com.along), 0.0],
-        pivot: [number(&link.pivot.along), 0.0],
-        friction: number(&link.passive.friction),
-        drag: number(&link.passive.drag),
-        spring: number(&link.passive.spring),
-        rest: number(&link.passive.rest),
-        laws: crate::loops::laws_of(link),
-    });
-    Tree {
-        gravity: number(&scene.gravity),
-        links: links.collect(),
-    }
 }
 
 fn states(n: usize, count: usize) -> impl Iterator<Item = [Vec<f64>; 2]> {
@@ -135,7 +113,7 @@ fn agree<L: Energy<f64>, U: Energy<f64>>(table: &L, unrolled: &U, text: &str) {
     let n = U::LINKS;
     assert_eq!(L::LINKS, n);
     assert_eq!(L::LINK_NAMES, U::LINK_NAMES);
-    let tree = oracle_of(&scene_of(text));
+    let tree = bodies_of(&scene_of(text));
     let mut worst = 0.0_f64;
     for [theta, omega] in states(n, 50) {
         let (mut own, mut other) = (vec![f64::NAN; n], vec![f64::NAN; n]);

@@ -22,6 +22,7 @@ mod scans;
 mod sectors;
 mod small;
 mod solves;
+mod stiff;
 mod support;
 mod symmetric;
 mod taylor;

@@ -41,18 +41,92 @@ crown!(FingersLockedInPhase, in_phase(finger), locked(finger, 0.4));
 /// Number of links of [`Crown`].
 const WHOLE: usize = 18;
 
+/// Copies on copies, in whose joints nothing is lost: reductions of reductions.
+macro_rules! rack {
+    ($name:ident $(, $reduction:ident($($inside:tt)*))*) => {
+        #[branched_pendulum(
+            gravity = 9.80665,
+            trunk: rod(mass = 0.4, length = 0.5, friction = 1e-3)[
+                arm(mass = 0.2, com = (0.1, 0.02), inertia = 1.5e-3, joint = (0.25, -0.03),
+                    drag = 3e-4)[
+                    hand: rod(mass = 0.05, length = 0.12, spring = 4e-3, friction = 1e-5) * 3,
+                    finger(mass = 0.03, com = (0.04, 0.01), inertia = 2e-5, joint = 0.08,
+                        at = (0.2, 0.04), drag = 1e-6)[
+                        nail: rod(mass = 0.01, length = 0.03, spring = 2e-3, rest = 0.7) * 2
+                    ] * 2
+                ] * 2,
+                tail: disc(mass = 0.1, length = 0.1, radius = 0.03, at = 0.3)
+            ],
+            drive(torque = 0.05 * sin(3 * t), x = 0.01 * cos(5 * t)),
+            emit(energies, momenta),
+            $($reduction($($inside)*)),*
+        )]
+        struct $name;
+    };
+}
+
+rack!(Rack);
+rack!(NailsInPhaseOnArms, in_phase(arm), in_phase(nail));
+rack!(
+    FingersLockedInArms,
+    locked(arm, 0.3),
+    locked(finger, 0.4),
+    locked(tail, -0.2)
+);
+rack!(
+    FingersInPhaseInArms,
+    in_phase(finger),
+    locked(arm, 0.3),
+    locked(finger, 0.4)
+);
+rack!(
+    NailsInPhaseInArms,
+    in_phase(nail),
+    locked(arm, 0.3),
+    locked(finger, 0.4)
+);
+
+/// Number of links of [`Rack`].
+const OF_RACK: usize = 22;
+
+/// Generations on each of several copies.
+macro_rules! bush {
+    ($name:ident $(, $reduction:ident($($inside:tt)*))*) => {
+        #[branched_pendulum(
+            gravity = 9.80665,
+            trunk: rod(mass = 0.4, length = 0.5, friction = 1e-3)[
+                limb: rod(mass = 0.2, length = 0.3, drag = 2e-4)[
+                    bough: generations(count = 2, branching = 2, shape = rod, mass = 0.1,
+                        length = 0.2, mass_ratio = 0.4, length_ratio = 0.8, friction = 1e-5)
+                ] * 3
+            ],
+            drive(torque = 0.05 * sin(3 * t), x = 0.01 * cos(5 * t)),
+            emit(energies, momenta),
+            $($reduction($($inside)*)),*
+        )]
+        struct $name;
+    };
+}
+
+bush!(Bush);
+bush!(BoughsInPhase, in_phase(bough));
+bush!(LimbsInPhase, in_phase(limb));
+bush!(BushInPhase, in_phase(all));
+bush!(LimbsLocked, locked(limb, -0.6));
+bush!(BoughsInPhaseOnLimbs, in_phase(bough), locked(limb, -0.6));
+
 /// A reduced model's state and that of the whole tree.
 struct Expanded {
     theta: Vec<f64>,
     omega: Vec<f64>,
-    whole_theta: [f64; WHOLE],
-    whole_omega: [f64; WHOLE],
+    whole_theta: Vec<f64>,
+    whole_omega: Vec<f64>,
 }
 
 fn expanded(tree: WholeTree, links: usize, random: &mut Random) -> Expanded {
     let theta = random.around_zero(links, PI);
     let omega = random.around_zero(links, 10.0);
-    let (mut whole_theta, mut whole_omega) = ([0.0; WHOLE], [0.0; WHOLE]);
+    let [mut whole_theta, mut whole_omega] = [(); 2].map(|()| vec![0.0; tree.links()]);
     tree.angles(&theta, &mut whole_theta).expect("all links");
     tree.velocities(&omega, &mut whole_omega)
         .expect("all links");
@@ -74,12 +148,11 @@ fn apart(left: &[f64], right: &[f64]) -> f64 {
 
 /// Kinetic energy, differences of potential energy and momenta are those of the whole
 /// tree.
-fn same_lagrangian<M: Energy<f64> + Canonical<f64>>(
-    model: &M,
-    momenta: impl Fn(&[f64], &[f64]) -> Vec<f64>,
+fn same_lagrangian<M: Energy<f64>, W: Energy<f64>>(
+    (model, momenta): (&M, impl Fn(&[f64], &[f64]) -> Vec<f64>),
+    (whole, whole_momenta): (&W, impl Fn(&[f64], &[f64]) -> Vec<f64>),
     tree: WholeTree,
 ) {
-    let whole = Crown::new();
     let mut random = Random::new(5);
     let links = M::LINKS;
     let mut zero = None;
@@ -87,11 +160,11 @@ fn same_lagrangian<M: Energy<f64> + Canonical<f64>>(
         let state = expanded(tree, links, &mut random);
         let (theta, omega) = (&state.theta[..], &state.omega[..]);
         let kinetic = model.kinetic_energy_of(theta, omega);
-        let expected = whole.kinetic_energy(&state.whole_theta, &state.whole_omega);
+        let expected = whole.kinetic_energy_of(&state.whole_theta, &state.whole_omega);
         assert!((kinetic - expected).abs() <= 1e-13 * expected);
 
         let potential = model.potential_energy_of(theta);
-        let offset = potential - whole.potential_energy(&state.whole_theta);
+        let offset = potential - whole.potential_energy_of(&state.whole_theta);
         let first = *zero.get_or_insert(offset);
         assert!(
             (offset - first).abs() <= 1e-13 * potential,
@@ -99,7 +172,7 @@ fn same_lagrangian<M: Energy<f64> + Canonical<f64>>(
         );
 
         // p = ∂K/∂ω, and the angles of several links move with one.
-        let parts = whole.momenta(&state.whole_theta, &state.whole_omega);
+        let parts = whole_momenta(&state.whole_theta, &state.whole_omega);
         let mut sums = vec![0.0; links];
         let mut part = parts.iter();
         tree.for_each(|link, _| sums[link] += part.next().expect("all links"));
@@ -107,15 +180,22 @@ fn same_lagrangian<M: Energy<f64> + Canonical<f64>>(
     }
 }
 
+macro_rules! momenta {
+    ($model:expr) => {
+        |theta: &[f64], omega: &[f64]| {
+            let at = |values: &[f64]| values.try_into().expect("all links");
+            $model.momenta(&at(theta), &at(omega)).to_vec()
+        }
+    };
+}
+
 macro_rules! check_lagrangian {
-    ($($name:ident),* $(,)?) => {
+    ($whole:ident: $($name:ident),* $(,)?) => {
+        let whole = $whole::new();
         $({
             let model = $name::new();
-            let momenta = |theta: &[f64], omega: &[f64]| {
-                let at = |values: &[f64]| values.try_into().expect("all links");
-                model.momenta(&at(theta), &at(omega)).to_vec()
-            };
-            same_lagrangian(&model, momenta, $name::WHOLE);
+            let of_whole = (&whole, momenta!(whole));
+            same_lagrangian((&model, momenta!(model)), of_whole, $name::WHOLE);
         })*
     };
 }
@@ -123,27 +203,41 @@ macro_rules! check_lagrangian {
 #[test]
 fn energies_and_momenta_are_those_of_the_whole_tree() {
     check_lagrangian!(
-        ArmsInPhase,
+        Crown: ArmsInPhase,
         HandsInPhase,
         AllInPhase,
         FingersLocked,
-        FingersLockedInPhase
+        FingersLockedInPhase,
+    );
+    check_lagrangian!(
+        Rack: NailsInPhaseOnArms,
+        FingersLockedInArms,
+        FingersInPhaseInArms,
+        NailsInPhaseInArms,
+    );
+    check_lagrangian!(
+        Bush: BoughsInPhase,
+        LimbsInPhase,
+        BushInPhase,
+        LimbsLocked,
+        BoughsInPhaseOnLimbs,
     );
 }
 
 /// Friction, drag, springs, the torque and the motion of the root's pivot included.
 #[test]
 fn copies_in_phase_stay_so() {
-    fn check<M: Pendulum<f64>>(model: &M, tree: WholeTree) {
-        let whole = Crown::new();
+    fn check<M: Pendulum<f64>, W: Pendulum<f64>>(model: &M, whole: &W, tree: WholeTree) {
         let mut random = Random::new(6);
         for _ in 0..200 {
             let state = expanded(tree, M::LINKS, &mut random);
             let mut alpha = vec![0.0; M::LINKS];
             model.accelerations_into(0.3, &state.theta, &state.omega, &mut alpha);
-            let mut found = [0.0; WHOLE];
+            let mut found = vec![0.0; W::LINKS];
             tree.velocities(&alpha, &mut found).expect("all links");
-            let expected = whole.accelerations(0.3, &state.whole_theta, &state.whole_omega);
+            let mut expected = vec![0.0; W::LINKS];
+            let (theta, omega) = (&state.whole_theta, &state.whole_omega);
+            whole.accelerations_into(0.3, theta, omega, &mut expected);
             assert!(
                 apart(&expected, &found) < 1e-11,
                 "{}",
@@ -151,9 +245,14 @@ fn copies_in_phase_stay_so() {
             );
         }
     }
-    check(&ArmsInPhase::new(), ArmsInPhase::WHOLE);
-    check(&HandsInPhase::new(), HandsInPhase::WHOLE);
-    check(&AllInPhase::new(), AllInPhase::WHOLE);
+    let (crown, rack, bush) = (Crown::new(), Rack::new(), Bush::new());
+    check(&ArmsInPhase::new(), &crown, ArmsInPhase::WHOLE);
+    check(&HandsInPhase::new(), &crown, HandsInPhase::WHOLE);
+    check(&AllInPhase::new(), &crown, AllInPhase::WHOLE);
+    check(&NailsInPhaseOnArms::new(), &rack, NailsInPhaseOnArms::WHOLE);
+    check(&BoughsInPhase::new(), &bush, BoughsInPhase::WHOLE);
+    check(&LimbsInPhase::new(), &bush, LimbsInPhase::WHOLE);
+    check(&BushInPhase::new(), &bush, BushInPhase::WHOLE);
 }
 
 #[test]
@@ -188,6 +287,43 @@ fn links_stand_for_as_many_as_move_alike() {
             ..
         })
     ));
+}
+
+/// Copies that hang from copies of links that are locked on copies of locked links: each has
+/// a link of its own.
+#[test]
+fn copies_on_locked_copies_are_told_apart() {
+    // The trunk with its tail and arms and their fingers, six hands, eight nails.
+    assert_eq!(<FingersLockedInArms as Pendulum<f64>>::LINKS, 15);
+    let mut angles = [0.0; OF_RACK];
+    let mut given: Vec<f64> = (0..15).map(f64::from).collect();
+    given[0] = 0.5;
+    let tree = FingersLockedInArms::WHOLE;
+    tree.angles(&given, &mut angles).expect("all links");
+    let (arm, finger) = (0.5 + 0.3, 0.5 + (0.3 + 0.4));
+    assert_eq!(
+        angles,
+        [
+            0.5, //
+            arm, 1.0, 2.0, 3.0, finger, 7.0, 8.0, finger, 9.0, 10.0, // the first arm
+            arm, 4.0, 5.0, 6.0, finger, 11.0, 12.0, finger, 13.0, 14.0, // the second
+            0.3,
+        ]
+    );
+    let count = |tree: WholeTree, links: usize| {
+        let mut counts = vec![0; links];
+        tree.counts(&mut counts);
+        counts
+    };
+    let mut own = vec![1; 15];
+    own[0] = 8;
+    assert_eq!(count(tree, 15), own);
+    // Nails of both fingers of an arm as one.
+    let in_phase = FingersInPhaseInArms::WHOLE;
+    let links = <FingersInPhaseInArms as Pendulum<f64>>::LINKS;
+    let counts = count(in_phase, links);
+    assert_eq!(counts.iter().sum::<usize>(), OF_RACK);
+    assert_eq!(counts.iter().filter(|&&count| count == 2).count(), 4);
 }
 
 #[branched_pendulum(

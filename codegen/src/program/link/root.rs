@@ -20,12 +20,11 @@ impl EntryList<'_, '_> {
         let Some(drive) = drive else { return };
         outputs = vec![zero; 3];
         for motion in &drive.pivot {
-            if let Some(symbol) = motion.acceleration {
-                let acceleration = self.lowering.temporal(&mut environment, symbol);
-                let builder = &mut self.lowering.builder;
-                let reduced = builder.mul(units.per_length, acceleration);
-                outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
-            }
+            let inner = &motion.inner_acceleration;
+            let acceleration = self.lowering.expr(&mut environment, inner);
+            let builder = &mut self.lowering.builder;
+            let reduced = builder.mul(units.per_length, acceleration);
+            outputs[usize::from(motion.name == "y")] = builder.neg(reduced);
         }
         if let Some(torque) = drive.torque {
             let torque = self.lowering.temporal(&mut environment, torque);

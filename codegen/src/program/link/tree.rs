@@ -111,11 +111,9 @@ impl Lowering<'_> {
         let mechanics = self.mechanics;
         let mut pivot = self.builder.zero_pair();
         for motion in mechanics.drive.iter().flat_map(|drive| &drive.pivot) {
-            if let Some(acceleration) = motion.acceleration {
-                let acceleration = self.symbol(environment, acceleration);
-                pivot[usize::from(motion.name == "y")] =
-                    self.builder.mul(units.per_length, acceleration);
-            }
+            let acceleration = self.expr(environment, &motion.inner_acceleration);
+            pivot[usize::from(motion.name == "y")] =
+                self.builder.mul(units.per_length, acceleration);
         }
         pivot[1] = self.builder.add(pivot[1], units.gravity);
         pivot.map(|component| self.builder.neg(component))

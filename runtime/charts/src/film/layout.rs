@@ -31,7 +31,6 @@ impl Film {
         for tree in &self.trees {
             for picture in 0..count {
                 for [x, y] in tree.segments(picture).into_iter().flatten() {
-                    let y = if self.upwards { -y } else { y };
                     bounds = [
                         bounds[0].min(x),
                         bounds[1].min(y),

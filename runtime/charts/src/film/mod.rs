@@ -50,7 +50,6 @@ pub struct Film {
     interval: f64,
     columns: usize,
     width: f64,
-    upwards: bool,
     background: Color,
     trees: Vec<Tree>,
 }
@@ -93,7 +92,6 @@ impl Film {
             interval,
             columns: 3,
             width: 720.0,
-            upwards: false,
             background: Color::rgb(255, 255, 255),
             trees: Vec::new(),
         }
@@ -154,13 +152,6 @@ impl Film {
         self
     }
 
-    /// Lets the trees stand up: angles are from the upward vertical.
-    #[must_use]
-    pub fn upwards(mut self) -> Self {
-        self.upwards = true;
-        self
-    }
-
     /// Sets the colour behind the trees, white at first.
     #[must_use]
     pub fn background(mut self, color: Color) -> Self {
@@ -192,9 +183,9 @@ impl Film {
         self
     }
 
-    /// Attaches SVG to a link of the last tree, in its frame: the pivot at (0, 0), the link
-    /// downwards, in px (mirrored in a film [`upwards`](Self::upwards)). [`scale`](Self::scale)
-    /// says how many px are a metre. The animated PNG goes without.
+    /// Attaches SVG to a link of the last tree, in its frame: the pivot at (0, 0), what is
+    /// along the link downwards, in px. [`scale`](Self::scale) says how many px are a metre.
+    /// The animated PNG goes without.
     #[must_use]
     pub fn attach(mut self, link: usize, svg: &str) -> Self {
         let looks = self
@@ -247,15 +238,10 @@ impl Film {
             .zip(self.labels(&layout))
         {
             svg::push_mark(&mut out, &marks);
-            let flip = if self.upwards {
-                " transform=\"scale(1 -1)\""
-            } else {
-                ""
-            };
             put(
                 &mut out,
                 format_args!(
-                    "<g transform=\"translate({} {})\">\n{}<g{flip} stroke-linecap=\"round\">\n",
+                    "<g transform=\"translate({} {})\">\n{}<g stroke-linecap=\"round\">\n",
                     svg::Px(root.0),
                     svg::Px(root.1),
                     tree.behind,
@@ -324,9 +310,7 @@ impl Film {
     fn drawing(&self, layout: &Layout, picture: usize) -> Drawing {
         let mut marks = self.labels(layout);
         for (tree, root) in self.trees.iter().zip(&layout.roots) {
-            let down = if self.upwards { -1.0 } else { 1.0 };
-            let place =
-                |[x, y]: [f64; 2]| (root.0 + layout.scale * x, root.1 + down * layout.scale * y);
+            let place = |[x, y]: [f64; 2]| (root.0 + layout.scale * x, root.1 + layout.scale * y);
             for (ends, look) in tree.segments(picture).iter().zip(&tree.looks) {
                 let [from, to] = ends.map(place);
                 marks.push(Mark::Lines {

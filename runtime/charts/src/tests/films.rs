@@ -38,11 +38,12 @@ fn a_film_holds_its_trees_at_all_times() {
     let pictures: Vec<[f64; 2]> = (0..50)
         .map(|i| [0.13 * f64::from(i), -0.4 * f64::from(i)])
         .collect();
-    for upwards in [false, true] {
+    for turn in [0.0, std::f64::consts::PI] {
+        let pictures = pictures
+            .iter()
+            .map(|angles| angles.map(|angle| turn - angle));
+        let pictures: Vec<[f64; 2]> = pictures.collect();
         let mut film = Film::new("Three", 0.1).size(500.0, 2);
-        if upwards {
-            film = film.upwards();
-        }
         for label in ["a", "b", "c"] {
             film = film.tree(label, &chain(), &pictures).unwrap();
         }

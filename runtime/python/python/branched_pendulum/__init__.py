@@ -1,6 +1,7 @@
 """Pendulum trees, described in text, and compiled models of them.
 
-SI units; angles are absolute, in radians from the downward vertical. A state is the angles
+SI units; angles are absolute, in radians from the downward vertical (from the upward one where
+gravity is written as negative and the tree stands; y is upwards in both). A state is the angles
 followed by the angular velocities.
 """
 

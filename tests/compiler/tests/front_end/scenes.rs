@@ -363,3 +363,29 @@ fn gravity_may_point_up() {
     );
     assert!(scene.gravity.exact().is_some_and(|g| g.is_negative()));
 }
+
+/// A tree stands where a minus is written before all of its gravity.
+#[test]
+fn gravity_says_whether_a_tree_stands() {
+    for (gravity, stands) in [
+        ("9.8", false),
+        ("-9.8", true),
+        ("0", false),
+        ("3 - 12.8", true),
+        ("g", false),
+        ("-g", true),
+        ("g * -2", true),
+        ("-g / k", true),
+        ("-g - 1", true),
+        ("1 - g", false),
+        ("-(g - k)", true),
+        ("-(-g)", false),
+        ("g^3", false),
+    ] {
+        let scene = scene(&format!(
+            "#[branched_pendulum(gravity = {gravity}, a: rod(mass = 1, length = 1))] struct A;"
+        ));
+        assert_eq!(scene.stands(), stands, "{gravity}");
+        assert_eq!(scene.requirements.is_empty(), scene.parameters.is_empty());
+    }
+}

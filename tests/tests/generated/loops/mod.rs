@@ -8,12 +8,13 @@ mod offsets;
 mod places;
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_codegen::scene::{Offset, Quantity, Scene};
+use branched_pendulum_codegen::scene::Scene;
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source;
+use branched_pendulum_tests::bodies::bodies_of;
+use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::drive::{Jet, Push};
-use branched_pendulum_tests::oracle::{Law, Link, Tree};
 use nalgebra::DVector;
 
 /// A tree in loops, the same one written out, its text, and the powers of both.
@@ -108,41 +109,6 @@ fn scene_of(text: &str) -> Scene {
     source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;")).scene
 }
 
-/// Laws of friction of a link in plain numbers.
-pub(crate) fn laws_of(link: &branched_pendulum_codegen::scene::Link) -> [Law; 2] {
-    let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
-    link.passive.laws.each_ref().map(|law| match law.is_none() {
-        false => Law {
-            coulomb: number(&law.coulomb),
-            quadratic: number(&law.quadratic),
-            width: number(&law.width),
-        },
-        true => Law::default(),
-    })
-}
-
-/// A scene that is written out, in plain numbers.
-fn oracle_of(scene: &Scene) -> Tree {
-    let number = |quantity: &Quantity| quantity.exact().expect("no parameters").to_f64();
-    let point = |offset: &Offset| [number(&offset.along), number(&offset.lateral)];
-    let links = scene.links.iter().map(|link| Link {
-        parent: link.parent.map(|parent| parent.0),
-        mass: number(&link.mass),
-        inertia: number(&link.inertia),
-        com: point(&link.com),
-        pivot: point(&link.pivot),
-        friction: number(&link.passive.friction),
-        drag: number(&link.passive.drag),
-        spring: number(&link.passive.spring),
-        rest: number(&link.passive.rest),
-        laws: laws_of(link),
-    });
-    Tree {
-        gravity: number(&scene.gravity),
-        links: links.collect(),
-    }
-}
-
 /// Index in `L` of each link of `U`, by name.
 fn order<L: Pendulum<f64>, U: Pendulum<f64>>() -> Vec<usize> {
     assert_eq!(L::LINKS, U::LINKS);
@@ -194,7 +160,7 @@ fn states(n: usize, count: usize) -> impl Iterator<Item = State> {
 fn agree<L: Energy<f64>, U: Energy<f64>>(loops: &L, unrolled: &U, text: &str, parts: [bool; 2]) {
     let n = U::LINKS;
     let order = order::<L, U>();
-    let tree = oracle_of(&scene_of(text));
+    let tree = bodies_of(&scene_of(text));
     let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
     for State { time, theta, omega } in states(n, 100) {
         let (own_theta, own_omega) = (placed(&order, &theta), placed(&order, &omega));

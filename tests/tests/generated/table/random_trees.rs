@@ -1,6 +1,6 @@
 //! The equations of one model in tables of random trees.
 
-use super::{expected, largest, oracle_of, states};
+use super::{bodies_of, expected, largest, states};
 use branched_pendulum::prelude::*;
 use branched_pendulum::tree::{LinkEquations, Row, Tree};
 use branched_pendulum_codegen::program::Column;
@@ -100,7 +100,7 @@ fn random_trees_agree_with_the_closed_form() {
         let root = program.evaluate(f64::sin_cos, "root_gravity", &[], |_, _| 0.0);
         let root = root.expect("every tree has gravity");
         let model = Tree::<LenderEquations, f64>::with_parents(&parents, &rows, [root[0], root[1]]);
-        let tree = oracle_of(scene);
+        let tree = bodies_of(scene);
         for [theta, omega] in states(LINKS, 20) {
             let mut alpha = vec![f64::NAN; LINKS];
             model.accelerations_into(None, &theta, &omega, &mut alpha);

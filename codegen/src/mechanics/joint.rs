@@ -1,0 +1,197 @@
+//! Angles and rates of joints. They are symbols of their own all through the derivation, and
+//! are formed by one subtraction: of rounded products κ θ_i − κ θ_π(i) stiff springs would
+//! keep few digits.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::{Expr, Role, SymbolId};
+use super::frame::DerivedFrame;
+use super::mismatch::CopyConstants;
+use crate::scene::{Coordinate, LinkId};
+
+/// A link's angle less its parent's, and less the one at which the spring is at rest; or the
+/// rate of the joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointDifference<F = Expr> {
+    /// The link's own angle or rate.
+    pub own: SymbolId,
+    /// The parent's.
+    pub parent: Option<SymbolId>,
+    /// The angle at which the spring is at rest, zero of rates.
+    pub rest: F,
+}
+
+impl JointDifference<Formula> {
+    /// The derivative by an angle or a rate.
+    pub(super) fn slope(&self, symbol: SymbolId) -> Option<Formula> {
+        match symbol {
+            own if own == self.own => Some(Formula::integer(1)),
+            parent if Some(parent) == self.parent => Some(Formula::integer(-1)),
+            _ => None,
+        }
+    }
+
+    /// The difference written out.
+    pub(super) fn written_out(&self) -> Formula {
+        let parent = self.parent.map_or_else(Formula::zero, Formula::symbol);
+        &(&Formula::symbol(self.own) - &parent) - &self.rest
+    }
+}
+
+impl JointDifference {
+    /// The difference as a formula, in the order in which it is computed.
+    pub fn formula(&self) -> Expr {
+        let minus = |expr: Expr| {
+            let number = Expr::Number((-1_i64).into());
+            Expr::Product(vec![number, expr])
+        };
+        let parent = self.parent.map(|parent| minus(Expr::Symbol(parent)));
+        let rest = (!self.rest.is_zero()).then(|| minus(self.rest.clone()));
+        let own = std::iter::once(Expr::Symbol(self.own));
+        Expr::Sum(own.chain(parent).chain(rest).collect())
+    }
+}
+
+/// What joints have one of.
+#[derive(Clone, Copy)]
+pub(super) enum JointQuantity {
+    Angle,
+    Rate,
+    /// Of small differences beside a motion.
+    SmallAngle,
+    SmallRate,
+}
+
+impl Derivation<'_> {
+    /// The difference as a symbol, or what it is the same as.
+    pub(super) fn joint(
+        &mut self,
+        quantity: JointQuantity,
+        name: &str,
+        difference: JointDifference<Formula>,
+    ) -> Formula {
+        if difference.parent.is_none() && difference.rest.is_zero() {
+            return Formula::symbol(difference.own);
+        }
+        let (code, text, latex) = match quantity {
+            JointQuantity::Angle => ("joint_angle", "φ", "\\varphi"),
+            JointQuantity::Rate => ("joint_rate", "φ̇", "\\dot\\varphi"),
+            JointQuantity::SmallAngle => ("joint_delta", "δφ", "\\delta\\varphi"),
+            JointQuantity::SmallRate => ("joint_delta_rate", "δφ̇", "\\delta\\dot\\varphi"),
+        };
+        let symbol = self.indexed(Role::Joint, code, text, latex, name);
+        self.joints.insert(symbol, difference);
+        Formula::symbol(symbol)
+    }
+
+    /// The rate of a link's joint.
+    pub(super) fn joint_rate(&mut self, link: usize, velocities: &[SymbolId]) -> Formula {
+        self.joint_of(JointQuantity::Rate, link, velocities, Formula::zero())
+    }
+
+    /// The difference of a link in the symbols of all links.
+    pub(super) fn joint_of(
+        &mut self,
+        quantity: JointQuantity,
+        link: usize,
+        symbols: &[SymbolId],
+        rest: Formula,
+    ) -> Formula {
+        let scene = self.scene;
+        let parent = scene.links[link].parent;
+        let difference = JointDifference {
+            own: symbols[link],
+            parent: parent.map(|LinkId(parent)| symbols[parent]),
+            rest,
+        };
+        self.joint(quantity, &scene.links[link].name, difference)
+    }
+
+    /// What stands for the differences of links in symmetric coordinates: that of a link is
+    /// mean + Σ weight · difference, as its angle is.
+    pub(super) fn symmetric_joints(
+        &mut self,
+        absolute: &DerivedFrame,
+        coordinates: &[Coordinate],
+        [angles, rates]: [&[SymbolId]; 2],
+        constants: &CopyConstants,
+    ) -> Vec<(SymbolId, Formula)> {
+        let mut replacements = Vec::new();
+        for (quantity, of_links, of_coordinates) in [
+            (JointQuantity::Angle, &absolute.coordinates, angles),
+            (JointQuantity::Rate, &absolute.velocities, rates),
+        ] {
+            let of_link = |derivation: &Self, &own: &SymbolId| {
+                let mut joints = derivation.joints.iter();
+                let (&symbol, joint) = joints.find(|(_, joint)| joint.own == own)?;
+                Some((symbol, joint.rest.substitute(&constants.replacements)))
+            };
+            let joints: Vec<Option<(SymbolId, Formula)>> =
+                of_links.iter().map(|own| of_link(self, own)).collect();
+            let mut sums = vec![Formula::zero(); joints.len()];
+            for (index, coordinate) in coordinates.iter().enumerate() {
+                let known = coordinate.weights.iter();
+                let rests = known.filter_map(|(link, weight)| {
+                    let (_, rest) = joints[link.0].as_ref()?;
+                    Some(&Formula::integer(*weight) * rest)
+                });
+                let rests: Vec<Formula> = rests.collect();
+                if rests.is_empty() {
+                    continue;
+                }
+                let rest =
+                    &rests.into_iter().sum::<Formula>() / &Formula::integer(coordinate.norm());
+                let difference = JointDifference {
+                    own: of_coordinates[index],
+                    parent: self
+                        .above(coordinates, coordinate)
+                        .map(|parent| of_coordinates[parent]),
+                    rest: rest.expand(),
+                };
+                let difference = self.joint(quantity, &coordinate.name, difference);
+                for (LinkId(link), weight) in &coordinate.weights {
+                    sums[*link] = &sums[*link] + &(&Formula::integer(*weight) * &difference);
+                }
+            }
+            let joints = joints.into_iter().zip(sums);
+            replacements.extend(joints.filter_map(|(joint, sum)| Some((joint?.0, sum))));
+        }
+        replacements
+    }
+
+    /// The coordinate that the parents of a coordinate's links have with the same weights.
+    fn above(&self, coordinates: &[Coordinate], coordinate: &Coordinate) -> Option<usize> {
+        let parent = |&(LinkId(link), weight): &_| Some((self.scene.links[link].parent?, weight));
+        let parents: Option<Vec<(LinkId, i64)>> = coordinate.weights.iter().map(parent).collect();
+        let parents = parents?;
+        coordinates
+            .iter()
+            .position(|other| parents.iter().all(|pair| other.weights.contains(pair)))
+    }
+
+    /// What stands for differences of which these constants are taken for zero.
+    pub(super) fn joints_without(&self, zero: &[(SymbolId, Formula)]) -> Vec<(SymbolId, Formula)> {
+        let joints = self.joints.iter();
+        let changed = joints.filter(|(_, joint)| {
+            let mut symbols = joint.rest.symbols().into_iter();
+            symbols.any(|symbol| zero.iter().any(|(constant, _)| *constant == symbol))
+        });
+        changed
+            .map(|(&symbol, joint)| (symbol, joint.written_out().substitute(zero)))
+            .collect()
+    }
+
+    /// A formula in which differences between copies that are at rest at several angles are
+    /// written out, so that what cancels does.
+    pub(super) fn with_rests(&self, formula: &Formula) -> Formula {
+        let lone = |symbol: SymbolId| {
+            let joint = self.joints.get(&symbol)?;
+            joint
+                .parent
+                .is_none()
+                .then(|| (symbol, joint.written_out()))
+        };
+        let replacements: Vec<_> = formula.symbols().into_iter().filter_map(lone).collect();
+        formula.substitute(&replacements)
+    }
+}
