@@ -1,8 +1,11 @@
-//! No method allocates in its steps: a million of them, counted.
+//! No method allocates in its steps: a million of them, counted. What is read from damaged
+//! texts asks for no more memory than the text has.
 
 #![cfg(feature = "std")]
 
 mod counting;
+#[cfg(feature = "serde")]
+mod damaged;
 
 use std::num::NonZeroUsize;
 

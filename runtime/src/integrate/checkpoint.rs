@@ -3,6 +3,9 @@
 // A sealed trait names the type.
 #![allow(unreachable_pub)]
 
+#[cfg(feature = "serde")]
+mod read;
+
 use alloc::vec::Vec;
 
 use super::report::Report;
@@ -19,9 +22,16 @@ use crate::system::State;
 /// with its options, are the caller's to bring again.
 ///
 /// With the feature `serde` it is data of serde. A format must keep the bits of its
-/// numbers.
+/// numbers. What is read is checked first: an error names the field that is none of a motion.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "read::Unchecked<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Checkpoint<T> {
     /// Time that the caller has reached, and what its rounding left over.
     pub(super) time: T,

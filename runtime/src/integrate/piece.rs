@@ -30,16 +30,27 @@ pub enum Form {
 }
 
 impl Form {
-    /// Returns true if the polynomial of a state of `n` components has so many terms of
-    /// both kinds. Those of a method do; a file may say anything.
-    pub(super) fn fits(self, n: usize, terms: [usize; 2]) -> bool {
-        match self {
-            Self::Alternating => terms[0] >= n,
-            Self::Bernstein => terms[0] >= bernstein(0.0).len() * n,
-            Self::Hermite => terms == [n, n],
-            Self::Collocation(_) => terms[1] == 0 || terms[1] == n,
-            Self::Taylor | Self::Linear => true,
-        }
+    /// Returns true if the polynomial of a state of `n` components has so many numbers in its
+    /// terms of both kinds. Those of a method do; a file may say anything.
+    #[cfg(feature = "serde")]
+    pub(super) fn fits(self, n: usize, [terms, apart]: [usize; 2]) -> bool {
+        // How many terms are at least there, and at most.
+        let (terms_of, apart_of) = match self {
+            Self::Alternating => (1..=usize::MAX, 0..=0),
+            Self::Bernstein => {
+                let terms = bernstein(0.0).len();
+                (terms..=terms, 0..=0)
+            }
+            Self::Hermite => (1..=1, 1..=1),
+            Self::Collocation(order) => (order.stages()..=order.stages(), 0..=1),
+            Self::Taylor => (2..=usize::MAX, 0..=0),
+            Self::Linear => (0..=0, 0..=0),
+        };
+        let whole = |numbers: usize, terms: core::ops::RangeInclusive<usize>| match n {
+            0 => numbers == 0,
+            n => numbers % n == 0 && terms.contains(&(numbers / n)),
+        };
+        whole(terms, terms_of) && whole(apart, apart_of)
     }
 }
 

@@ -1,5 +1,8 @@
 //! A motion that is kept, with its state at any time.
 
+#[cfg(feature = "serde")]
+mod read;
+
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -15,6 +18,9 @@ use crate::system::State;
 /// States are those of [`DenseStep::eval`] in the run, bit for bit. Memory for a step: a
 /// state for each term of its polynomial, 8 or 9 beside the two ends for the explicit
 /// pairs, as many as stages for Gauss methods, as orders for Taylor series.
+///
+/// With the feature `serde` it is data of serde. What is read is checked first: an error names
+/// the field that does not fit the others.
 ///
 /// # Examples
 ///
@@ -38,6 +44,13 @@ use crate::system::State;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "read::Unchecked<T>",
+        bound(deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Trajectory<T> {
     dimension: usize,
     /// The start, and the end of each step.
@@ -181,9 +194,6 @@ impl<T: Real> Trajectory<T> {
             return None;
         }
         let kept = self.steps.get(index)?;
-        if !kept.form.fits(self.dimension, kept.terms) {
-            return None;
-        }
         let numbers = self.numbers.get(kept.first..)?;
         let (start, numbers) = numbers.split_at_checked(self.dimension)?;
         let (end, numbers) = numbers.split_at_checked(self.dimension)?;

@@ -1,4 +1,4 @@
-//! The system's allocator, which counts the requests of each thread.
+//! The system's allocator, which counts the requests of each thread and knows the largest.
 
 // A global allocator cannot be written without `unsafe`.
 #![allow(unsafe_code)]
@@ -9,6 +9,7 @@ use std::cell::Cell;
 thread_local! {
     // Of this thread alone: the tests run side by side.
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    static LARGEST: Cell<usize> = const { Cell::new(0) };
 }
 
 struct Counting;
@@ -18,6 +19,7 @@ unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // A thread that is ending has no counter any more.
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
+        let _ = LARGEST.try_with(|largest| largest.set(largest.get().max(layout.size())));
         // SAFETY: the caller keeps to the contract of `alloc`.
         unsafe { System.alloc(layout) }
     }
@@ -35,4 +37,11 @@ static ALLOCATOR: Counting = Counting;
 /// Number of allocations of this thread until now.
 pub(crate) fn allocations() -> u64 {
     ALLOCATIONS.with(Cell::get)
+}
+
+/// Size of the largest request of this thread in `work`, in bytes, and its result.
+pub(crate) fn largest_request<R>(work: impl FnOnce() -> R) -> (usize, R) {
+    LARGEST.with(|largest| largest.set(0));
+    let result = work();
+    (LARGEST.with(Cell::get), result)
 }

@@ -1,17 +1,7 @@
 // What the refused sources do, but for what is refused in them.
 equations!(Fork: &[1, 2, 1]);
 
-impl Scalar for Own {
-    fn from_f64(value: f64) -> Own {
-        Own(value)
-    }
-    fn sin_cos(self) -> (Own, Own) {
-        (Own(self.0.sin()), Own(self.0.cos()))
-    }
-    fn sqrt(self) -> Own {
-        Own(self.0.sqrt())
-    }
-}
+own_scalar!();
 
 fn double<T: Lane>(x: T) -> T {
     x + x

@@ -65,7 +65,13 @@ macro_rules! equations {
 fn evaluate<E: LinkEquations>() {
     let tree = Tree::<E, f64>::new(vec![0.0; 3], [0.0, 1.0]);
     let mut alpha = [0.0; 5];
-    tree.accelerations_with(&mut Workspace::new(), None, &[0.1; 5], &[0.0; 5], &mut alpha);
+    tree.accelerations_with(
+        &mut Workspace::new(),
+        None,
+        &[0.1; 5],
+        &[0.0; 5],
+        &mut alpha,
+    );
 }
 
 /// A number of one's own.
@@ -91,6 +97,54 @@ impl Neg for Own {
     fn neg(self) -> Own {
         Own(-self.0)
     }
+}
+
+/// Makes it a scalar, with more functions than every scalar needs.
+macro_rules! own_scalar {
+    ($($more:tt)*) => {
+        impl Scalar for Own {
+            fn from_f64(value: f64) -> Own {
+                Own(value)
+            }
+            fn sin_cos(self) -> (Own, Own) {
+                (Own(self.0.sin()), Own(self.0.cos()))
+            }
+            fn sqrt(self) -> Own {
+                Own(self.0.sqrt())
+            }
+            $($more)*
+        }
+    };
+}
+
+/// Says that it is so many numbers of another kind, which make up a chunk.
+macro_rules! own_simd {
+    ($number:ident, $lanes:expr, $chunk:ty) => {
+        impl Simd<$number> for Own {
+            type One = $number;
+            type Mask = bool;
+            type Chunk = $chunk;
+            const LANES: usize = $lanes;
+            fn mask(meant: impl Fn(usize) -> bool) -> bool {
+                meant(0)
+            }
+            fn choose(self, other: Own, mask: bool) -> Own {
+                if mask { self } else { other }
+            }
+            fn larger_size(self, _: Own) -> Own {
+                self
+            }
+            fn splat(value: $number) -> Own {
+                Own(value.into())
+            }
+            fn rotate_lanes(self, _: usize) -> Own {
+                self
+            }
+            fn tile_lanes(self, _: usize) -> Own {
+                self
+            }
+        }
+    };
 }
 
 /// A part that computes squares of any numbers.

@@ -1,3 +1,4 @@
 // error: error[E0277] | Registers
+own_scalar!();
 impl Lane for Own {}
 fn main() {}

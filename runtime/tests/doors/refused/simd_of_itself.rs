@@ -1,15 +1,4 @@
 // error: error[E0119] | conflicting implementations
-impl Scalar for Own {
-    fn from_f64(value: f64) -> Own {
-        Own(value)
-    }
-    fn sin_cos(self) -> (Own, Own) {
-        (self, self)
-    }
-    fn sqrt(self) -> Own {
-        self
-    }
-}
-
+own_scalar!();
 impl Simd<Own> for Own {}
 fn main() {}

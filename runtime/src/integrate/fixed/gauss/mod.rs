@@ -36,6 +36,12 @@ impl GaussOrder {
         }]
     }
 
+    /// Number of its stages.
+    #[cfg(feature = "serde")]
+    pub(in crate::integrate) fn stages(self) -> usize {
+        self.table().nodes.len()
+    }
+
     /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
     /// such node.
     pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
