@@ -6,9 +6,10 @@
 mod accuracy;
 mod animation;
 mod continuation;
-
+mod dense_regression;
 mod ensemble;
 mod events;
+mod exponents;
 mod failures;
 mod gauss;
 mod hostile;
