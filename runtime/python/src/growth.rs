@@ -1,6 +1,7 @@
 //! Growth of small differences: the class `Growth`.
 
 use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -46,6 +47,30 @@ impl Growth {
     }
 }
 
+/// Sets of links that are copies and in phase at all starts, by their names.
+pub(crate) fn copies(
+    motions: &dyn Motions,
+    alike: &[Vec<String>],
+    starts: &[State<f64>],
+) -> PyResult<Copies> {
+    let names = motions.names();
+    let place = |name: &String| {
+        let found = names.iter().position(|own| own == name);
+        found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
+    };
+    let of = |set: &Vec<String>| -> PyResult<Vec<usize>> { set.iter().map(place).collect() };
+    let places: Vec<Vec<usize>> = alike.iter().map(of).collect::<PyResult<_>>()?;
+    let sets: Vec<&[usize]> = places.iter().map(Vec::as_slice).collect();
+    motions.copies(&sets, starts).ok_or_else(|| {
+        let sets: Vec<String> = alike
+            .iter()
+            .map(|set| format!("`{}`", set.join("` and `")))
+            .collect();
+        let text = format!("{} are no copies that start alike", sets.join(" or "));
+        PyValueError::new_err(text)
+    })
+}
+
 /// Growth that is asked for.
 pub(crate) struct GrowthTask {
     pub(crate) starts: Vec<State<f64>>,
@@ -67,16 +92,8 @@ impl GrowthTask {
             let text = format!("pair must be two names of links, got {}", pair.len());
             return Err(PyValueError::new_err(text));
         };
-        let names = motions.names();
-        let place = |name: &String| {
-            let found = names.iter().position(|own| own == name);
-            found.ok_or_else(|| PyKeyError::new_err(format!("there is no link `{name}`")))
-        };
-        let copies = motions.copies([place(one)?, place(other)?], &self.starts);
-        let Some(copies) = copies else {
-            let text = format!("`{one}` and `{other}` are no copies that start alike");
-            return Err(PyValueError::new_err(text));
-        };
+        let alike = vec![one.clone(), other.clone()];
+        let copies = copies(motions, &[alike], &self.starts)?;
         let grown = py.detach(|| {
             ensemble.map(&self.starts, |_, start| {
                 motions.growth(&self, &copies, start)

@@ -2,11 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use branched_pendulum::analysis::growth::{
-    BetweenCopies, Grown, Growth, GrowthError, pairs_of_links,
-};
+use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthError};
 use branched_pendulum::analysis::variational::{
-    Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
+    Copies, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
 use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
@@ -40,6 +38,15 @@ pub(crate) trait Model:
     fn smoothed_coordinates(&self) -> Coordinates {
         Coordinates::links(self.link_names().len())
     }
+}
+
+/// Deviations whose exponents are asked for.
+pub(crate) enum Deviations {
+    All,
+    /// Equal in all copies.
+    Within(Copies),
+    /// Differences between copies.
+    Transverse(Copies),
 }
 
 /// The motions of a [`Model`], whatever its type.
@@ -90,20 +97,21 @@ pub(crate) trait Motions: Send + Sync {
     fn lyapunov(
         &self,
         exponents: &Lyapunov,
+        deviations: &Deviations,
         options: Options<f64>,
         start: &State<f64>,
     ) -> Result<LyapunovSpectrum, LyapunovError>;
 
-    /// Pairs of components of a state, of two links with all that hangs from them; none where
-    /// they are no copies that are in phase at all starts.
-    fn copies(&self, links: [usize; 2], starts: &[State<f64>]) -> Option<Vec<[usize; 2]>>;
+    /// Links of each set with all that hangs from them; none where they are no copies that are
+    /// in phase at all starts.
+    fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies>;
 
-    /// Growth of a difference between copies, by pairs of components, along a motion; without
-    /// a frequency looked at by that of the difference beside all links at rest.
+    /// Growth of a difference between copies along a motion; without a frequency looked at by
+    /// that of the difference beside all links at rest.
     fn growth(
         &self,
         task: &GrowthTask,
-        copies: &[[usize; 2]],
+        copies: &Copies,
         start: &State<f64>,
     ) -> Result<Grown, GrowthError>;
 
@@ -259,26 +267,31 @@ impl<M: Model> Motions for M {
     fn lyapunov(
         &self,
         exponents: &Lyapunov,
+        deviations: &Deviations,
         options: Options<f64>,
         start: &State<f64>,
     ) -> Result<LyapunovSpectrum, LyapunovError> {
-        exponents.spectrum(&Dop853::new(options), &linearised(self.clone()), start)
+        let (method, system) = (&Dop853::new(options), &linearised(self.clone()));
+        match deviations {
+            Deviations::All => exponents.spectrum(method, system, start),
+            Deviations::Within(copies) => exponents.within(copies, method, system, start),
+            Deviations::Transverse(copies) => exponents.transverse(copies, method, system, start),
+        }
     }
 
-    fn copies(&self, links: [usize; 2], starts: &[State<f64>]) -> Option<Vec<[usize; 2]>> {
-        let pairs = pairs_of_links(&self.link_parents(), links)?;
-        let both = BetweenCopies::new(self, pairs.clone());
-        let in_phase = starts.iter().all(|start| both.is_in_phase(start));
-        in_phase.then_some(pairs)
+    fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies> {
+        let copies = Copies::of_links(&self.link_parents(), alike)?;
+        let are_in_phase = starts.iter().all(|start| copies.are_in_phase(self, start));
+        are_in_phase.then_some(copies)
     }
 
     fn growth(
         &self,
         task: &GrowthTask,
-        copies: &[[usize; 2]],
+        copies: &Copies,
         start: &State<f64>,
     ) -> Result<Grown, GrowthError> {
-        let system = BetweenCopies::new(linearised(self.clone()), copies.to_vec());
+        let system = BetweenCopies::new(linearised(self.clone()), copies.clone());
         let frequency = task.frequency_hz.or_else(|| system.frequency_at_rest());
         let growth = Growth {
             frequency_hz: frequency.unwrap_or(f64::NAN),

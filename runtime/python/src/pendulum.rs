@@ -17,8 +17,8 @@ use crate::IntegrationError;
 use crate::arrays::{Numbers, Row, Table, by_state, matrix, whole};
 use crate::events::{FoundEvents, Watched, find_events};
 use crate::failures::{Failures, failed};
-use crate::growth::{Growth, GrowthTask};
-use crate::motions::Motions;
+use crate::growth::{Growth, GrowthTask, copies};
+use crate::motions::{Deviations, Motions};
 use crate::smoothing::{SmoothedMotion, Smoother, refused, rows};
 use crate::solution::Solution;
 
@@ -270,10 +270,15 @@ impl Pendulum {
     }
 
     /// Returns the `count` largest Lyapunov exponents (1/s) of the motion from `y0` at `t0`
-    /// (s), and their standard errors: deviations are made orthonormal every `interval` (s),
-    /// and counted over `intervals` of them after `settling` others. Other threads of Python
-    /// run meanwhile.
-    #[pyo3(signature = (y0, count = 1, interval = 0.5, settling = 20, intervals = 200, t0 = 0.0, rtol = 1e-9))]
+    /// (s), the largest first, and their standard errors: deviations in general position are
+    /// made orthonormal every `interval` (s), and counted over `intervals` of them after
+    /// `settling` others. Other threads of Python run meanwhile.
+    ///
+    /// A motion of copies in phase stays in phase, and has exponents of two kinds: `within`,
+    /// of deviations that are equal in all copies, and `transverse`, of differences between
+    /// copies, which grow where the largest is positive. Either takes sets of names of links
+    /// that are copies, with all that hangs from them: `within=[("child_1", "child_2")]`.
+    #[pyo3(signature = (y0, count = 1, interval = 0.5, settling = 20, intervals = 200, t0 = 0.0, rtol = 1e-9, within = None, transverse = None))]
     #[allow(clippy::too_many_arguments)]
     fn lyapunov<'py>(
         &self,
@@ -285,6 +290,8 @@ impl Pendulum {
         intervals: i128,
         t0: f64,
         rtol: f64,
+        within: Option<Vec<Vec<String>>>,
+        transverse: Option<Vec<Vec<String>>>,
     ) -> PyResult<(Row<'py>, Row<'py>)> {
         let start = State::new(t0, y0.row("y0", self.motions.dimension())?);
         let exponents = Lyapunov {
@@ -293,12 +300,26 @@ impl Pendulum {
             settling: whole("settling", settling, 0)?,
             intervals: whole("intervals", intervals, 1)?,
         };
-        let options = Options::with_tolerance(rtol);
-        let spectrum = py.detach(|| self.motions.lyapunov(&exponents, options, &start));
-        let spectrum = spectrum.map_err(|error| match error {
-            LyapunovError::Count { .. } | LyapunovError::Interval { .. } => {
-                PyValueError::new_err(error.to_string())
+        let starts = std::slice::from_ref(&start);
+        let of = |alike: Vec<Vec<String>>| copies(&*self.motions, &alike, starts);
+        let deviations = match (within, transverse) {
+            (None, None) => Deviations::All,
+            (Some(alike), None) => Deviations::Within(of(alike)?),
+            (None, Some(alike)) => Deviations::Transverse(of(alike)?),
+            _ => {
+                let text = "exponents are those `within` motions in phase or `transverse` to them";
+                return Err(PyValueError::new_err(text));
             }
+        };
+        let options = Options::with_tolerance(rtol);
+        let spectrum = py.detach(|| {
+            self.motions
+                .lyapunov(&exponents, &deviations, options, &start)
+        });
+        let spectrum = spectrum.map_err(|error| match error {
+            LyapunovError::Count { .. }
+            | LyapunovError::Interval { .. }
+            | LyapunovError::NotInPhase => PyValueError::new_err(error.to_string()),
             LyapunovError::Integration(failure) => failed(failure),
             error => IntegrationError::new_err(error.to_string()),
         })?;

@@ -86,6 +86,17 @@ fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
     PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree { tree })
 }
 
+impl Tree {
+    /// Angles that were given, or zeros.
+    fn angles(&self, theta: Option<Numbers<'_>>) -> PyResult<Vec<f64>> {
+        let links = self.tree.links();
+        match theta {
+            Some(theta) => theta.row("theta", links),
+            None => Ok(vec![0.0; links]),
+        }
+    }
+}
+
 #[pymethods]
 impl Tree {
     #[new]
@@ -221,7 +232,8 @@ impl Tree {
     }
 
     /// Returns frequencies (Hz) and shapes of the linear modes, a row for each, about angles
-    /// `theta` (rad) at which the tree is at rest: zeros, if none are given.
+    /// `theta` (rad) at which the tree is at rest: zeros, if none are given. ValueError where
+    /// they are no equilibrium, with the torque there; `equilibrium` finds one near them.
     #[pyo3(signature = (theta = None))]
     fn modes<'py>(
         &self,
@@ -229,14 +241,20 @@ impl Tree {
         theta: Option<Numbers<'py>>,
     ) -> PyResult<(Row<'py>, Matrix<'py>)> {
         let n = self.tree.links();
-        let theta = match theta {
-            Some(theta) => theta.row("theta", n)?,
-            None => vec![0.0; n],
-        };
+        let theta = self.angles(theta)?;
         let modes = self.tree.modes(&theta);
         let modes = modes.map_err(|error| PyValueError::new_err(error.to_string()))?;
         let shapes = matrix(py, modes.shapes.concat(), n)?;
         Ok((modes.frequencies_hz.into_pyarray(py), shapes))
+    }
+
+    /// Returns the angles (rad) near `theta` at which the tree stays at rest, stable or not:
+    /// near zeros, if none are given. The drive is left out.
+    #[pyo3(signature = (theta = None))]
+    fn equilibrium<'py>(&self, py: Python<'py>, theta: Option<Numbers<'py>>) -> PyResult<Row<'py>> {
+        let found = self.tree.equilibrium(&self.angles(theta)?);
+        let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok(found.into_pyarray(py))
     }
 
     /// Returns the positions x, y (m) of a point of each link, `"pivot"`, `"centre"` or `"end"`,

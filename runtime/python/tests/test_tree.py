@@ -125,6 +125,30 @@ def test_lyapunov_exponents(tree):
     assert exponents[0] > 0.5 and abs(exponents.sum()) < 0.05
     with pytest.raises(ValueError, match="7 exponents"):
         tree.lyapunov(wild, count=7)
+    with pytest.raises(ValueError, match="positive time"):
+        tree.lyapunov(wild, interval=-0.5)
+
+
+def test_exponents_in_phase(tree):
+    """In phase, where a difference grows: the largest exponent is that of the difference."""
+    start = np.array([np.radians(44), 0, 0, 0, 0, 0])
+    children = [("child_1", "child_2")]
+    (largest,), _ = tree.lyapunov(start, settling=40, intervals=300)
+    (within,), _ = tree.lyapunov(start, settling=40, intervals=300, within=children)
+    (transverse,), _ = tree.lyapunov(start, settling=40, intervals=300, transverse=children)
+    assert abs(largest - transverse) < 0.01 and transverse > 0.2 and within < 0.05
+    growth = tree.growth(start[None], children[0], [170.0])
+    assert abs(growth.rates[0] - transverse) < 0.02
+    wheel = bp.Tree("""gravity = 9.81,
+        wheel(mass = 1, com = 0, inertia = 1, joint = 0) [rod: rod(mass = 1, length = 1)]""")
+    for count in (1, 2):
+        exponents, _ = wheel.lyapunov([0, np.pi, 0, 0], count=count, interval=0.1, intervals=40)
+        assert exponents[0] == pytest.approx(np.sqrt(1.5 * 9.81), rel=1e-4)
+    apart = start + [0, 0.1, 0, 0, 0, 0]
+    with pytest.raises(ValueError, match="start alike"):
+        tree.lyapunov(apart, within=children)
+    with pytest.raises(KeyError):
+        tree.lyapunov(start, within=[("child_1", "child")])
 
 
 def test_frames(tree):
@@ -162,6 +186,9 @@ def test_modes_and_points(tree):
             stiffness @ shape, (2 * np.pi * frequency) ** 2 * mass @ shape, atol=1e-12
         )
     np.testing.assert_allclose(tree.points(theta)[0], [0.0, -0.27], atol=1e-16)
+    with pytest.raises(ValueError, match="no equilibrium.*`equilibrium`"):
+        tree.modes([1.0, 0.0, 0.0])
+    np.testing.assert_allclose(tree.equilibrium([1.0, 0.0, 0.0]), theta, atol=1e-15)
 
 
 def test_budget_by_scale():

@@ -2,9 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::modes::{ModesError, symmetric_matrix};
+use super::modes::{Modes, ModesError, check_rest, symmetric_matrix};
+use super::sector_modes::{SectorModes, SectorModesError};
 use crate::approximate::rest::{MOST_STEPS, come_to_rest};
 use crate::errors::errors;
+use crate::sectors::Sector;
 
 /// Matrices of a tree at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +17,38 @@ pub struct AtRest<const N: usize> {
     pub stiffness: [[f64; N]; N],
     /// Accelerations from rest, rad/s².
     pub accelerations: [f64; N],
+}
+
+impl<const N: usize> AtRest<N> {
+    /// Returns the torques on the links, M α (N m): zero at an equilibrium.
+    pub fn torques(&self) -> [f64; N] {
+        let product = |row: &[f64; N]| {
+            let terms = row.iter().zip(&self.accelerations);
+            terms.map(|(mass, alpha)| mass * alpha).sum()
+        };
+        self.mass.each_ref().map(product)
+    }
+
+    /// Returns the linear modes about these angles.
+    ///
+    /// # Errors
+    ///
+    /// As [`Modes::at_rest`].
+    pub fn modes(&self) -> Result<Modes, ModesError> {
+        Modes::at_rest(&self.mass, &self.stiffness, &self.torques())
+    }
+
+    /// Returns the linear modes about these angles, sector by sector.
+    ///
+    /// # Errors
+    ///
+    /// As [`SectorModes::new`], and [`ModesError::NotAtRest`] among the
+    /// [`SectorModesError::Matrices`].
+    pub fn sector_modes(&self, sectors: &[Sector]) -> Result<SectorModes, SectorModesError> {
+        let stiffness = symmetric_matrix("stiffness", &self.stiffness)?;
+        check_rest(&stiffness, &self.torques())?;
+        SectorModes::new(sectors, &self.mass, &self.stiffness)
+    }
 }
 
 /// Finds the equilibrium near `start`, at which the tree stays at rest, by Newton's
@@ -32,7 +66,7 @@ pub struct AtRest<const N: usize> {
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-/// use branched_pendulum::analysis::{AtRest, Modes, equilibrium};
+/// use branched_pendulum::analysis::{AtRest, equilibrium};
 /// use branched_pendulum::prelude::*;
 ///
 /// #[branched_pendulum(
@@ -43,35 +77,63 @@ pub struct AtRest<const N: usize> {
 /// struct Reed;
 ///
 /// let reed = Reed::new();
-/// let theta = equilibrium([0.0], |theta| AtRest {
+/// let at = |theta: &[f64; 1]| AtRest {
 ///     mass: reed.mass_matrix(theta),
 ///     stiffness: reed.stiffness_matrix(theta),
 ///     accelerations: reed.accelerations(theta, &[0.0]),
-/// })?;
+/// };
+/// let theta = equilibrium([0.0], at)?;
 /// // It leans further than the spring alone would have it.
 /// assert!((theta[0] - 0.6381).abs() < 1e-3, "{theta:?}");
 /// assert!(reed.accelerations(&theta, &[0.0])[0].abs() < 1e-12);
-/// let modes = Modes::new(&reed.mass_matrix(&theta), &reed.stiffness_matrix(&theta))?;
-/// assert!(modes.frequencies_hz[0] > 0.5);
+/// assert!(at(&theta).modes()?.frequencies_hz[0] > 0.5);
+/// assert!(at(&[0.0]).modes().is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn equilibrium<const N: usize>(
     start: [f64; N],
     mut at: impl FnMut(&[f64; N]) -> AtRest<N>,
 ) -> Result<[f64; N], EquilibriumError> {
+    let at = |angles: &[f64]| {
+        let mut theta = start;
+        theta.copy_from_slice(angles);
+        let at = at(&theta);
+        // Asked for, since a step by a mass matrix that is none would be wrong.
+        symmetric_matrix("mass", &at.mass)?;
+        Ok((at.stiffness.to_vec(), at.torques().to_vec()))
+    };
+    let found = equilibrium_of_torques(&start, at)?;
     let mut theta = start;
+    theta.copy_from_slice(&found);
+    Ok(theta)
+}
+
+/// Finds the equilibrium near `start` as [`equilibrium`] does, of any number of angles: `at`
+/// tells the rows of the stiffness matrix K and the torques τ of the system at rest, of which
+/// a step is K δ = τ.
+///
+/// # Errors
+///
+/// Those of `at`, and as [`equilibrium`].
+pub fn equilibrium_of_torques<R: AsRef<[f64]>>(
+    start: &[f64],
+    mut at: impl FnMut(&[f64]) -> Result<(Vec<R>, Vec<f64>), ModesError>,
+) -> Result<Vec<f64>, EquilibriumError> {
+    let mut theta = start.to_vec();
     let last_step = come_to_rest(&mut start.to_vec(), |angles| {
         theta.copy_from_slice(angles);
-        let AtRest {
-            mass,
-            stiffness,
-            accelerations,
-        } = at(&theta);
-        let mass = symmetric_matrix("mass", &mass).map_err(EquilibriumError::Matrix)?;
+        let (stiffness, torques) = at(angles).map_err(EquilibriumError::Matrix)?;
         let stiffness: DMatrix<f64> =
             symmetric_matrix("stiffness", &stiffness).map_err(EquilibriumError::Matrix)?;
-        let torque = mass * DVector::from_column_slice(&accelerations);
-        let step = stiffness.lu().solve(&torque);
+        let (torques, rows) = (DVector::from_vec(torques), stiffness.nrows());
+        if torques.len() != rows {
+            let torques = torques.len();
+            return Err(EquilibriumError::Matrix(ModesError::Torques {
+                torques,
+                rows,
+            }));
+        }
+        let step = stiffness.lu().solve(&torques);
         let step = step.filter(|step| step.iter().all(|part| part.is_finite()));
         let step = step.ok_or(EquilibriumError::Singular)?;
         Ok(step.as_slice().to_vec())

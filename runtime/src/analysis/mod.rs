@@ -9,6 +9,7 @@ pub mod equilibrium;
 pub mod growth;
 pub mod identification;
 pub mod modes;
+mod random;
 pub mod sector_modes;
 pub mod smoothing;
 #[cfg(feature = "spectra")]
@@ -17,7 +18,7 @@ pub mod statistics;
 pub mod truncation;
 pub mod variational;
 
-pub use equilibrium::{AtRest, EquilibriumError, equilibrium};
+pub use equilibrium::{AtRest, EquilibriumError, equilibrium, equilibrium_of_torques};
 pub use identification::{AngleRecord, FamilyOf, Fit, Identification, IdentificationError};
 pub use modes::{Modes, ModesError};
 pub use sector_modes::{SectorBlock, SectorModes, SectorModesError};

@@ -28,6 +28,9 @@ impl Modes {
     /// The modes of a system with mass matrix `mass` (kg m²) and stiffness
     /// matrix `stiffness` (N m/rad), both given row by row.
     ///
+    /// Matrices do not tell whether their angles are an equilibrium; about others
+    /// no motion stays small. [`at_rest`](Self::at_rest) asks for the torques too.
+    ///
     /// Eigenvalues that vanish to rounding count as zero: a coordinate without
     /// stiffness gives a mode of 0 Hz. Effort and memory grow as n³ and n².
     ///
@@ -58,6 +61,46 @@ impl Modes {
     pub fn new<R: AsRef<[f64]>>(mass: &[R], stiffness: &[R]) -> Result<Self, ModesError> {
         let mass = symmetric_matrix("mass", mass)?;
         let stiffness = symmetric_matrix("stiffness", stiffness)?;
+        Self::of(mass, stiffness)
+    }
+
+    /// The modes about angles at which the `torques` −∂U/∂θ (N m) vanish, one for
+    /// each coordinate: those of a system at rest, M α with its accelerations α.
+    ///
+    /// A torque counts as zero where a millionth of a radian makes up for it.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new); [`ModesError::NotAtRest`] where a torque is left.
+    ///
+    /// # Examples
+    ///
+    /// A rod, hanging and held aside:
+    ///
+    /// ```
+    /// use branched_pendulum::analysis::{Modes, ModesError};
+    ///
+    /// let about = |angle: f64| {
+    ///     let (sine, cosine) = angle.sin_cos();
+    ///     Modes::at_rest(&[[0.1]], &[[4.0 * cosine]], &[-4.0 * sine])
+    /// };
+    /// let exact = 40_f64.sqrt() / std::f64::consts::TAU;
+    /// assert!((about(0.0)?.frequencies_hz[0] - exact).abs() < 1e-14);
+    /// assert!(matches!(about(0.3), Err(ModesError::NotAtRest { .. })));
+    /// # Ok::<(), ModesError>(())
+    /// ```
+    pub fn at_rest<R: AsRef<[f64]>>(
+        mass: &[R],
+        stiffness: &[R],
+        torques: &[f64],
+    ) -> Result<Self, ModesError> {
+        let mass = symmetric_matrix("mass", mass)?;
+        let stiffness = symmetric_matrix("stiffness", stiffness)?;
+        check_rest(&stiffness, torques)?;
+        Self::of(mass, stiffness)
+    }
+
+    fn of(mass: DMatrix<f64>, stiffness: DMatrix<f64>) -> Result<Self, ModesError> {
         if mass.nrows() != stiffness.nrows() {
             return Err(ModesError::SizeMismatch {
                 mass: mass.nrows(),
@@ -118,6 +161,35 @@ const MAX_SWEEPS: usize = 100_000;
 
 /// Relative asymmetry that rounding may leave in a computed matrix.
 const ASYMMETRY: f64 = 1e-12;
+
+/// Largest angle (rad) by which an equilibrium may be missed.
+const MISSED: f64 = 1e-6;
+
+/// Refuses torques at rest for which no such small angle makes up.
+pub(super) fn check_rest(stiffness: &DMatrix<f64>, torques: &[f64]) -> Result<(), ModesError> {
+    if torques.len() != stiffness.nrows() {
+        return Err(ModesError::Torques {
+            torques: torques.len(),
+            rows: stiffness.nrows(),
+        });
+    }
+    let rows = stiffness.row_iter().map(|row| row.amax());
+    let left = torques.iter().zip(rows).map(|(torque, stiffest)| {
+        // NaN is no rest.
+        let is_small = torque.abs() <= MISSED * stiffest;
+        if is_small { 0.0 } else { torque.abs() }
+    });
+    let left: Vec<f64> = left.collect();
+    let largest = (0..left.len()).max_by(|&a, &b| left[a].total_cmp(&left[b]));
+    match largest {
+        Some(coordinate) if left[coordinate] != 0.0 => Err(ModesError::NotAtRest {
+            coordinate,
+            torque: torques[coordinate],
+            torques: torques.to_vec(),
+        }),
+        _ => Ok(()),
+    }
+}
 
 pub(super) fn symmetric_matrix<R: AsRef<[f64]>>(
     matrix: &'static str,
@@ -211,6 +283,23 @@ errors! {
             /// Rows of the stiffness matrix.
             stiffness: usize,
         } => "the mass matrix has {mass} rows and the stiffness matrix {stiffness}",
+        /// There are not as many torques as coordinates.
+        Torques {
+            /// Number of torques.
+            torques: usize,
+            /// Rows of the matrices.
+            rows: usize,
+        } => "{torques} torques for matrices of {rows} rows",
+        /// Angles that are no equilibrium: torques act there on a system at rest.
+        NotAtRest {
+            /// Index of the coordinate on which the largest of them acts.
+            coordinate: usize,
+            /// That torque, N m.
+            torque: f64,
+            /// Torques on all coordinates, N m.
+            torques: Vec<f64>,
+        } => "the angles are no equilibrium: a torque of {torque} N m acts on coordinate \
+            {coordinate} at rest. Take the angles that `equilibrium` finds near them",
         /// Some motion has no inertia.
         MassNotPositiveDefinite => "the mass matrix is not positive definite: some motion has no \
             inertia",

@@ -65,7 +65,8 @@ impl SectorModes {
     /// Entries between sectors are left out of the blocks and reported as
     /// [`mass_off_block`](Self::mass_off_block) and
     /// [`stiffness_off_block`](Self::stiffness_off_block): look at them where
-    /// the equilibrium might not be in phase. Effort grows as n³ with n links.
+    /// the equilibrium might not be in phase. Whether the angles are an equilibrium
+    /// at all, [`AtRest::sector_modes`](super::AtRest::sector_modes) asks. Effort grows as n³ with n links.
     ///
     /// # Errors
     ///

@@ -80,10 +80,10 @@ fn lines_of_a_short_record_are_found_to_rounding() {
     }
 }
 
-/// Root mean squares of the error of the two strong lines' frequencies with noise of 1 mrad,
-/// in hertz and in the deviations that are told.
-fn errors_with_noise(draws: u64) -> [[f64; 2]; 2] {
-    let mut sums = [[0.0; 2]; 2];
+/// Root mean squares of the error of the two strong lines with noise of 1 mrad: of the
+/// frequency in hertz, and of frequency and amplitude in the deviations that are told.
+fn errors_with_noise(draws: u64) -> [[f64; 3]; 2] {
+    let mut sums = [[0.0; 3]; 2];
     let mut noise_lines = 0;
     let clean = waves(&SWING[..2], 32.0, 240.0);
     for seed in 1..=draws {
@@ -93,10 +93,12 @@ fn errors_with_noise(draws: u64) -> [[f64; 2]; 2] {
         // A chance of 1e-3 in each record.
         noise_lines += found.lines.len() - 2;
         assert!((found.residual / 1e-3 - 1.0).abs() < 0.05);
-        for ((line, [f, ..]), sums) in found.lines.iter().zip(&SWING).zip(&mut sums) {
+        for ((line, [f, a, _]), sums) in found.lines.iter().zip(&SWING).zip(&mut sums) {
             let error = line.frequency_hz - f;
             sums[0] += error.powi(2) / draws as f64;
             sums[1] += (error / line.deviation_hz).powi(2) / draws as f64;
+            let error = line.amplitude - a;
+            sums[2] += (error / line.amplitude_deviation).powi(2) / draws as f64;
         }
     }
     assert!(noise_lines as u64 <= draws / 100, "{noise_lines}");
@@ -105,9 +107,11 @@ fn errors_with_noise(draws: u64) -> [[f64; 2]; 2] {
 
 #[test]
 fn noise_moves_lines_as_far_as_is_told() {
-    for [hertz, deviations] in errors_with_noise(20) {
+    for [hertz, frequency, amplitude] in errors_with_noise(20) {
         assert!(hertz < 1.2e-6, "{hertz}");
-        assert!((0.6..1.4).contains(&deviations), "{deviations}");
+        for deviations in [frequency, amplitude] {
+            assert!((0.6..1.4).contains(&deviations), "{deviations}");
+        }
     }
 }
 
@@ -115,10 +119,12 @@ fn noise_moves_lines_as_far_as_is_told() {
 #[test]
 #[ignore = "a minute"]
 fn noise_moves_lines_as_far_as_is_told_200_draws() {
-    for [hertz, deviations] in errors_with_noise(200) {
-        println!("{hertz:.2e} Hz, {deviations:.2} deviations");
+    for [hertz, frequency, amplitude] in errors_with_noise(200) {
+        println!("{hertz:.2e} Hz, {frequency:.2} and {amplitude:.2} deviations");
         assert!(hertz < 1.2e-6, "{hertz}");
-        assert!((0.85..1.15).contains(&deviations), "{deviations}");
+        for deviations in [frequency, amplitude] {
+            assert!((0.85..1.15).contains(&deviations), "{deviations}");
+        }
     }
 }
 

@@ -7,9 +7,10 @@ mod accuracy;
 mod animation;
 mod backwards;
 mod continuation;
-
+mod dense_regression;
 mod ensemble;
 mod events;
+mod exponents;
 mod failures;
 mod gauss;
 #[cfg(feature = "spectra")]

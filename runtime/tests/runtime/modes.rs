@@ -1,6 +1,6 @@
 //! Linear modes against frequencies known in closed form, and refusals.
 
-use branched_pendulum::analysis::{Modes, ModesError};
+use branched_pendulum::analysis::{AtRest, Modes, ModesError};
 
 use crate::problems::BranchedDouble;
 
@@ -58,6 +58,57 @@ fn a_free_coordinate_gives_a_mode_of_zero_frequency() {
     assert_eq!(modes.frequencies_hz[0], 0.0);
     let expected = (3.0_f64 * 1.5).sqrt() / core::f64::consts::TAU;
     assert!((modes.frequencies_hz[1] - expected).abs() < 1e-14);
+}
+
+/// Torques that a millionth of a radian makes up for are rest, all others are none.
+#[test]
+fn modes_are_about_rest() {
+    let (mass, stiffness) = ([[2.0, 0.3], [0.3, 1.0]], [[5.0, -1.0], [-1.0, 3.0]]);
+    let exact = Modes::new(&mass, &stiffness).unwrap();
+    for torques in [[0.0, 0.0], [4e-6, -2e-6], [0.0, 1e-12]] {
+        assert_eq!(
+            Modes::at_rest(&mass, &stiffness, &torques).as_ref(),
+            Ok(&exact)
+        );
+    }
+    for (torques, place) in [([6e-6, 0.0], 0), ([1.0, -2.0], 1), ([0.5, f64::NAN], 1)] {
+        let error = Modes::at_rest(&mass, &stiffness, &torques).unwrap_err();
+        let ModesError::NotAtRest { coordinate, .. } = error else {
+            panic!("{error}");
+        };
+        assert_eq!(coordinate, place);
+    }
+    // Without stiffness only no torque at all is rest.
+    let free = |torque: f64| Modes::at_rest(&[[1.0]], &[[0.0]], &[torque]);
+    assert!(free(0.0).is_ok() && free(1e-12).is_err());
+    let (torques, rows) = (1, 2);
+    assert_eq!(
+        Modes::at_rest(&mass, &stiffness, &[0.0]),
+        Err(ModesError::Torques { torques, rows })
+    );
+    // An unstable place that is no equilibrium is told as the latter.
+    let error = Modes::at_rest(&[[1.0]], &[[-1.0]], &[0.1]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the angles are no equilibrium: a torque of 0.1 N m acts on coordinate 0 at rest. Take \
+         the angles that `equilibrium` finds near them"
+    );
+    let moving = AtRest {
+        mass,
+        stiffness,
+        accelerations: [0.1, -0.2],
+    };
+    let [one, other] = moving.torques();
+    assert!((one - 0.14).abs() < 1e-15 && (other + 0.17).abs() < 1e-15);
+    assert!(matches!(
+        moving.modes(),
+        Err(ModesError::NotAtRest { coordinate: 1, .. })
+    ));
+    let still = AtRest {
+        accelerations: [0.0; 2],
+        ..moving
+    };
+    assert_eq!(still.modes(), Ok(exact));
 }
 
 #[test]

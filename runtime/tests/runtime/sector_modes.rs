@@ -1,6 +1,6 @@
 //! Blocks of sectors against frequencies known in closed form, and refusals.
 
-use branched_pendulum::analysis::{Modes, ModesError, SectorModes, SectorModesError};
+use branched_pendulum::analysis::{AtRest, Modes, ModesError, SectorModes, SectorModesError};
 use branched_pendulum::sectors::{Sector, SectorCoordinate};
 
 use crate::problems::BranchedDouble;
@@ -51,6 +51,28 @@ fn the_paper_s_blocks_and_frequencies() {
     }
     assert_eq!(in_phase.modes.frequencies_hz, [found[0], found[2]]);
     assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
+}
+
+#[test]
+fn sectors_of_angles_that_are_no_equilibrium_are_refused() {
+    let BranchedDouble { m1, m2, mu, g1, g2 } = BranchedDouble::paper();
+    let sectors = [MEANS, DIFFERENCE];
+    let mut at = AtRest {
+        mass: [[m1, mu, mu], [mu, m2, 0.0], [mu, 0.0, m2]],
+        stiffness: [[g1, 0.0, 0.0], [0.0, g2, 0.0], [0.0, 0.0, g2]],
+        accelerations: [0.0; 3],
+    };
+    let exact = SectorModes::new(&sectors, &at.mass, &at.stiffness);
+    assert_eq!(at.sector_modes(&sectors), exact);
+    for link in 0..3 {
+        at.accelerations = [0.0; 3];
+        at.accelerations[link] = -0.01;
+        let error = at.sector_modes(&sectors).unwrap_err();
+        let SectorModesError::Matrices(ModesError::NotAtRest { torques, .. }) = &error else {
+            panic!("{error}");
+        };
+        assert_eq!(torques.as_slice(), at.torques());
+    }
 }
 
 /// Unequal siblings: the sectors are coupled, which is reported by its size.

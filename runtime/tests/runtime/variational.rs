@@ -268,11 +268,11 @@ fn refusals() {
             error,
             LyapunovError::Count {
                 count,
-                dimension: 2
+                deviations: 2
             }
         );
     }
-    for interval in [0.0, f64::NAN] {
+    for interval in [0.0, -1.0, f64::NAN] {
         let error = refused(
             Lyapunov {
                 interval,

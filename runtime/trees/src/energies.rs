@@ -1,6 +1,6 @@
 //! Energies, powers, momenta and linear modes.
 
-use branched_pendulum::analysis::{Modes, ModesError};
+use branched_pendulum::analysis::{EquilibriumError, Modes, ModesError, equilibrium_of_torques};
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{FirstIntegral, Workspace};
 use branched_pendulum::tree::Bodies;
@@ -117,12 +117,12 @@ impl<T: Scalar> PendulumTree<T> {
 
 impl PendulumTree<f64> {
     /// Returns the linear modes about angles `theta` (rad) at which the tree stays at rest:
-    /// zeros, unless springs or lateral offsets hold it elsewhere. Friction and drive are
-    /// left out.
+    /// zeros, unless springs or lateral offsets hold it elsewhere, where
+    /// [`equilibrium`](Self::equilibrium) finds them. Friction and drive are left out.
     ///
     /// # Errors
-    /// [`ModesError`] for angles of another number than there are links, and for an unstable
-    /// equilibrium.
+    /// [`ModesError`] for angles of another number than there are links, for those that are no
+    /// equilibrium (with the torques there), and for an unstable one.
     ///
     /// # Examples
     ///
@@ -133,10 +133,50 @@ impl PendulumTree<f64> {
     /// let modes = rod.modes(&[0.0])?;
     /// let expected = (1.5 * 9.81 / 0.5_f64).sqrt() / std::f64::consts::TAU;
     /// assert!((modes.frequencies_hz[0] - expected).abs() < 1e-14);
+    /// assert!(rod.modes(&[0.1]).is_err());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn modes(&self, theta: &[f64]) -> Result<Modes, ModesError> {
-        Modes::new(&self.mass_matrix(theta), &self.stiffness_matrix(theta))
+        Modes::at_rest(
+            &self.mass_matrix(theta),
+            &self.stiffness_matrix(theta),
+            &self.torques_at_rest(theta),
+        )
+    }
+
+    /// Returns the angles (rad) near `theta` at which the tree stays at rest, stable or not.
+    /// The drive is left out.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] for angles of another number than there are links, and where none
+    /// is found.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum_trees::PendulumTree;
+    ///
+    /// let reed = PendulumTree::parse(
+    ///     "gravity = 9.81, reed: rod(mass = 0.1, length = 0.3, spring = 0.2, rest = 1)",
+    /// )?;
+    /// let theta = reed.equilibrium(&[0.0])?;
+    /// assert!(reed.accelerations(0.0, &theta, &[0.0])[0].abs() < 1e-12);
+    /// assert!(reed.modes(&theta).is_ok());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn equilibrium(&self, theta: &[f64]) -> Result<Vec<f64>, EquilibriumError> {
+        equilibrium_of_torques(theta, |theta| {
+            Ok((self.stiffness_matrix(theta), self.torques_at_rest(theta)))
+        })
+    }
+
+    /// The torques −∂U/∂θ on the links.
+    fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
+        let bodies = self.bodies.cast(Dual::<f64, WIDTH>::constant);
+        let slopes = gradient(self.links(), theta, |theta, workspace| {
+            bodies.potential_energy(workspace, theta)
+        });
+        slopes.into_iter().map(|slope| -slope).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The pendulum on the page.
 
-use branched_pendulum::analysis::growth::BetweenCopies;
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::integrate::{AnyIntegrator, Integrator, Stepper};
 use branched_pendulum::system::{LinkPoint, RatesOnly, State};
 use branched_pendulum_trees::PendulumTree;
@@ -19,7 +19,7 @@ pub struct Pendulum {
     method: AnyIntegrator<f64>,
     motion: Stepper<AnyIntegrator<f64>, RatesOnly<Swing>>,
     /// Components in which the first two equal branches differ.
-    copies: Option<Vec<[usize; 2]>>,
+    copies: Option<Copies>,
     /// Energy at which the account of the work began, and the largest since, J.
     begun: f64,
     largest: f64,
@@ -193,8 +193,8 @@ impl Pendulum {
     /// Angles that are not finite.
     pub fn release(&mut self, root: f64, rest: f64, difference: f64) -> Result<(), String> {
         let mut state = in_phase(self.tree().links(), root, rest).values;
-        if let Some(pairs) = &self.copies {
-            let apart = BetweenCopies::new(self.tree(), pairs.clone()).opposite();
+        if let Some(copies) = &self.copies {
+            let apart = copies.opposite(state.len());
             for (value, apart) in state.iter_mut().zip(apart) {
                 *value += difference * apart;
             }

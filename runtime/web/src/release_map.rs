@@ -1,7 +1,7 @@
 //! Growth of small differences over the plane of releases.
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Growth, pairs_of_links};
-use branched_pendulum::analysis::variational::{ByTangents, linearised};
+use branched_pendulum::analysis::growth::{BetweenCopies, Growth};
+use branched_pendulum::analysis::variational::{ByTangents, Copies, linearised};
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::State;
 use branched_pendulum_trees::PendulumTree;
@@ -20,8 +20,8 @@ pub struct ReleaseMap {
     links: usize,
 }
 
-/// Returns the components of a state in which the first two equal branches of a tree differ.
-pub(crate) fn copies(tree: &PendulumTree) -> Option<Vec<[usize; 2]>> {
+/// Returns the first two equal branches of a tree.
+pub(crate) fn copies(tree: &PendulumTree) -> Option<Copies> {
     let parents: Vec<Option<usize>> = (0..tree.links())
         .map(|link| tree.link_properties(link)?.parent)
         .collect();
@@ -41,9 +41,8 @@ pub(crate) fn copies(tree: &PendulumTree) -> Option<Vec<[usize; 2]>> {
     let mut siblings =
         siblings.filter(|[one, other]| parents[*one].is_some() && parents[*one] == parents[*other]);
     siblings.find_map(|links| {
-        let pairs = pairs_of_links(&parents, links)?;
-        let both = BetweenCopies::new(tree, pairs.clone());
-        both.is_in_phase(&motion).then_some(pairs)
+        let both = Copies::of_links(&parents, &[&links])?;
+        both.are_in_phase(tree, &motion).then_some(both)
     })
 }
 
@@ -58,8 +57,8 @@ pub(crate) fn in_phase(links: usize, root: f64, rest: f64) -> State<f64> {
 
 impl ReleaseMap {
     pub(crate) fn of(tree: &PendulumTree, span: f64, tolerance: f64) -> Result<Self, String> {
-        let pairs = copies(tree).ok_or("the map is one of a tree with two equal branches")?;
-        let copies = BetweenCopies::new(linearised(tree.clone()), pairs);
+        let branches = copies(tree).ok_or("the map is one of a tree with two equal branches")?;
+        let copies = BetweenCopies::new(linearised(tree.clone()), branches);
         let frequency = copies.frequency_at_rest();
         Ok(Self {
             growth: Growth {

@@ -35,7 +35,10 @@ pub struct Advice {
     pub outputs: Vec<Followed>,
     /// How the reference was computed.
     pub reference: String,
-    /// Rate at which small deviations grow, 1/s, where they were looked at.
+    /// Rate at which small deviations grow, 1/s, where they were looked at: those that
+    /// rounding makes, which leave equal components equal and zeros zero. Of copies in phase
+    /// it is the rate [within](crate::analysis::variational::Lyapunov::within) the motions in
+    /// phase; differences between them may grow faster.
     pub growth: Option<f64>,
     /// Lines to write for the choice.
     pub to_write: Vec<String>,

@@ -35,3 +35,23 @@ impl Checked {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Checked;
+
+    #[test]
+    fn differences_are_relative() {
+        let factor = Checked::of_logarithms(1.02_f64.ln(), 0.0);
+        assert!((factor.value - 1.0).abs() < 1e-15 && (factor.difference - 0.02).abs() < 1e-15);
+        let smaller = Checked::of_logarithms(0.0, 1.02_f64.ln());
+        assert!((smaller.value - 1.02).abs() < 1e-15 && (smaller.difference - 0.02).abs() < 1e-15);
+        // To the rate, or to one in the span.
+        let fast = Checked::of_rates(-0.202, -0.2, 100.0);
+        assert!((fast.difference - 0.01).abs() < 1e-12 && fast.value == -0.2);
+        let slow = Checked::of_rates(0.003, 0.001, 50.0);
+        assert!((slow.difference - 0.1).abs() < 1e-12);
+        assert!(!factor.is_determined() && !slow.is_determined());
+        assert!(Checked::of_rates(0.2001, 0.2, 100.0).is_determined());
+    }
+}

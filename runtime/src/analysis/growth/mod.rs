@@ -18,7 +18,7 @@ use std::ops::Range;
 
 pub use self::brake_orbit::{BrakeOrbit, Continuation};
 pub use self::checked::Checked;
-pub use self::copies::{BetweenCopies, pairs_of_links};
+pub use self::copies::BetweenCopies;
 pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
 use self::record::GrowthRecord;
@@ -222,7 +222,8 @@ impl Growth {
     /// linearisation, for models without transverse equations (of identical links:
     /// [`between_copies`](Self::between_copies)). `differences` are the
     /// components of a state that count as angles of differences and as their rates, as
-    /// many of one as of the other.
+    /// many of one as of the other. A deviation within an invariant subspace stays in it, and
+    /// says nothing of what grows elsewhere.
     ///
     /// # Errors
     ///

@@ -181,7 +181,8 @@ mod tests {
         assert!(long.exp() < E.powi(3) * 1.01);
     }
 
-    /// The largest value between looks, where none is at the peak.
+    /// The largest value between looks, at every place of the peak between two of them, of
+    /// one difference and of two, scaled back on the way or not.
     #[test]
     fn peaks_between_looks() {
         let growth = Growth {
@@ -189,12 +190,30 @@ mod tests {
             horizons: vec![3.0],
             tolerance: 1e-9,
         };
-        let mut record = GrowthRecord::new(&growth, 0.0, &[0.0], &[TAU]).unwrap();
-        for time in growth.looks(0.0).into_iter().skip(1) {
-            let (sine, cosine) = (TAU * time).sin_cos();
-            record.look(time, &[sine], &[TAU * cosine]);
+        for eighths in 0..8 {
+            // A look is 2π/32 of phase.
+            let phase = f64::from(eighths) * TAU / 256.0;
+            let state = |time: f64, width: f64| {
+                let (sine, cosine) = (TAU * time + phase).sin_cos();
+                ([sine, width * cosine], [TAU * cosine, -TAU * width * sine])
+            };
+            for (width, scaled) in [(0.0, false), (0.0, true), (0.6, false), (0.6, true)] {
+                let (angles, rates) = state(0.0, width);
+                let mut record = GrowthRecord::new(&growth, 0.0, &angles, &rates).unwrap();
+                let mut scale = 1.0;
+                for time in growth.looks(0.0).into_iter().skip(1) {
+                    let (angles, rates) = state(time, width);
+                    let [angles, rates] = [angles, rates].map(|all| all.map(|x| x / scale));
+                    record.look(time, &angles, &rates);
+                    if scaled {
+                        scale *= record.scale();
+                    }
+                }
+                // The amplitude at the start is that of both, the largest size is 1.
+                let factor = record.factors()[0] + 0.5 * width.mul_add(width, 1.0).ln();
+                assert!(factor.abs() < 5e-5, "{eighths} {width} {factor}");
+                assert!(record.rate().abs() < 1e-6);
+            }
         }
-        assert!(record.factors()[0].abs() < 1e-4, "{:?}", record.factors());
-        assert!(record.rate().abs() < 1e-6);
     }
 }

@@ -69,6 +69,8 @@ impl<const D: usize> Gaussian<D> {
 pub(super) struct Step<const D: usize> {
     /// Derivative of the step from the time before.
     pub(super) transition: SMatrix<f64, D, D>,
+    /// Variance that comes from outside on that step.
+    pub(super) noise: SMatrix<f64, D, D>,
     /// The state before the data of this time.
     pub(super) predicted: Gaussian<D>,
     /// The state after them.
@@ -108,7 +110,11 @@ pub(super) fn smooth<const D: usize>(steps: &[Step<D>]) -> (Vec<Gaussian<D>>, Ve
             .cholesky()
             .map(|factor| factor.solve(&cross).transpose());
         let gain = gain.unwrap_or_else(SMatrix::zeros);
-        let given = root(variance - gain * predicted.variance * gain.transpose());
+        // Joseph's form here too: the variance of a start that nothing is known of is so large
+        // that a difference would be rounding.
+        let kept = SMatrix::identity() - gain * next.transition;
+        let given = kept * variance * kept.transpose() + gain * next.noise * gain.transpose();
+        let given = root(symmetric(given));
         backs.push(Back {
             offset: mean - gain * predicted.mean,
             gain,

@@ -133,6 +133,7 @@ impl JerkFilter<'_> {
             }
             keep(Step {
                 transition,
+                noise,
                 predicted,
                 updated: state,
             });

@@ -264,6 +264,7 @@ where
             }
             steps.push(Step {
                 transition,
+                noise: variance,
                 predicted,
                 updated,
             });

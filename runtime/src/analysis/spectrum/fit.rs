@@ -214,3 +214,67 @@ pub(super) fn phase_at_start(wave: &Wave, count: usize) -> f64 {
     let phase = start - wave.sine.atan2(wave.cosine);
     phase - TAU * (phase / TAU).round()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Wave, WaveFit};
+    use crate::analysis::spectrum::Window;
+
+    /// Variances are sums over all samples of what each of them moves, squared: few cycles
+    /// and any phase, where cosine, sine and frequency are correlated.
+    #[test]
+    fn variances_are_those_of_samples_moved_one_by_one() {
+        let wave = |cycles, cosine, sine| Wave {
+            cycles,
+            cosine,
+            sine,
+        };
+        let swings = [
+            vec![wave(1.3, 0.8, 0.7)],
+            vec![wave(1.6, -0.3, 0.9)],
+            vec![wave(1.2, 0.5, -0.5), wave(3.4, 0.1, 0.4)],
+        ];
+        for waves in swings {
+            for window in [Window::Rectangular, Window::Hann] {
+                let weights = window.weights(48);
+                let still = vec![0.0; 48];
+                let mut exact = WaveFit::new(&still, &weights);
+                exact.waves.clone_from(&waves);
+                let samples: Vec<f64> = exact.residual().iter().map(|x| 0.2 - x).collect();
+                let fitted = |samples: &[f64]| -> Vec<[f64; 2]> {
+                    let mut fit = WaveFit::new(samples, &weights);
+                    fit.mean = 0.2;
+                    fit.waves.clone_from(&waves);
+                    fit.refine();
+                    fit.waves
+                        .iter()
+                        .map(|wave| [wave.cycles, wave.amplitude()])
+                        .collect()
+                };
+                let mut sums = vec![[0.0; 2]; waves.len()];
+                for moved in 0..samples.len() {
+                    let by = |step: f64| {
+                        let mut samples = samples.clone();
+                        samples[moved] += step;
+                        fitted(&samples)
+                    };
+                    let (above, below) = (by(1e-4), by(-1e-4));
+                    for (sum, (above, below)) in sums.iter_mut().zip(above.iter().zip(&below)) {
+                        for (sum, (above, below)) in sum.iter_mut().zip(above.iter().zip(below)) {
+                            *sum += ((above - below) / 2e-4).powi(2);
+                        }
+                    }
+                }
+                let mut fit = WaveFit::new(&samples, &weights);
+                fit.waves.clone_from(&waves);
+                let told = fit.variances().unwrap();
+                for (told, found) in told.iter().flatten().zip(sums.iter().flatten()) {
+                    assert!(
+                        (told / found - 1.0).abs() < 1e-3,
+                        "{window:?} {told} {found}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -59,7 +59,6 @@ mod curve;
 mod error;
 mod motion;
 mod phase_average;
-mod random;
 mod trajectories;
 
 pub use background::Background;

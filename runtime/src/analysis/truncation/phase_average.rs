@@ -6,8 +6,8 @@ use super::background::Background;
 use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_bounds, check_positive};
 use super::motion::{Powers, sector_frequencies};
-use super::random::Random;
 use super::small_coordinates;
+use crate::analysis::random::Random;
 use crate::system::Pendulum;
 use crate::transfer_forms::TransferForms;
 

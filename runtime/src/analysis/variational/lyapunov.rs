@@ -4,7 +4,8 @@ use core::ops::ControlFlow;
 
 use nalgebra::DMatrix;
 
-use super::{Linearised, Variational};
+use super::{Copies, Linearised, Variational};
+use crate::analysis::random::Random;
 use crate::analysis::statistics::Estimate;
 use crate::errors::errors;
 use crate::integrate::{IntegrationError, Integrator};
@@ -17,12 +18,59 @@ use crate::system::State;
 /// takes are the exponents, the largest first. Source: G. Benettin, L. Galgani,
 /// A. Giorgilli, J.-M. Strelcyn, *Lyapunov characteristic exponents for smooth
 /// dynamical systems*, Meccanica 15 (1980) 9–30.
+///
+/// Deviations start in general position, in the same directions at each call: a part of each
+/// grows as fast as anything does, also where the motion stays in an invariant subspace.
+/// Neither the motion nor the first of them depends on how many there are.
+///
+/// # Exponents within a subspace
+///
+/// A motion of [`Copies`] in phase stays in phase, and small deviations from it are of two
+/// kinds that do not drive each other. [`within`](Self::within) are the exponents of those
+/// that keep the copies in phase: they tell whether the in-phase motion by itself is chaotic,
+/// and are those of the tree whose copies are one link. [`transverse`](Self::transverse) are
+/// those of the differences between copies: where the largest is positive, a difference grows
+/// and the copies part. Both together are the exponents of the whole, which
+/// [`spectrum`](Self::spectrum) gives. (J. C. Alexander, J. A. Yorke, Z. You, I. Kan, *Riddled
+/// basins*, International Journal of Bifurcation and Chaos 2 (1992) 795–813.)
+///
+/// # Examples
+///
+/// The paper's pendulum in phase, which by itself is regular, and the difference that grows
+/// beside it:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use branched_pendulum::analysis::variational::{Copies, Lyapunov, linearised};
+/// use branched_pendulum::prelude::*;
+///
+/// #[branched_pendulum(
+///     gravity = 9.80665,
+///     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///         child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///     ],
+/// )]
+/// struct BranchedDouble;
+///
+/// let model = BranchedDouble::<f64>::new();
+/// let system = linearised(AbsoluteAngles(&model));
+/// let method = Dop853::new(Options::with_tolerance(1e-9));
+/// // In phase, where a difference of the children grows.
+/// let start = State::at_rest(0.0, &[44_f64.to_radians(), 0.0, 0.0]);
+/// let children = Copies::of_links(&[None, Some(0), Some(0)], &[&[1, 2]]).unwrap();
+/// let lyapunov = Lyapunov { count: 1, interval: 0.5, settling: 40, intervals: 400 };
+/// let all = lyapunov.spectrum(&method, &system, &start)?.exponents[0];
+/// let within = lyapunov.within(&children, &method, &system, &start)?.exponents[0];
+/// let transverse = lyapunov.transverse(&children, &method, &system, &start)?.exponents[0];
+/// assert!((all - transverse).abs() < 0.01 && transverse > 0.2 && within < 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lyapunov {
-    /// Number of exponents, from the largest on: at most the dimension.
+    /// Number of exponents, from the largest on: at most the number of independent
+    /// deviations.
     pub count: usize,
-    /// Time between two orthonormalisations, some inverse exponents at most;
-    /// negative for a run backwards.
+    /// Time (s) between two orthonormalisations, positive, some inverse exponents at most.
     pub interval: f64,
     /// Intervals before the logarithms count: deviations turn into the
     /// directions of growth meanwhile.
@@ -34,9 +82,10 @@ pub struct Lyapunov {
 /// The exponents of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovSpectrum {
-    /// Exponents, in 1/s, the largest first.
+    /// Exponents, in 1/s, the largest first: sorted, as a finite run may find two that are
+    /// near each other in either order.
     pub exponents: Vec<f64>,
-    /// Standard error of each, from the spread of ten equal parts of the run:
+    /// Standard error of each, in the same order, from the spread of ten equal parts of the run:
     /// what a longer run would narrow, if the parts were independent. NaN for
     /// fewer than ten intervals.
     pub standard_errors: Vec<f64>,
@@ -58,20 +107,26 @@ errors! {
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     pub enum LyapunovError {
-        /// None, or more than the system has directions.
+        /// None, or more than there are independent deviations.
         Count {
             /// Exponents asked for.
             count: usize,
-            /// Dimension of the system.
-            dimension: usize,
-        } => "{count} exponents asked for of a system of dimension {dimension}",
-        /// The interval is zero or not finite, or no interval counts.
+            /// Number of independent deviations: for all of them the dimension of the system.
+            deviations: usize,
+        } => "{count} exponents asked for, of {deviations} independent deviations: ask for 1 to \
+            {deviations}",
+        /// The interval is not positive and finite, or no interval counts.
         Interval {
             /// The interval given.
             interval: f64,
             /// The number of intervals given.
             intervals: u32,
-        } => "{intervals} intervals of {interval} s make no mean",
+        } => "{intervals} intervals of {interval} s make no mean: ask for at least one, of a \
+            positive time",
+        /// Exponents within motions in phase or transverse to them, of a start that is in
+        /// another state, or of links that are no copies.
+        NotInPhase => "the copies are not in one state at the start, or do not move on alike: \
+            start them in phase, or ask for the exponents of all deviations",
         /// A deviation vanished, or left the range of numbers, between two
         /// orthonormalisations: the interval is too long.
         Degenerate {
@@ -101,8 +156,46 @@ impl From<IntegrationError<f64>> for LyapunovError {
 /// Parts of a run whose spread gives the standard error.
 const PARTS: usize = 10;
 
+/// Deviations that are looked at.
+#[derive(Clone, Copy)]
+enum Deviations<'a> {
+    All,
+    Within(&'a Copies),
+    Transverse(&'a Copies),
+}
+
+impl Deviations<'_> {
+    /// Number of independent ones, in a system of a dimension.
+    fn count(self, dimension: usize) -> usize {
+        match self {
+            Self::All => dimension,
+            Self::Within(copies) => dimension.saturating_sub(copies.differences()),
+            Self::Transverse(copies) => copies.differences().min(dimension),
+        }
+    }
+
+    /// Takes from vectors of length `n` that follow each other what is no such deviation.
+    fn keep(self, vectors: &mut [f64], n: usize) {
+        for vector in vectors.chunks_mut(n) {
+            let all = vector.to_vec();
+            match self {
+                Self::All => {}
+                Self::Within(copies) => copies.write_common(&all, vector),
+                Self::Transverse(copies) => copies.write_differences(&all, vector),
+            }
+        }
+    }
+
+    /// Takes from the motion the difference that rounding has made between copies in phase.
+    fn keep_motion(self, motion: &mut [f64]) {
+        if let Self::Within(copies) | Self::Transverse(copies) = self {
+            copies.write_common(&motion.to_vec(), motion);
+        }
+    }
+}
+
 impl Lyapunov {
-    /// The exponents of the motion of `system` from `start`.
+    /// Returns the exponents of the motion of `system` from `start`: of all deviations.
     ///
     /// # Errors
     ///
@@ -118,6 +211,60 @@ impl Lyapunov {
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
+        self.of(Deviations::All, method, system, start)
+    }
+
+    /// Returns the exponents of a motion in phase within the motions in phase: of deviations
+    /// that are equal in all copies.
+    ///
+    /// # Errors
+    ///
+    /// As [`spectrum`](Self::spectrum); [`LyapunovError::NotInPhase`].
+    pub fn within<L, M>(
+        &self,
+        copies: &Copies,
+        method: &M,
+        system: &L,
+        start: &State<f64>,
+    ) -> Result<LyapunovSpectrum, LyapunovError>
+    where
+        L: Linearised<f64>,
+        M: for<'a> Integrator<f64, Variational<'a, L>>,
+    {
+        self.of(Deviations::Within(copies), method, system, start)
+    }
+
+    /// Returns the exponents of a motion in phase out of the motions in phase: of
+    /// differences between the copies.
+    ///
+    /// # Errors
+    ///
+    /// As [`within`](Self::within).
+    pub fn transverse<L, M>(
+        &self,
+        copies: &Copies,
+        method: &M,
+        system: &L,
+        start: &State<f64>,
+    ) -> Result<LyapunovSpectrum, LyapunovError>
+    where
+        L: Linearised<f64>,
+        M: for<'a> Integrator<f64, Variational<'a, L>>,
+    {
+        self.of(Deviations::Transverse(copies), method, system, start)
+    }
+
+    fn of<L, M>(
+        &self,
+        kept: Deviations<'_>,
+        method: &M,
+        system: &L,
+        start: &State<f64>,
+    ) -> Result<LyapunovSpectrum, LyapunovError>
+    where
+        L: Linearised<f64>,
+        M: for<'a> Integrator<f64, Variational<'a, L>>,
+    {
         let Self {
             count,
             interval,
@@ -125,38 +272,53 @@ impl Lyapunov {
             intervals,
         } = *self;
         let dimension = system.dimension();
-        if count == 0 || count > dimension {
-            return Err(LyapunovError::Count { count, dimension });
+        let deviations = kept.count(dimension);
+        if count == 0 || count > deviations {
+            return Err(LyapunovError::Count { count, deviations });
         }
-        if !(interval.is_finite() && interval != 0.0 && intervals > 0) {
+        if !(interval.is_finite() && interval > 0.0 && intervals > 0) {
             return Err(LyapunovError::Interval {
                 interval,
                 intervals,
             });
         }
         super::check_dimension(system, start)?;
-        let all = Variational::new(system, count);
-        let mut state = start.clone();
-        for direction in 0..count {
-            let unit = (0..dimension).map(|i| f64::from(u8::from(i == direction)));
-            state.values.extend(unit);
+        if let Deviations::Within(copies) | Deviations::Transverse(copies) = kept
+            && !copies.are_in_phase(system, start)
+        {
+            return Err(LyapunovError::NotInPhase);
         }
+        // The motion is followed by itself, so that it is the same beside any deviations.
+        let [alone, all] = [0, count].map(|deviations| Variational::new(system, deviations));
+        let mut motion = start.clone();
+        let mut random = Random::new(0);
+        let parts = (0..count * dimension).map(|_| random.within(1.0));
+        let mut vectors: Vec<f64> = parts.collect();
         // One row of logarithms for each interval that counts.
         let mut logarithms: Vec<Vec<f64>> = Vec::new();
-        for number in 0..settling + intervals {
-            let end = start.time + f64::from(number + 1) * interval;
-            let solution = method.integrate(&all, &state, end, |_| ControlFlow::Continue(()))?;
-            state = solution.state;
-            let row = orthonormalise(&mut state.values[dimension..], dimension)
+        let settling = u64::from(settling);
+        for number in 0..=settling + u64::from(intervals) {
+            let end = start.time + number as f64 * interval;
+            if number > 0 {
+                let run = |system: &Variational<'_, L>, state: &State<f64>| {
+                    method.integrate(system, state, end, |_| ControlFlow::Continue(()))
+                };
+                let both = [motion.values.as_slice(), &vectors].concat();
+                let both = run(&all, &State::new(motion.time, both))?.state;
+                vectors.copy_from_slice(&both.values[dimension..]);
+                motion = run(&alone, &motion)?.state;
+            }
+            kept.keep_motion(&mut motion.values);
+            kept.keep(&mut vectors, dimension);
+            let row = orthonormalise(&mut vectors, dimension)
                 .ok_or(LyapunovError::Degenerate { time: end })?;
-            if number >= settling {
+            if number > settling {
                 logarithms.push(row);
             }
         }
-        state.values.truncate(dimension);
         let mean = |rows: &[Vec<f64>], index: usize| {
             let sum: f64 = rows.iter().map(|row| row[index]).sum();
-            sum / (rows.len() as f64 * interval.abs())
+            sum / (rows.len() as f64 * interval)
         };
         let standard_error = |index: usize| {
             let length = logarithms.len() / PARTS;
@@ -167,10 +329,14 @@ impl Lyapunov {
             let means: Vec<f64> = parts.map(|rows| mean(rows, index)).collect();
             Estimate::of_independent(&means).error
         };
+        let found = (0..count).map(|index| (mean(&logarithms, index), standard_error(index)));
+        let mut found: Vec<(f64, f64)> = found.collect();
+        found.sort_by(|(one, _), (other, _)| other.total_cmp(one));
+        let (exponents, standard_errors) = found.into_iter().unzip();
         Ok(LyapunovSpectrum {
-            exponents: (0..count).map(|index| mean(&logarithms, index)).collect(),
-            standard_errors: (0..count).map(standard_error).collect(),
-            end: state,
+            exponents,
+            standard_errors,
+            end: motion,
         })
     }
 }

@@ -5,7 +5,8 @@
 //! number of deviations, which every method integrates with its error control.
 //! [`flow_jacobian`] is the derivative of the end with respect to the start,
 //! [`trusted_until`] the time to which a given error stays small, and
-//! [`Lyapunov`] the mean rates of growth.
+//! [`Lyapunov`] the mean rates of growth: of all deviations, or, where [`Copies`] move in
+//! phase, of those that keep them so and of those that do not.
 //!
 //! The derivative comes from numbers that carry one, exact to rounding
 //! ([`linearised`] for models, [`ByTangents`] for other equations that are generic
@@ -41,6 +42,7 @@
 //! # Ok::<(), IntegrationError<f64>>(())
 //! ```
 
+mod copies;
 mod lyapunov;
 mod system;
 
@@ -50,6 +52,7 @@ use crate::integrate::{InputError, IntegrationError, Integrator};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
+pub use self::copies::Copies;
 pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
 pub(super) use self::system::TangentMemory;
 pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};

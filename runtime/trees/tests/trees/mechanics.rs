@@ -1,5 +1,6 @@
 //! The mechanics of a described tree, one part against another.
 
+use branched_pendulum::analysis::ModesError;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::{DenseStep, Projected, Rk4};
 use branched_pendulum::prelude::*;
@@ -268,6 +269,77 @@ fn slices_of_another_length_give_nan() {
     let mut rates = [0.0; 3];
     tree.rates(0.0, &[0.0; 10], &mut rates);
     assert!(rates.iter().all(|rate| rate.is_nan()));
+}
+
+/// Frequencies are those of small motions about rest, and of nothing else.
+#[test]
+fn modes_are_those_of_an_equilibrium() {
+    for (text, aside, inverted) in [
+        ("rod: rod(mass = 2, length = 0.5)", [0.1, 0.0, 0.0], true),
+        (
+            "a: rod(mass = 1, length = 0.3) [b: rod(mass = 0.2, length = 0.4) * 2]",
+            [1.0, 0.0, 0.0],
+            true,
+        ),
+        (
+            "a: rod(mass = 1, length = 0.3, spring = 0.7, rest = 0.4) [
+                b(mass = 0.2, com = (0.1, 0.03), inertia = 1e-3)
+            ]",
+            [0.0; 3],
+            false,
+        ),
+        // The twig weighs a millionth of the trunk.
+        (
+            "a: rod(mass = 100, length = 3) [b: rod(mass = 1e-4, length = 0.1)]",
+            [0.0, 0.01, 0.0],
+            true,
+        ),
+    ] {
+        let tree = PendulumTree::parse(&format!("gravity = 9.81, {text}")).unwrap();
+        let n = tree.links();
+        let error = tree.modes(&aside[..n]).unwrap_err();
+        let ModesError::NotAtRest {
+            torques,
+            torque,
+            coordinate,
+        } = &error
+        else {
+            panic!("{text}: {error}");
+        };
+        assert_eq!(torques[*coordinate], *torque);
+        let still = vec![0.0; n];
+        let alpha = tree.accelerations(0.0, &aside[..n], &still);
+        for (row, torque) in tree.mass_matrix(&aside[..n]).iter().zip(torques) {
+            near(
+                row.iter().zip(&alpha).map(|(m, a)| m * a).sum(),
+                *torque,
+                1e-12,
+            );
+        }
+        let text = error.to_string();
+        assert!(
+            text.contains("no equilibrium") && text.contains("`equilibrium`"),
+            "{text}"
+        );
+        let rest = tree.equilibrium(&aside[..n]).unwrap();
+        let alpha = tree.accelerations(0.0, &rest, &still);
+        assert!(alpha.iter().all(|alpha| alpha.abs() < 1e-9), "{text}");
+        let modes = tree.modes(&rest).unwrap();
+        // Found to some digits, it is one.
+        let rounded: Vec<f64> = rest.iter().map(|angle| angle + 1e-8).collect();
+        let near_rest = tree.modes(&rounded).unwrap();
+        near(modes.frequencies_hz[0], near_rest.frequencies_hz[0], 1e-6);
+        if inverted {
+            let upright = vec![std::f64::consts::PI; n];
+            let error = tree.modes(&upright).unwrap_err();
+            assert!(
+                matches!(error, ModesError::NegativeStiffness { .. }),
+                "{error}"
+            );
+        }
+    }
+    let error = bent().equilibrium(&[0.0; 3]).unwrap_err().to_string();
+    assert!(error.contains("NaN"), "{error}");
 }
 
 /// In loops over generations and written out, in their own orders of the links.

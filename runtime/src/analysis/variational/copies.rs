@@ -1,0 +1,177 @@
+//! Copies that move in phase, and the two kinds of deviations from that.
+
+use crate::system::{Ode, State};
+
+/// Largest part by which rates of copies differ, from rounding.
+const ALIKE: f64 = 1e-12;
+
+/// Copies, as the components of a state in which they are equal while they move in phase.
+///
+/// States in phase are an invariant subspace: a motion that starts in it stays there. Small
+/// deviations from such a motion are of two kinds, and neither drives the other: those that
+/// are equal in all copies, *within* the motions in phase, and differences between copies,
+/// *transverse* to them.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::analysis::variational::Copies;
+///
+/// // A root that carries two arms, each of which carries two hands.
+/// let parents = [None, Some(0), Some(1), Some(1), Some(0), Some(4), Some(4)];
+/// let arms = Copies::of_links(&parents, &[&[1, 4]]).unwrap();
+/// // Angles, then angular velocities.
+/// assert_eq!(arms.groups()[..3], [[1, 4], [2, 5], [3, 6]]);
+/// let all = Copies::of_links(&parents, &[&[1, 4], &[2, 3]]).unwrap();
+/// assert_eq!(all.groups()[..2], [vec![1, 4], vec![2, 3, 5, 6]]);
+/// // An arm is no copy of a hand.
+/// assert_eq!(Copies::of_links(&parents, &[&[1, 2]]), None);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Copies {
+    groups: Vec<Vec<usize>>,
+}
+
+impl Copies {
+    /// Returns the copies whose components are equal within each group. No component is in
+    /// two groups.
+    pub fn new(groups: Vec<Vec<usize>>) -> Self {
+        Self { groups }
+    }
+
+    /// Returns links that are copies of each other, with all that hangs from them, in a
+    /// state of angles followed by angular velocities. Each entry of `alike` is a set of such
+    /// links. `parents` are the links that each hangs from, before it in their order.
+    ///
+    /// None where one link of a set hangs from another, or does not carry as many links.
+    pub fn of_links(parents: &[Option<usize>], alike: &[&[usize]]) -> Option<Self> {
+        let links = parents.len();
+        // Each link by the first one that it is a copy of.
+        let mut first: Vec<usize> = (0..links).collect();
+        for set in alike {
+            let carried: Vec<Vec<usize>> = set.iter().map(|&link| carried(parents, link)).collect();
+            let mut all = carried.concat();
+            let count = all.len();
+            all.sort_unstable();
+            all.dedup();
+            let length = carried.first()?.len();
+            let are_apart = all.len() == count && all.last().is_some_and(|last| *last < links);
+            if !are_apart || carried.iter().any(|own| own.len() != length) {
+                return None;
+            }
+            for place in 0..length {
+                let joined: Vec<usize> = carried.iter().map(|own| first[own[place]]).collect();
+                let least = joined.iter().copied().min()?;
+                for own in first.iter_mut().filter(|own| joined.contains(own)) {
+                    *own = least;
+                }
+            }
+        }
+        let of = |own: usize| (0..links).filter(|&link| first[link] == own).collect();
+        let angles: Vec<Vec<usize>> = (0..links)
+            .map(of)
+            .filter(|g: &Vec<_>| g.len() > 1)
+            .collect();
+        let rates = angles
+            .iter()
+            .map(|group| group.iter().map(|link| links + link).collect());
+        Some(Self::new(angles.iter().cloned().chain(rates).collect()))
+    }
+
+    /// Returns the groups: of links the angles first, from the root on, then their rates.
+    pub fn groups(&self) -> &[Vec<usize>] {
+        &self.groups
+    }
+
+    /// Returns the number of independent differences between the copies.
+    pub fn differences(&self) -> usize {
+        let beside = self
+            .groups
+            .iter()
+            .map(|group| group.len().saturating_sub(1));
+        beside.sum()
+    }
+
+    /// Returns a deviation by which the first two copies differ: 1 and −1 in the first group,
+    /// of links the angles of the outermost.
+    pub fn opposite(&self, dimension: usize) -> Vec<f64> {
+        let mut deviation = vec![0.0; dimension];
+        let components = self.groups.first().into_iter().flatten();
+        for (&component, value) in components.zip([1.0, -1.0]) {
+            write(&mut deviation, component, value);
+        }
+        deviation
+    }
+
+    /// Returns true if the copies are in one state and move on alike in `system`, but for
+    /// rounding. A state that is no number differs from none.
+    pub fn are_in_phase<O: Ode<f64> + ?Sized>(&self, system: &O, start: &State<f64>) -> bool {
+        let state = &start.values;
+        let mut rates = vec![0.0; state.len()];
+        system.rates(start.time, state, &mut rates);
+        let size = rates
+            .iter()
+            .fold(0.0_f64, |size, rate| size.max(rate.abs()));
+        let difference = |values: &[f64], one: usize, other: usize| -> Option<f64> {
+            Some((values.get(one)? - values.get(other)?).abs())
+        };
+        let differ = |(&one, &other): (&usize, &usize)| {
+            let own = difference(state, one, other);
+            let both = own.zip(difference(&rates, one, other));
+            both.is_none_or(|(own, rate)| own > 0.0 || rate > ALIKE * size)
+        };
+        let pairs = |group: &Vec<usize>| group.iter().zip(group.iter().skip(1)).any(differ);
+        !self.groups.iter().any(pairs)
+    }
+
+    /// Writes what copies have in common: their mean in each of them, all else as it is.
+    /// Copies that are equal are left as they are, to the last bit.
+    pub(in crate::analysis) fn write_common(&self, of: &[f64], common: &mut [f64]) {
+        common.copy_from_slice(of);
+        for group in &self.groups {
+            let mean = group.first().map(|&one| {
+                let apart = apart(of, group, one);
+                of.get(one).map_or(f64::NAN, |own| own - apart)
+            });
+            for &one in group {
+                write(common, one, mean.unwrap_or(f64::NAN));
+            }
+        }
+    }
+
+    /// Writes the differences of copies from their mean, all else zero. Those of two copies
+    /// are opposite, to the last bit.
+    pub(in crate::analysis) fn write_differences(&self, of: &[f64], differences: &mut [f64]) {
+        differences.fill(0.0);
+        for group in &self.groups {
+            for &one in group {
+                write(differences, one, apart(of, group, one));
+            }
+        }
+    }
+}
+
+/// The difference of a component from the mean of its group, from differences alone: nothing
+/// that copies share is rounded. NaN where there is no such component.
+fn apart(values: &[f64], group: &[usize], one: usize) -> f64 {
+    let at = |component: usize| values.get(component).copied().unwrap_or(f64::NAN);
+    let all = group.iter().map(|&other| at(one) - at(other));
+    all.sum::<f64>() / group.len() as f64
+}
+
+fn write(values: &mut [f64], component: usize, value: f64) {
+    if let Some(place) = values.get_mut(component) {
+        *place = value;
+    }
+}
+
+/// A link and all that hangs from it.
+fn carried(parents: &[Option<usize>], link: usize) -> Vec<usize> {
+    let mut own = vec![link];
+    for (link, parent) in parents.iter().enumerate() {
+        if parent.is_some_and(|parent| own.contains(&parent)) {
+            own.push(link);
+        }
+    }
+    own
+}
