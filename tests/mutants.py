@@ -25,6 +25,7 @@ LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
 DATA = ["-p", "branched-pendulum-data", "--test", "data"]
+IDENTIFICATION = ["-p", "branched-pendulum", "--test", "identification"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
@@ -204,6 +205,10 @@ EXPRESSIONS = [
     ("order of exponents", f"{R}/analysis/variational/lyapunov.rs",
      "other.total_cmp(one)", "one.total_cmp(other)", RUNTIME,
      "exponents::the_largest_exponent_is_found_wherever_it_is"),
+    ("size of what is left over in naive deviations",
+     f"{R}/analysis/identification/covariance.rs",
+     "variance * row.norm_squared()", "row.norm_squared()", IDENTIFICATION,
+     "deviations::bars_hold_the_truth"),
 ]
 
 CONSTANTS = [

@@ -1,7 +1,10 @@
 //! The command line.
 
+use branched_pendulum::Parametric;
+use branched_pendulum::analysis::IdentificationError;
 use clap::{Parser, ValueEnum};
 
+use super::scene::{Branched, Chain};
 use crate::measured_file::MeasuredFile;
 use crate::program::command_line::{number, parts};
 
@@ -23,14 +26,21 @@ pub struct Arguments {
     /// quarters of the record without it
     #[arg(long, value_name = "S", value_parser = number(1.0..=1e4, "s"))]
     pub fit: Option<f64>,
-    /// laws of friction, one after the other
+    /// laws of friction, one after the other: viscous, coulomb (and viscous), all (and quadratic)
     #[arg(long, value_name = "LAW,...", value_parser = laws, default_value = "viscous,coulomb,all")]
     // By its full path, clap takes it for one value.
     pub laws: ::std::vec::Vec<Law>,
-    /// parameters that are known, in SI units
+    /// coefficients of friction: of either sign, which tells a law that is not the real one, or no
+    /// less than 0
+    #[arg(long, value_enum, value_name = "SIGN", default_value = "either")]
+    pub friction: Sign,
+    /// parameters that are known, in SI units, by name: gravity and, of the link above (1) or below
+    /// (2), mass_1, com_1 (distance of the centre of mass), inertia_1 (about it), joint_1 (distance of
+    /// the next joint), viscous_1, coulomb_1, quadratic_1, mass_2, com_2, inertia_2, viscous_2,
+    /// coulomb_2, quadratic_2
     #[arg(long, value_name = "NAME=VALUE,...", value_parser = settings, default_value = "")]
     pub known: ::std::vec::Vec<(String, f64)>,
-    /// values from which others are searched, within some 30 %
+    /// values from which others are searched, by the same names, within some 30 %
     #[arg(long, value_name = "NAME=VALUE,...", value_parser = settings, default_value = "")]
     pub start: ::std::vec::Vec<(String, f64)>,
     /// simulated: error of an angle, rad from 1e-6 to 0.1
@@ -64,6 +74,25 @@ pub enum Law {
     All,
 }
 
+/// Signs that coefficients of friction may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Sign {
+    /// Either one.
+    Either,
+    /// None that drives.
+    Nonnegative,
+}
+
+impl Tree {
+    /// The names of its parameters.
+    fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Self::Chain => <Chain as Parametric<f64>>::PARAMETERS,
+            Self::Branched => <Branched as Parametric<f64>>::PARAMETERS,
+        }
+    }
+}
+
 impl Law {
     /// Its name in tables.
     pub fn name(self) -> &'static str {
@@ -84,8 +113,19 @@ impl Default for Arguments {
 impl crate::program::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
 
+    /// Names are looked at before any file.
     fn check(&self) -> Result<(), String> {
-        self.measured.check()
+        self.measured.check()?;
+        let parameters = self.tree.parameters();
+        let mut given = self.known.iter().chain(&self.start);
+        match given.find(|(name, _)| !parameters.contains(&name.as_str())) {
+            None => Ok(()),
+            Some((name, _)) => Err(IdentificationError::UnknownParameter {
+                name: name.clone(),
+                parameters: parameters.iter().map(ToString::to_string).collect(),
+            }
+            .to_string()),
+        }
     }
 }
 
@@ -111,7 +151,9 @@ fn settings(text: &str) -> Result<Vec<(String, f64)>, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arguments, Law};
+    use clap::{CommandFactory, ValueEnum};
+
+    use super::{Arguments, Law, Tree};
     use crate::program::command_line::parse_line;
 
     #[test]
@@ -124,5 +166,31 @@ mod tests {
         assert_eq!(arguments.known, known);
         assert!(parse_line::<Arguments>("--known mass_1").is_err());
         assert!(parse_line::<Arguments>("--laws dry").is_err());
+    }
+
+    #[test]
+    fn names_are_told_by_the_help_and_looked_at_before_any_file() {
+        let help = Arguments::command().render_long_help().to_string();
+        for tree in [Tree::Chain, Tree::Branched] {
+            for name in tree.parameters() {
+                assert!(help.contains(name), "{name}");
+            }
+        }
+        for law in Law::value_variants() {
+            let name = law.to_possible_value().unwrap();
+            assert!(help.contains(name.get_name()));
+        }
+        for line in [
+            "no-such-file.csv --known mass_3=1",
+            "no-such-file.csv --start com1=0.1",
+            "--tree branched --known g=9.81",
+        ] {
+            let message = parse_line::<Arguments>(line).unwrap_err().to_string();
+            assert!(
+                message.contains("the model has no parameter `"),
+                "{message}"
+            );
+            assert!(message.contains("`viscous_2`"), "{message}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use branched_pendulum::analysis::identification::AngleErrors;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
 
 use super::source::Measurement;
-use super::study::{Energies, Outcome, WINDOW};
+use super::study::{Energies, Outcome};
 
 const COLORS: [Color; 3] = [
     Color::rgb(0, 114, 178),
@@ -13,42 +13,44 @@ const COLORS: [Color; 3] = [
 ];
 const BLACK: Color = Color::rgb(0, 0, 0);
 
-/// Draws errors of the last law in windows and of one motion, the latter beside those of the
-/// first law, and the energies.
-pub fn chart(measurement: &Measurement, outcomes: &[Outcome], energies: &Energies) -> Chart {
+/// Draws errors of the law that is reported in windows and of one motion, the latter beside
+/// those of the first law, and the energies.
+pub fn chart(
+    measurement: &Measurement,
+    outcomes: &[Outcome],
+    reported: &Outcome,
+    energies: Option<&Energies>,
+) -> Chart {
     let title = "Measured motion and the identified model";
     let chart = Chart::new(title, Axis::linear("t (s)")).size(1000.0, 900.0);
-    let Some(last) = outcomes.last() else {
-        return chart;
-    };
-    let [fitted, later] = &last.windows;
+    let mut panels: Vec<Panel> = Vec::new();
+    let [fitted, later] = &reported.windows;
     let joined = AngleErrors {
         times: [fitted.times.as_slice(), &later.times].concat(),
         rows: [fitted.rows.as_slice(), &later.rows].concat(),
         ..fitted.clone()
     };
-    let axis = format!("windows of {WINDOW} s (mrad)");
-    let chart = chart
-        .panel(marked(
-            errors(Panel::new(Axis::linear(axis)), &joined),
-            measurement,
-        ))
-        .panel(marked(
-            errors(
-                Panel::new(Axis::linear("one motion (mrad)")),
-                &last.one_motion,
-            ),
-            measurement,
-        ));
-    let chart = match outcomes.first() {
-        Some(first) if outcomes.len() > 1 => {
-            let axis = Axis::linear(format!("one motion, {} (mrad)", first.law.name()));
-            chart.panel(marked(
-                errors(Panel::new(axis), &first.one_motion),
-                measurement,
-            ))
-        }
-        _ => chart,
+    let mut panel = |axis: String, left_over: &AngleErrors| {
+        let panel = errors(Panel::new(Axis::linear(axis)), left_over);
+        panels.push(marked(panel, measurement));
+    };
+    let window = reported.window();
+    panel(
+        format!("residuals in windows of {window} s (mrad)"),
+        &joined,
+    );
+    if let Some(left_over) = &reported.errors {
+        panel("residuals of one motion (mrad)".to_owned(), left_over);
+    }
+    if let Some(first) = outcomes.first().filter(|first| first.law != reported.law)
+        && let Some(left_over) = &first.errors
+    {
+        let law = first.law.name();
+        panel(format!("residuals of one motion, {law} (mrad)"), left_over);
+    }
+    let chart = panels.into_iter().fold(chart, Chart::panel);
+    let Some(energies) = energies else {
+        return chart;
     };
     let energy = Panel::new(Axis::linear("energy (J)"))
         .series(

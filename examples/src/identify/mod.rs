@@ -17,6 +17,7 @@ pub use source::Measurement;
 pub use study::{Outcome, Study};
 
 use arguments::Tree;
+use branched_pendulum::analysis::IdentificationError;
 use scene::{Branched, Chain, Described};
 
 use crate::failure::Failure;
@@ -26,7 +27,7 @@ use crate::program::Job;
 /// writes table and chart. Ctrl-C leaves the laws that are done.
 ///
 /// # Errors
-/// [`Failure`].
+/// [`Failure`]; where no law was found to follow the motion, too, after the report.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     match arguments.tree {
         Tree::Chain => of_tree::<Chain, 2, 4>(arguments, job),
@@ -40,7 +41,7 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
     job: &Job,
 ) -> Result<(), Failure> {
     let measurement = Measurement::new::<M>(arguments)?;
-    let study = Study::<M>::new(arguments, &measurement)?;
+    let study = Study::<M>::new(arguments, &measurement);
     let progress = job.progress(arguments.laws.len());
     let mut outcomes: Vec<Outcome> = Vec::new();
     for &law in &arguments.laws {
@@ -57,18 +58,28 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
     let Some(last) = outcomes.last() else {
         return Ok(());
     };
-    let energies = study.energies::<N, D>(last)?;
+    // Of the richest law by which something was found.
+    let reported = outcomes.iter().rfind(|outcome| outcome.result().is_ok());
+    let reported = reported.unwrap_or(last);
+    let energies = match &reported.one_motion {
+        Ok(fit) => Some(study.energies::<N, D>(reported.law, fit)?),
+        Err(_) => None,
+    };
     job.print(&report::report(
         arguments,
         &measurement,
         &outcomes,
-        &energies,
+        reported,
+        energies.as_ref(),
     ))?;
-    report::write::<M>(job, &measurement, last, &energies)?;
+    report::record(job, &measurement, &outcomes, energies.as_ref());
+    report::write::<M>(job, &measurement, reported, energies.as_ref())?;
     job.chart(
         "identified",
-        &charts::chart(&measurement, &outcomes, &energies),
+        &charts::chart(&measurement, &outcomes, reported, energies.as_ref()),
     )?;
-    report::record(job, &measurement, &outcomes, &energies);
-    Ok(())
+    match reported.result() {
+        Ok(_) => Ok(()),
+        Err(unfound) => Err(IdentificationError::NotFound(Box::new(unfound.clone())).into()),
+    }
 }

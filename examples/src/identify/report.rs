@@ -2,14 +2,14 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::analysis::identification::ParameterEstimate;
+use branched_pendulum::analysis::identification::{DIVIDED, ParameterEstimate, Standing, TIMES};
 use branched_pendulum_data::Column;
 use serde_json::{Map, Value, json};
 
 use super::arguments::Arguments;
-use super::scene::Described;
+use super::scene::{Described, MEASURABLE};
 use super::source::Measurement;
-use super::study::{Energies, MeasuredEnergy, Mismatch, Outcome, WINDOW};
+use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
 use crate::failure::Failure;
 use crate::program::Job;
 
@@ -18,7 +18,8 @@ pub fn report(
     arguments: &Arguments,
     measurement: &Measurement,
     outcomes: &[Outcome],
-    energies: &Energies,
+    reported: &Outcome,
+    energies: Option<&Energies>,
 ) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -36,77 +37,160 @@ pub fn report(
     for finding in &measurement.findings {
         line(format!("  {finding}"));
     }
-    line(format!(
-        "Fitted before {} s, predicted from there on.",
-        measurement.until
-    ));
-    line(String::new());
-    line(format!(
-        "Angles less data, rms in mrad  in windows of {WINDOW} s   one motion"
-    ));
-    line(format!(
-        "{:<30} {:>8} {:>8} {:>9} {:>8}",
-        "friction", "fitted", "later", "fitted", "later"
-    ));
-    for outcome in outcomes {
-        let [fitted, later] = one_motion(measurement, outcome);
-        let [first, then] = outcome.windows.each_ref().map(|errors| errors.rms());
+    if let Some(release) = measurement.release {
         line(format!(
-            "{:<30} {:>8.3} {:>8.3} {:>9.3} {:>8.3}",
-            outcome.law.name(),
-            1e3 * first,
-            1e3 * then,
-            1e3 * fitted,
-            1e3 * later
+            "  the links are held until {release} s: what comes before is left out"
         ));
     }
-    let Some(Outcome { law, fit, .. }) = outcomes.last() else {
-        return text;
-    };
-    line(String::new());
     line(format!(
-        "Parameters by one motion, friction {}, SI units:",
-        law.name()
+        "Fitted before {} s, predicted from there on.\n",
+        measurement.until
     ));
+    line("Angles less data, rms in mrad        in windows            one motion".to_owned());
     line(format!(
-        "{:<18} {:>13} {:>11} {:>11}{}",
+        "{:<22} {:>8} {:>8} {:>8} {:>9} {:>8}",
+        "friction", "length", "fitted", "later", "fitted", "later"
+    ));
+    for outcome in outcomes {
+        let [first, then] = outcome
+            .windows
+            .each_ref()
+            .map(|errors| format!("{:.3}", 1e3 * errors.rms()));
+        let [fitted, later] = one_motion(measurement, outcome)
+            .map(|rms| rms.map_or("lost".to_owned(), |rms| format!("{:.3}", 1e3 * rms)));
+        line(format!(
+            "{:<22} {:>6} s {first:>8} {then:>8} {fitted:>9} {later:>8}",
+            outcome.law.name(),
+            outcome.window(),
+        ));
+    }
+    line(String::new());
+    for outcome in outcomes {
+        for (kind, found) in [
+            ("windows", &outcome.in_windows),
+            ("one motion", &outcome.one_motion),
+        ] {
+            let words = match found {
+                Ok(fit) => fit.convergence.to_string(),
+                Err(unfound) => unfound.to_string(),
+            };
+            line(format!("{}, {kind}: {words}.", outcome.law.name()));
+        }
+    }
+    line(String::new());
+    text += &parameters(measurement, reported);
+    if let Some(energies) = energies {
+        let _ = write!(text, "{}", energy(energies));
+    }
+    text
+}
+
+/// The parameters: what the data determine first, then what goes with values that are held.
+fn parameters(measurement: &Measurement, reported: &Outcome) -> String {
+    let mut text = String::new();
+    let mut line = |words: String| {
+        let _ = writeln!(text, "{words}");
+    };
+    let law = reported.law.name();
+    let fit = match reported.result() {
+        Ok(fit) if reported.one_motion.is_ok() => {
+            line(format!(
+                "Parameters by one motion, friction {law}, SI units:"
+            ));
+            fit
+        }
+        Ok(fit) => {
+            line(format!(
+                "Parameters by windows of {} s, since one motion is not followed, friction {law}, \
+                 SI units:",
+                reported.window()
+            ));
+            fit
+        }
+        Err(unfound) => {
+            line(format!(
+                "No parameters were found. The best that was tried, friction {law}, SI units:"
+            ));
+            &unfound.best
+        }
+    };
+    line(format!(
+        "{:<34} {:>13} {:>11} {:>11} {}",
         "",
         "value",
         "deviation",
         "naive",
         if measurement.truth.is_some() {
-            "          true"
+            "         true"
         } else {
             ""
         }
     ));
-    for estimate in &fit.estimates {
+    let rank = |estimate: &&ParameterEstimate| match estimate.standing {
+        Standing::Determined => 0,
+        Standing::AtBound => 1,
+        Standing::GoesWith(_) => 2,
+        Standing::Held => 3,
+    };
+    let mut rows: Vec<&ParameterEstimate> = fit.estimates.iter().chain(&fit.ratios).collect();
+    rows.sort_by_key(rank);
+    for estimate in rows {
         let deviation = |value: Option<f64>| match value {
-            Some(value) => format!("{value:>11.1e}"),
-            None => format!("{:>11}", "held"),
+            // A bar of a value that hangs on another is none of its error.
+            Some(value) if estimate.standing == Standing::Determined => format!("{value:.1e}"),
+            _ => String::new(),
         };
-        let truth = truth(measurement, estimate);
-        line(format!(
-            "{:<18} {:>13.6e} {} {}{}",
+        let mark = match &estimate.standing {
+            Standing::Determined => String::new(),
+            Standing::AtBound => "  at its bound".to_owned(),
+            Standing::GoesWith(held) => format!("  goes with {}", held.join(", ")),
+            Standing::Held => "  held at its start".to_owned(),
+        };
+        let truth = truth(measurement, &estimate.name);
+        let row = format!(
+            "{:<34} {:>13.6e} {:>11} {:>11} {}{mark}",
             estimate.name,
             estimate.value,
             deviation(estimate.by_blocks),
             deviation(estimate.naive),
-            truth.map_or(String::new(), |truth| format!(" {truth:>13.6e}"))
-        ));
+            truth.map_or(String::new(), |truth| format!("{truth:>13.6e}"))
+        );
+        line(row.trim_end().to_owned());
+    }
+    if reported.result().is_err() {
+        return text;
     }
     line(format!(
         "Deviations by {} blocks of the record; naive ones take what is left over for white noise.",
         fit.blocks
     ));
-    line(String::new());
-    line(fit.identifiability.to_string());
+    line(format!("\n{}", fit.identifiability));
+    for open in &fit.identifiability.open {
+        let own = open
+            .others
+            .iter()
+            .filter(|(_, change)| change.abs() > WORTH);
+        let names = own.map(|(name, _)| name).chain([&open.held]);
+        let is_measurable = |name: &&String| MEASURABLE.iter().any(|kind| name.starts_with(kind));
+        let names: Vec<&str> = names.filter(is_measurable).map(String::as_str).collect();
+        if !names.is_empty() {
+            line(format!(
+                "  for {}: weigh or measure {}, and give it by --known",
+                open.held,
+                names.join(" or ")
+            ));
+        }
+    }
     if let Some(error) = &fit.impossible {
         line(format!(
             "No pendulum is such: {error}. What is held, or the law of friction, is not that of \
              the real one; the motion is the same all the same."
         ));
     }
+    text
+}
+
+fn energy(energies: &Energies) -> String {
     let compared = |measured: &MeasuredEnergy| {
         let Mismatch {
             rms,
@@ -119,33 +203,41 @@ pub fn report(
              to {deviation:.2} %"
         )
     };
-    line(format!(
+    format!(
         "Energy of the fitted motion and of the measured one differ, of that at the start,\n  \
          with velocities by the fitted equations by {},\n  \
-         with velocities by smoothness alone by {}.",
+         with velocities by smoothness alone by {}.\n",
         compared(&energies.by_equations),
         compared(&energies.by_smoothness)
-    ));
-    text
+    )
 }
 
-/// The true value of an estimate, of a simulated record.
-fn truth(measurement: &Measurement, estimate: &ParameterEstimate) -> Option<f64> {
+/// The true value of an unknown or of a ratio, of a simulated record.
+fn truth(measurement: &Measurement, name: &str) -> Option<f64> {
     let truth = measurement.truth.as_ref()?;
-    let of = truth.iter().find(|(name, _)| *name == estimate.name);
-    // Offsets are none.
-    Some(of.map_or(0.0, |(_, value)| *value))
+    let of = |factor: &str| {
+        let own = truth.iter().find(|(name, _)| *name == factor);
+        // Offsets are none.
+        own.map_or(0.0, |(_, value)| *value)
+    };
+    let mut divided = name.split(DIVIDED);
+    let product: f64 = divided.next()?.split(TIMES).map(of).product();
+    Some(divided.fold(product, |value, divisor| value / of(divisor)))
 }
 
-fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [f64; 2] {
-    let errors = &outcome.one_motion;
+fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [Option<f64>; 2] {
     [
-        errors.rms_between(f64::NEG_INFINITY, measurement.until),
-        errors.rms_between(measurement.until, f64::INFINITY),
+        (f64::NEG_INFINITY, measurement.until),
+        (measurement.until, f64::INFINITY),
     ]
+    .map(|(from, until)| Some(outcome.errors.as_ref()?.rms_between(from, until)))
 }
 
-/// Writes the parameters of the tree, what is left over of each angle, and the energies.
+/// Share in an open change for which a parameter is worth to be measured.
+const WORTH: f64 = 0.1;
+
+/// Writes the parameters of the tree where they were found, what is left over of each angle, and
+/// the energies.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
@@ -153,20 +245,21 @@ pub fn write<M: Described>(
     job: &Job,
     measurement: &Measurement,
     outcome: &Outcome,
-    energies: &Energies,
+    energies: Option<&Energies>,
 ) -> Result<(), Failure> {
-    let values = M::PARAMETERS.iter().zip(outcome.fit.parameters());
-    let values: Map<String, Value> = values
-        .map(|(name, value)| ((*name).to_owned(), json!(value)))
-        .collect();
-    let table = format!("{:#}\n", Value::Object(values));
-    job.write("parameters.json", table.as_bytes())?;
+    if let Ok(fit) = outcome.result() {
+        let values = M::PARAMETERS.iter().zip(fit.parameters());
+        let values: Map<String, Value> = values
+            .map(|(name, value)| ((*name).to_owned(), json!(value)))
+            .collect();
+        let table = format!("{:#}\n", Value::Object(values));
+        job.write("parameters.json", table.as_bytes())?;
+    }
     let mut columns = vec![Column::new("time", "s")];
     for kind in ["window", "one_motion"] {
         let links = measurement.links.iter();
         columns.extend(links.map(|link| Column::new(format!("{kind}_{link}"), "rad")));
     }
-    let measured = [&energies.by_equations, &energies.by_smoothness];
     for by in ["equations", "smoothness"] {
         columns.push(Column::new(format!("energy_by_{by}"), "J"));
         columns.push(Column::new(format!("energy_by_{by}_error"), "J"));
@@ -174,20 +267,26 @@ pub fn write<M: Described>(
     columns.push(Column::new("fitted_energy", "J"));
     let [fitted, later] = &outcome.windows;
     let windows = fitted.rows.iter().chain(&later.rows);
+    let times = measurement.record.times();
+    let none = vec![None; measurement.links.len()];
     job.csv("errors.csv", &columns, |file| {
-        let rows = windows.zip(&outcome.one_motion.rows);
-        for (index, (window, one)) in rows.enumerate() {
-            let mut row = vec![energies.times[index]];
-            row.extend(
-                window
-                    .iter()
-                    .chain(one)
-                    .map(|error| error.unwrap_or(f64::NAN)),
-            );
-            for energy in measured {
-                row.extend([energy.values[index], energy.deviations[index]]);
+        for (index, (window, &time)) in windows.zip(times).enumerate() {
+            let one = outcome
+                .errors
+                .as_ref()
+                .map_or(&none, |one| &one.rows[index]);
+            let mut row = vec![time];
+            let errors = window.iter().chain(one);
+            row.extend(errors.map(|error| error.unwrap_or(f64::NAN)));
+            match energies {
+                Some(energies) => {
+                    for energy in [&energies.by_equations, &energies.by_smoothness] {
+                        row.extend([energy.values[index], energy.deviations[index]]);
+                    }
+                    row.push(energies.fitted[index]);
+                }
+                None => row.extend([f64::NAN; 5]),
             }
-            row.push(energies.fitted[index]);
             file.row(row)?;
         }
         Ok(())
@@ -195,26 +294,30 @@ pub fn write<M: Described>(
 }
 
 /// Puts what was found into the record of the run.
-pub fn record(job: &Job, measurement: &Measurement, outcomes: &[Outcome], energies: &Energies) {
+pub fn record(
+    job: &Job,
+    measurement: &Measurement,
+    outcomes: &[Outcome],
+    energies: Option<&Energies>,
+) {
     for outcome in outcomes {
-        let parameters = outcome.fit.estimates.iter().map(|estimate| {
+        job.report(
+            outcome.law.name(),
             json!({
-                "name": estimate.name,
-                "value": estimate.value,
-                "deviation": estimate.by_blocks,
-                "naive": estimate.naive,
-            })
-        });
-        let found = json!({
-            "parameters": parameters.collect::<Vec<_>>(),
-            "determined": outcome.fit.identifiability.determined(),
-            "windows": outcome.windows.each_ref().map(|errors| errors.rms()),
-            "one_motion": one_motion(measurement, outcome),
-        });
-        job.report(outcome.law.name(), found);
+                "in_windows": searched(&outcome.in_windows),
+                "by_one_motion": searched(&outcome.one_motion),
+                "window": outcome.window(),
+                "windows": outcome.windows.each_ref().map(|errors| errors.rms()),
+                "one_motion": one_motion(measurement, outcome),
+            }),
+        );
     }
     let findings = measurement.findings.iter().map(ToString::to_string);
     job.report("findings", findings.collect::<Vec<_>>());
+    job.report("release", measurement.release);
+    let Some(energies) = energies else {
+        return;
+    };
     for (name, measured) in [
         ("energy_mismatch", &energies.by_equations),
         ("energy_mismatch_by_smoothness", &energies.by_smoothness),
@@ -227,4 +330,30 @@ pub fn record(job: &Job, measurement: &Measurement, outcomes: &[Outcome], energi
         let found = json!({"rms": rms, "largest": largest, "deviation": deviation});
         job.report(name, found);
     }
+}
+
+/// A search in the record of the run.
+fn searched(found: &Found) -> Value {
+    let fit = best(found);
+    let parameters = fit.estimates.iter().chain(&fit.ratios).map(|estimate| {
+        json!({
+            "name": estimate.name,
+            "value": estimate.value,
+            "goes_with": match &estimate.standing {
+                Standing::GoesWith(held) => json!(held),
+                _ => json!([]),
+            },
+            "deviation": estimate.by_blocks,
+            "naive": estimate.naive,
+        })
+    });
+    json!({
+        "failure": found.as_ref().err().map(ToString::to_string),
+        "noise": fit.convergence.noise,
+        "residual": fit.convergence.rms,
+        "starts": fit.convergence.starts,
+        "agreed": fit.convergence.agreed,
+        "determined": fit.identifiability.determined(),
+        "parameters": parameters.collect::<Vec<_>>(),
+    })
 }

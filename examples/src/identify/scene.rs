@@ -75,6 +75,11 @@ pub const COULOMB: [(&str, f64); 2] = [("coulomb_1", 1e-4), ("coulomb_2", 1e-4)]
 /// Quadratic drag of the links, with the sizes from which it is searched, N m s².
 pub const QUADRATIC: [(&str, f64); 2] = [("quadratic_1", 1e-5), ("quadratic_2", 1e-5)];
 
+/// How names of coefficients of friction begin.
+pub const FRICTION: [&str; 3] = ["viscous", "coulomb", "quadratic"];
+/// How names of what a scale or a ruler tells begin.
+pub const MEASURABLE: [&str; 3] = ["mass", "com", "joint"];
+
 /// Gravity where nothing else is given, m/s².
 pub const GRAVITY: f64 = 9.80665;
 

@@ -16,15 +16,21 @@ const RATE: f64 = 100.0;
 /// Deviation of angles beside each other, rad: all are equally good.
 const DEVIATION: f64 = 1e-3;
 
+/// Angles link by link (rad); none where they are missing.
+pub type Angles = Vec<Vec<Option<f64>>>;
+
 /// Angles of all links against time.
 #[derive(Clone, Debug)]
 pub struct Measurement {
     /// All of the record.
     pub record: AngleRecord,
     /// Angles of the links (rad), from the downward vertical.
-    pub angles: Vec<Vec<Option<f64>>>,
+    pub angles: Angles,
     /// Names of the links.
     pub links: Vec<String>,
+    /// The time until which the links were held, where the file begins before, s; the record
+    /// begins there.
+    pub release: Option<f64>,
     /// End of the part that is fitted, s.
     pub until: f64,
     /// How the file was read.
@@ -57,10 +63,17 @@ impl Measurement {
         };
         let name = |index| M::link_name(index).map_or(String::new(), |name| name.to_string());
         let links: Vec<String> = (0..M::LINKS).map(name).collect();
-        let record = links.iter().zip(&angles);
-        let record = record.fold(AngleRecord::new(&times), |record, (link, angles)| {
-            record.with_link(link, angles, DEVIATION)
-        });
+        let of = |times: &[f64], angles: &Angles| {
+            let record = links.iter().zip(angles);
+            record.fold(AngleRecord::new(times), |record, (link, angles)| {
+                record.with_link(link, angles, DEVIATION)
+            })
+        };
+        let release = of(&times, &angles).release();
+        let held = times.partition_point(|&time| release.is_some_and(|release| time < release));
+        let times = times[held..].to_vec();
+        let angles: Angles = angles.iter().map(|link| link[held..].to_vec()).collect();
+        let record = of(&times, &angles);
         let (first, last) = match (times.first(), times.last()) {
             (Some(&first), Some(&last)) => (first, last),
             _ => (0.0, 0.0),
@@ -70,6 +83,7 @@ impl Measurement {
             record,
             angles,
             links,
+            release,
             until,
             findings,
             truth,
@@ -86,8 +100,6 @@ impl Measurement {
         self.record.between(self.until, f64::INFINITY)
     }
 }
-
-type Angles = Vec<Vec<Option<f64>>>;
 
 fn simulate<M: Described>(arguments: &Arguments) -> Result<(Vec<f64>, Angles), Failure> {
     let values = simulated::<M>();

@@ -1,6 +1,6 @@
 //! A chain of two links, with friction as real joints have it.
 
-use branched_pendulum::analysis::identification::{AngleRecord, Family, Identification};
+use branched_pendulum::analysis::identification::{AngleRecord, Family, FamilyOf, Identification};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{Torques, UnderTorques};
 use branched_pendulum::{ParameterError, Parametric};
@@ -107,6 +107,17 @@ pub(crate) fn all_unknown<F: Family>(
     REAL.iter().fold(task, unknown)
 }
 
+/// Both masses and a centre known, so that all others are determined.
+pub(crate) fn five_unknown(mut start: impl FnMut(f64) -> f64) -> Identification<FamilyOf<Chain>> {
+    let known = ["mass_1", "mass_2", "com_1"];
+    let task = Identification::new(FamilyOf::<Chain>::new()).known("gravity", GRAVITY);
+    REAL.iter()
+        .fold(task, |task, &(name, value)| match known.contains(&name) {
+            true => task.known(name, value),
+            false => task.unknown(name, start(value)),
+        })
+}
+
 /// The chain with the parameters of [`REAL`].
 pub(crate) fn real() -> Chain {
     let names = <Chain as Parametric<f64>>::PARAMETERS;
@@ -116,12 +127,24 @@ pub(crate) fn real() -> Chain {
     })
 }
 
-/// Angles of the real chain's equations, `rate` a second, with noise of this size.
+/// Angles of the real chain's equations, `rate` a second, with white noise of this size.
 pub(crate) fn simulated(
     start: [f64; 2],
     span: f64,
     rate: f64,
     noise: f64,
+    seed: u64,
+) -> AngleRecord {
+    with_errors(start, span, rate, noise, 0.0, seed)
+}
+
+/// Such angles, whose errors forget themselves by a factor from one to the next.
+pub(crate) fn with_errors(
+    start: [f64; 2],
+    span: f64,
+    rate: f64,
+    noise: f64,
+    memory: f64,
     seed: u64,
 ) -> AngleRecord {
     let count = (span * rate).round() as usize;
@@ -132,10 +155,25 @@ pub(crate) fn simulated(
     let motion = motion.expect("it swings");
     let mut random = Uniform(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
     let angles = [0, 1].map(|link| {
-        let angle = |state: &State<f64>| Some(state.values[link] + noise * random.normal());
+        let mut error = 0.0;
+        let angle = |state: &State<f64>| {
+            error = memory * error + (1.0 - memory * memory).sqrt() * random.normal();
+            Some(state.values[link] + noise * error)
+        };
         motion.iter().map(angle).collect::<Vec<_>>()
     });
     AngleRecord::new(&times)
         .with_link("upper", &angles[0], 1e-3)
         .with_link("lower", &angles[1], 1e-3)
+}
+
+/// The true value of a parameter, of an offset or of a ratio.
+pub(crate) fn truth(name: &str) -> f64 {
+    let of = |factor: &str| {
+        let own = REAL.iter().find(|(name, _)| *name == factor);
+        own.map_or(0.0, |(_, value)| *value)
+    };
+    let mut divided = name.split(" / ");
+    let product: f64 = divided.next().unwrap_or("").split(" · ").map(of).product();
+    divided.fold(product, |value, divisor| value / of(divisor))
 }

@@ -4,18 +4,7 @@ use branched_pendulum::analysis::identification::{
     AngleRecord, FamilyOf, Frequency, Identification, IdentificationError, Shooting,
 };
 
-use super::chain::{Chain, GRAVITY, REAL, simulated};
-
-/// Both masses and a centre known, so that all others are determined.
-fn five_unknown(off: f64) -> Identification<FamilyOf<Chain>> {
-    let known = ["mass_1", "mass_2", "com_1"];
-    let task = Identification::new(FamilyOf::<Chain>::new()).known("gravity", GRAVITY);
-    REAL.iter()
-        .fold(task, |task, &(name, value)| match known.contains(&name) {
-            true => task.known(name, value),
-            false => task.unknown(name, off * value),
-        })
-}
+use super::chain::{Chain, GRAVITY, REAL, five_unknown, simulated};
 
 #[test]
 fn parameters_come_back_from_a_motion_without_noise() {
@@ -24,7 +13,9 @@ fn parameters_come_back_from_a_motion_without_noise() {
         tolerance: 1e-13,
         ..Shooting::default()
     };
-    let task = five_unknown(1.3).with_offsets().with_shooting(shooting);
+    let task = five_unknown(|value| 1.3 * value)
+        .with_offsets()
+        .with_shooting(shooting);
     let fit = task.fit(&record).unwrap();
     for (name, value) in &REAL[3..] {
         let found = fit.determined(name).unwrap().value;
@@ -50,12 +41,12 @@ fn scale(name: &str) -> f64 {
 fn one_link_in_sight_tells_of_both() {
     let record = simulated([0.8, -0.5], 20.0, 50.0, 0.0, 1);
     let times = record.times().to_vec();
-    let whole = five_unknown(1.0);
+    let whole = five_unknown(|value| value);
     let fit = whole.fit(&record).unwrap();
     let motion = whole.predict(&fit, &times).unwrap();
     let lower: Vec<Option<f64>> = motion.iter().map(|state| Some(state.values[1])).collect();
     let half = AngleRecord::new(&times).with_link("lower", &lower, 1e-3);
-    let fit = five_unknown(1.05).fit(&half).unwrap();
+    let fit = five_unknown(|value| 1.05 * value).fit(&half).unwrap();
     let joint = fit.determined("joint_1").unwrap().value;
     assert!((joint / 0.172719204 - 1.0).abs() < 1e-6, "{joint}");
 }
@@ -107,53 +98,4 @@ fn two_frequencies() -> [f64; 2] {
     let (p, q, r) = (a * c - b * b, -(g1 * c + g2 * a), g1 * g2);
     let root = (q * q - 4.0 * p * r).sqrt();
     [-root, root].map(|root| ((-q + root) / (2.0 * p)).sqrt() / std::f64::consts::TAU)
-}
-
-/// Number of intervals of 95 % that hold the truth, by curvature and by blocks, and of all.
-fn coverage(runs: u64) -> [f64; 3] {
-    let mut counts = [0.0; 3];
-    for seed in 1..=runs {
-        let record = simulated([0.8, -0.5], 15.0, 50.0, 1e-3, seed);
-        let fit = five_unknown(1.0).fit(&record).unwrap();
-        for (name, value) in &REAL[3..] {
-            let estimate = fit.determined(name).unwrap();
-            let error = (estimate.value - value).abs();
-            let holds = |deviation: Option<f64>, wide: f64| {
-                f64::from(u8::from(error < wide * deviation.unwrap()))
-            };
-            counts[0] += holds(estimate.naive, 1.960);
-            // Student's distribution of 29 degrees of freedom.
-            counts[1] += holds(estimate.by_blocks, 2.045);
-            counts[2] += 1.0;
-        }
-    }
-    counts
-}
-
-#[test]
-fn bars_hold_the_truth() {
-    let [naive, by_blocks, all] = coverage(20);
-    // 120 intervals, of independent and dependent parameters: three deviations.
-    assert!((0.87..=1.0).contains(&(naive / all)), "{naive} of {all}");
-    assert!(
-        (0.85..=1.0).contains(&(by_blocks / all)),
-        "{by_blocks} of {all}"
-    );
-}
-
-/// Some minutes: `cargo test -p branched-pendulum --test identification -- --ignored --nocapture two_hundred`.
-#[test]
-#[ignore = "some minutes"]
-fn bars_hold_the_truth_in_two_hundred_runs() {
-    let [naive, by_blocks, all] = coverage(200);
-    println!(
-        "by curvature {}, by blocks {}",
-        naive / all,
-        by_blocks / all
-    );
-    assert!((0.93..=0.97).contains(&(naive / all)), "{naive} of {all}");
-    assert!(
-        (0.93..=0.97).contains(&(by_blocks / all)),
-        "{by_blocks} of {all}"
-    );
 }

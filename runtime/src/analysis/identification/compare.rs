@@ -6,6 +6,7 @@ use super::fit::{AngleErrors, Fit};
 use super::least_squares::{DAMPING, FULL, FitStage};
 use super::problem::{Identification, no_motion};
 use super::record::{AngleRecord, MeasuredLink};
+use super::start::SmoothedRecord;
 use super::task::split;
 use crate::analysis::smoothing::misplaced;
 use crate::integrate::{Dop853, Integrator, Options};
@@ -90,10 +91,15 @@ impl<F: Family> Identification<F> {
         if self.offsets {
             globals.extend(record.links.iter().map(of_link));
         }
-        let segments = split(record.times(), length);
-        let starts = match task.segments_of(fit) {
-            Some(own) if own == segments => fit.start_states(),
-            _ => task.first_states(record, &globals, &segments)?,
+        let is_own = fit.stages.last().is_some_and(|last| last.length == length);
+        let (segments, starts) = match task.segments_of(fit).filter(|_| is_own) {
+            Some(own) => (own, fit.start_states()),
+            None => {
+                let segments = split(record.times(), length);
+                let smoothed = SmoothedRecord::new(record)?;
+                let starts = task.first_states(&smoothed, &globals, &segments);
+                (segments, starts)
+            }
         };
         let mut all = AngleErrors {
             times: record.times().to_vec(),

@@ -83,10 +83,14 @@ impl TimeBlocks {
         self.blocks.len()
     }
 
-    /// Variances of the globals that are not held: the jackknife over blocks, one step of
-    /// Gauss and Newton for each that is left out (a sandwich whose middle allows for what
-    /// a block itself has drawn the estimate to).
-    pub(super) fn variances(&self, free: &[usize]) -> Option<Vec<f64>> {
+    /// Variances of combinations of the globals that are not held, a row each: the jackknife
+    /// over blocks, one step of Gauss and Newton for each that is left out (a sandwich whose
+    /// middle allows for what a block itself has drawn the estimate to).
+    pub(super) fn variances(
+        &self,
+        free: &[usize],
+        combinations: &DMatrix<f64>,
+    ) -> Option<Vec<f64>> {
         let count = self.count();
         if count < free.len() + 2 {
             return None;
@@ -100,13 +104,13 @@ impl TimeBlocks {
         let mut changes = Vec::with_capacity(count);
         for block in &self.blocks {
             let rest = part(&(&total - &block.information)).cholesky()?;
-            changes.push(rest.solve(&block.pull.select_rows(free)));
+            changes.push(combinations * rest.solve(&block.pull.select_rows(free)));
         }
-        let variance = |index: usize| {
-            let change = |block: Option<usize>| block.map_or(0.0, |block| changes[block][index]);
+        let variance = |row: usize| {
+            let change = |block: Option<usize>| block.map_or(0.0, |block| changes[block][row]);
             Some(jackknife(count, change).ok()?.error.powi(2))
         };
-        (0..free.len()).map(variance).collect()
+        (0..combinations.nrows()).map(variance).collect()
     }
 }
 
@@ -116,18 +120,49 @@ fn along(rows: &DMatrix<f64>, response: &DMatrix<f64>) -> DMatrix<f64> {
     rows.columns(0, n) * response + rows.columns(n, columns)
 }
 
-/// Variances by the curvature alone, for data whose errors are independent and of this
-/// variance; `triangle` is that of the globals, of which some are free.
-pub(super) fn by_curvature(
-    triangle: &DMatrix<f64>,
-    free: &[usize],
-    variance: f64,
-) -> Option<Vec<f64>> {
-    if free.is_empty() {
-        return Some(Vec::new());
+/// The square root of the normal equations of the globals that are free.
+pub(super) struct Curvature {
+    root: DMatrix<f64>,
+    /// What one step more would gain.
+    rest: DVector<f64>,
+}
+
+impl Curvature {
+    /// That of a triangle of all globals, with what its rows make up for.
+    pub(super) fn new(globals: &DMatrix<f64>, free: &[usize]) -> Self {
+        let last = globals.column(globals.ncols() - 1).into_owned();
+        if free.is_empty() {
+            return Self {
+                root: DMatrix::zeros(0, 0),
+                rest: DVector::zeros(0),
+            };
+        }
+        let decomposed = globals.select_columns(free).qr();
+        let mut rest = last;
+        decomposed.q_tr_mul(&mut rest);
+        Self {
+            root: decomposed.unpack_r(),
+            rest: rest.rows(0, free.len()).into_owned(),
+        }
     }
-    let root = triangle.select_columns(free).qr().unpack_r();
-    let inverse = root.solve_upper_triangular(&DMatrix::identity(free.len(), free.len()))?;
-    let variances = inverse.row_iter().map(|row| variance * row.norm_squared());
-    Some(variances.collect())
+
+    /// Variances of combinations of the free globals, a row each, by the curvature alone: for
+    /// data whose errors are independent and of this variance.
+    pub(super) fn variances(&self, combinations: &DMatrix<f64>, variance: f64) -> Option<Vec<f64>> {
+        let count = self.root.nrows();
+        if count == 0 {
+            return Some(vec![0.0; combinations.nrows()]);
+        }
+        let inverse = self
+            .root
+            .solve_upper_triangular(&DMatrix::identity(count, count))?;
+        let rows = combinations * inverse;
+        let variances = rows.row_iter().map(|row| variance * row.norm_squared());
+        Some(variances.collect())
+    }
+
+    /// Distance of the least sum of squares, in deviations of this size.
+    pub(super) fn distance(&self, deviation: f64) -> f64 {
+        self.rest.norm() / deviation
+    }
 }

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::convergence::Unfound;
 use crate::analysis::SmoothingError;
 use crate::model::ParameterError;
 
@@ -93,6 +94,8 @@ pub enum IdentificationError {
         /// Start of the segment, s.
         time: f64,
     },
+    /// A search that ended nowhere, with the best that it found.
+    NotFound(Box<Unfound>),
     /// A parameter that the data do not determine.
     NotDetermined {
         /// Its name.
@@ -151,6 +154,10 @@ impl fmt::Display for IdentificationError {
                 f,
                 "the motion from {time} s on cannot be integrated with the parameters of the start"
             ),
+            Self::NotFound(unfound) => unfound.fmt(f),
+            Self::NotDetermined { name, with } if with.is_empty() => {
+                write!(f, "the data do not determine `{name}`")
+            }
             Self::NotDetermined { name, with } => write!(
                 f,
                 "the data do not determine `{name}`: it can change together with {}",
@@ -187,7 +194,7 @@ pub(super) fn positive(what: &str, value: f64) -> Result<(), IdentificationError
     number(what, value, value > 0.0)
 }
 
-fn number(what: &str, value: f64, is_possible: bool) -> Result<(), IdentificationError> {
+pub(super) fn number(what: &str, value: f64, is_possible: bool) -> Result<(), IdentificationError> {
     let what = what.to_owned();
     match is_possible {
         true => Ok(()),

@@ -1,5 +1,6 @@
 //! Result of a fit.
 
+use super::convergence::Convergence;
 use super::error::IdentificationError;
 use super::identifiability::Identifiability;
 use crate::model::ParameterError;
@@ -10,6 +11,11 @@ use crate::system::State;
 pub struct Fit {
     /// The unknowns, in the order in which they were given; offsets of angles come last.
     pub estimates: Vec<ParameterEstimate>,
+    /// Products of powers of parameters that the data determine, of those that they do not
+    /// determine one by one.
+    pub ratios: Vec<ParameterEstimate>,
+    /// How the search ended: whether it converged, whether what is left over is the noise.
+    pub convergence: Convergence,
     /// Combinations of them that the data determine, and changes that they leave open.
     pub identifiability: Identifiability,
     /// The states at the starts of the last stage's segments.
@@ -32,10 +38,12 @@ pub struct Fit {
 /// An unknown that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterEstimate {
-    /// Name of the parameter, or `offset of LINK`.
+    /// Name of the parameter, or `offset of LINK`, or factors and divisors of a ratio.
     pub name: String,
     /// Its value.
     pub value: f64,
+    /// What the value stands on.
+    pub standing: Standing,
     /// Its standard deviation, as if errors of the data were independent of each other. None
     /// for what is held, and infinite where nothing can be said.
     pub naive: Option<f64>,
@@ -43,6 +51,19 @@ pub struct ParameterEstimate {
     /// out: the one to trust where what is left over is not white. With few blocks it
     /// belongs to Student's distribution of as many degrees of freedom, less one.
     pub by_blocks: Option<f64>,
+}
+
+/// What the value of an unknown stands on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The data alone.
+    Determined,
+    /// The data, and the values at which these others are held: as wrong as they are.
+    GoesWith(Vec<String>),
+    /// Its start, at which it is held since the data leave it open.
+    Held,
+    /// A bound, beyond which the data would have it.
+    AtBound,
 }
 
 /// A stage of a fit: segments of one length.
@@ -78,19 +99,16 @@ impl Fit {
             parameters: names().collect(),
         };
         let estimate = self.estimate(name).ok_or_else(unknown)?;
-        let with = self.identifiability.together_with(name);
-        let is_open = self
-            .identifiability
-            .open
-            .iter()
-            .any(|open| open.held == name);
-        match with.is_empty() && !is_open {
-            true => Ok(estimate),
-            false => Err(IdentificationError::NotDetermined {
-                name: name.to_owned(),
-                with,
-            }),
+        let mut with = self.identifiability.together_with(name);
+        match &estimate.standing {
+            Standing::Determined | Standing::AtBound => return Ok(estimate),
+            Standing::GoesWith(held) if with.is_empty() => with.clone_from(held),
+            Standing::GoesWith(_) | Standing::Held => {}
         }
+        Err(IdentificationError::NotDetermined {
+            name: name.to_owned(),
+            with,
+        })
     }
 
     /// Values of all parameters of the model, in their order.
@@ -112,6 +130,14 @@ impl Fit {
         offset.map_or(0.0, |(_, offset)| *offset)
     }
 
+    /// Takes away what may be said of a result alone.
+    pub(super) fn without_deviations(mut self) -> Self {
+        for estimate in self.estimates.iter_mut().chain(&mut self.ratios) {
+            (estimate.naive, estimate.by_blocks) = (None, None);
+        }
+        self
+    }
+
     /// The states at the starts of the segments.
     pub(super) fn start_states(&self) -> Vec<Vec<f64>> {
         let states = self.starts.iter().map(|start| start.values.clone());
@@ -124,7 +150,7 @@ impl Fit {
 }
 
 /// Angles less data at every time, and link by link.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct AngleErrors {
     /// Times, s.
     pub times: Vec<f64>,

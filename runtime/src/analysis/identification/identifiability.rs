@@ -4,13 +4,16 @@ use core::fmt;
 
 use nalgebra::DMatrix;
 
+use super::convergence::digits;
 use super::task::FitTask;
 
 /// Relative size of a singular value that is taken for zero: what is left of exact
 /// dependences after integration with a finite tolerance.
 const ZERO: f64 = 1e-7;
+/// Square of a share, of that of the largest one, that is large.
+const LARGE: f64 = 0.1;
 /// Share in an open change that counts.
-const SHARE: f64 = 1e-3;
+pub(super) const SHARE: f64 = 1e-3;
 
 /// Combinations that the data determine, by a singular value decomposition of the derivatives
 /// of all data with respect to relative changes of the parameters (and to offsets, rad).
@@ -37,26 +40,31 @@ pub struct OpenChange {
     pub others: Vec<(String, f64)>,
 }
 
+/// Directions that the data leave open, and the unknowns that are held for them.
+pub(super) struct OpenDirections {
+    /// In falling order.
+    singular_values: Vec<f64>,
+    /// Relative changes (of offsets: rad) of all unknowns, a column for each that is held, by
+    /// which that one changes by one.
+    pub(super) changes: DMatrix<f64>,
+    pub(super) held: Vec<usize>,
+}
+
 impl FitTask<'_> {
     /// Decomposes the triangle of the normal equations of these globals, in standard
-    /// deviations of the data, whose own is `deviation` in those that were given. Returns
-    /// the indices of the unknowns that are held, too: `first` those that were held already.
-    pub(super) fn identifiability(
+    /// deviations of the data, whose own is `deviation` in those that were given; `first` to be
+    /// held are those that were held already.
+    pub(super) fn open_directions(
         &self,
         globals: &[f64],
         triangle: &DMatrix<f64>,
         deviation: f64,
         first: &[usize],
-    ) -> (Identifiability, Vec<usize>) {
+    ) -> OpenDirections {
         let count = globals.len();
         let mut matrix = triangle.columns(0, count).into_owned();
-        for (index, (&value, scale)) in globals.iter().zip(&self.scales).enumerate() {
-            // Unit of a parameter is its size, of an offset 1 rad.
-            let unit = match self.unknown.get(index) {
-                Some(_) if value != 0.0 => value.abs(),
-                Some(_) => *scale,
-                None => 1.0,
-            };
+        for (index, scale) in self.scales.iter().enumerate() {
+            let unit = self.unit(globals, index);
             matrix.column_mut(index).scale_mut(unit / scale);
         }
         let decomposed = matrix.svd(false, true);
@@ -78,43 +86,61 @@ impl FitTask<'_> {
         let held = held(&basis, first);
         let mut sorted = values.to_vec();
         sorted.sort_by(|a, b| b.total_cmp(a));
-        let found = Identifiability {
-            unknown: count,
+        let inverse = basis.select_rows(&held).try_inverse();
+        OpenDirections {
             singular_values: sorted,
-            open: self.open_changes(&basis, &held),
-        };
-        (found, held)
+            changes: inverse.map_or_else(|| basis.clone(), |inverse| &basis * inverse),
+            held,
+        }
     }
 
-    fn open_changes(&self, basis: &DMatrix<f64>, held: &[usize]) -> Vec<OpenChange> {
-        let Some(inverse) = basis.select_rows(held).try_inverse() else {
-            return Vec::new();
-        };
-        let changes = basis * inverse;
-        let change = |(column, &own): (usize, &usize)| OpenChange {
-            held: self.names[own].clone(),
-            others: (0..self.names.len())
-                .filter(|&row| row != own && changes[(row, column)].abs() > SHARE)
-                .map(|row| (self.names[row].clone(), changes[(row, column)]))
-                .collect(),
-        };
-        held.iter().enumerate().map(change).collect()
+    /// A relative change of one: of a parameter its size, of an offset 1 rad.
+    pub(super) fn unit(&self, globals: &[f64], index: usize) -> f64 {
+        match self.unknown.get(index) {
+            Some(_) if globals[index] != 0.0 => globals[index].abs(),
+            Some(_) => self.scales[index],
+            None => 1.0,
+        }
     }
 }
 
-/// One unknown for each column: the first ones, and those with the largest share, each in
-/// what the ones before leave of the columns.
+impl OpenDirections {
+    /// What it says in words of these names.
+    pub(super) fn tell(self, names: &[String]) -> Identifiability {
+        let Self {
+            singular_values,
+            changes,
+            held,
+        } = self;
+        let change = |(column, &own): (usize, &usize)| OpenChange {
+            held: names[own].clone(),
+            others: (0..names.len())
+                .filter(|&row| row != own && changes[(row, column)].abs() > SHARE)
+                .map(|row| (names[row].clone(), changes[(row, column)]))
+                .collect(),
+        };
+        Identifiability {
+            unknown: names.len(),
+            singular_values,
+            open: held.iter().enumerate().map(change).collect(),
+        }
+    }
+}
+
+/// One unknown for each column, each with a large share in what the ones before leave of the
+/// columns: one of `first`, or the first of all, as they were given. (The one of largest share
+/// may be an inertia, which leaves no finite masses where the real one is nought.)
 fn held(basis: &DMatrix<f64>, first: &[usize]) -> Vec<usize> {
     let mut rest = basis.clone();
     let mut held = Vec::new();
     for _ in 0..basis.ncols() {
         let length = |row: usize| rest.row(row).norm_squared();
-        let rows = (0..rest.nrows()).filter(|row| !held.contains(row));
-        let rows = rows.map(|row| (first.contains(&row) && length(row) > SHARE * SHARE, row));
-        let order = |a: &(bool, usize), b: &(bool, usize)| {
-            a.0.cmp(&b.0).then(length(a.1).total_cmp(&length(b.1)))
-        };
-        let Some((_, most)) = rows.max_by(order) else {
+        let rows = || (0..rest.nrows()).filter(|row| !held.contains(row));
+        let longest = rows().map(length).fold(0.0, f64::max);
+        let before = rows().filter(|row| first.contains(row) && length(*row) > SHARE * SHARE);
+        let before = before.max_by(|&a, &b| length(a).total_cmp(&length(b)));
+        let Some(most) = before.or_else(|| rows().find(|&row| length(row) >= LARGE * longest))
+        else {
             break;
         };
         let direction = rest.row(most).into_owned();
@@ -125,6 +151,13 @@ fn held(basis: &DMatrix<f64>, first: &[usize]) -> Vec<usize> {
     }
     held.sort_unstable();
     held
+}
+
+impl OpenChange {
+    fn has_one_of(&self, names: &[String]) -> bool {
+        let mut own = self.others.iter().map(|(name, _)| name).chain([&self.held]);
+        own.any(|name| names.contains(name))
+    }
 }
 
 impl Identifiability {
@@ -138,19 +171,14 @@ impl Identifiability {
     /// none where it is determined by itself.
     #[must_use]
     pub fn together_with(&self, name: &str) -> Vec<String> {
-        let mut all = Vec::new();
-        for change in &self.open {
-            let names = || {
-                change
-                    .others
-                    .iter()
-                    .map(|(name, _)| name)
-                    .chain([&change.held])
-            };
-            if names().any(|other| other == name) {
-                all.extend(names().filter(|other| *other != name).cloned());
-            }
+        let mut all = vec![name.to_owned()];
+        let mut changes: Vec<&OpenChange> = self.open.iter().collect();
+        // One change after the other is a change, too.
+        while let Some(place) = changes.iter().position(|change| change.has_one_of(&all)) {
+            let OpenChange { held, others } = changes.swap_remove(place);
+            all.extend(others.iter().map(|(name, _)| name).chain([held]).cloned());
         }
+        all.retain(|other| other != name);
         all.sort();
         all.dedup();
         all
@@ -167,20 +195,15 @@ impl fmt::Display for Identifiability {
         for OpenChange { held, others } in &self.open {
             write!(f, "\n  open: {held} +1 %")?;
             for (name, change) in others {
-                write!(f, ", {name} {change:+.2} %")?;
+                let sign = if *change < 0.0 { "" } else { "+" };
+                write!(f, ", {name} {sign}{} %", digits(*change))?;
             }
         }
         if !self.open.is_empty() {
-            let held: Vec<&str> = self
-                .open
-                .iter()
-                .map(|change| change.held.as_str())
-                .collect();
             write!(
                 f,
-                "\n  Measure {} (scale, ruler), and the others follow; as they are, they go with \
-                 its value.",
-                held.join(", ")
+                "\n  One of each line has to be known, and the others follow; as they are, they go \
+                 with the first, which is held."
             )?;
         }
         Ok(())

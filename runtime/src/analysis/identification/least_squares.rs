@@ -50,6 +50,7 @@ pub(super) struct FitStage {
 }
 
 /// Residuals of a stage, in deviations.
+#[derive(Clone)]
 pub(super) struct Residuals {
     /// Those of angles, segment by segment.
     pub(super) angles: Vec<Vec<f64>>,
@@ -60,6 +61,7 @@ pub(super) struct Residuals {
 }
 
 /// A stage that is solved.
+#[derive(Clone)]
 pub(super) struct Solved {
     pub(super) residuals: Residuals,
     pub(super) steps: usize,
@@ -146,7 +148,7 @@ impl FitStage {
             self.free = (0..task.names.len()).collect();
             let linear = self.linearise(task, &known)?;
             let globals = self.eliminate(&linear, None).globals;
-            let (_, held) = task.identifiability(&self.globals, &globals, 0.0, &[]);
+            let held = task.open_directions(&self.globals, &globals, 0.0, &[]).held;
             self.free.retain(|global| !held.contains(global));
             let linear = linear.only(&self.free);
             let (residuals, more) = self.solve_from(task, settled, known, linear)?;
@@ -222,13 +224,38 @@ impl FitStage {
         Some((best, STEPS))
     }
 
-    /// One step, and the residuals after it.
+    /// One step, and the residuals after it. A global that lies at its bound stays there where
+    /// the step would take it beyond.
     fn step(&self, task: &FitTask<'_>, linear: &LinearStage) -> Option<(Self, Residuals)> {
-        let damping = linear.damping(self.damping.sqrt());
-        let (globals, starts) = self.eliminate(linear, Some(&damping)).solve()?;
+        let mut columns: Vec<usize> = (0..self.free.len()).collect();
+        let mut reduced: Option<LinearStage> = None;
+        let (globals, starts) = loop {
+            let own = reduced.as_ref().unwrap_or(linear);
+            let damping = own.damping(self.damping.sqrt());
+            let (globals, starts) = self.eliminate(own, Some(&damping)).solve()?;
+            let is_beyond = |(column, step): (&usize, &f64)| {
+                let (global, value) = (self.free[*column], self.globals[self.free[*column]]);
+                let step = step * task.scales[global];
+                task.is_at_bound(global, value)
+                    && task.within(global, value + step) == value
+                    && step != 0.0
+            };
+            let inside = columns
+                .iter()
+                .zip(&globals)
+                .filter(|&pair| !is_beyond(pair));
+            let inside: Vec<usize> = inside.map(|(column, _)| *column).collect();
+            if inside.len() == columns.len() {
+                break (globals, starts);
+            }
+            columns = inside;
+            reduced = Some(linear.only(&columns));
+        };
         let mut trial = self.clone();
-        for (&global, step) in self.free.iter().zip(&globals) {
-            trial.globals[global] += step * task.scales[global];
+        for (&column, step) in columns.iter().zip(&globals) {
+            let global = self.free[column];
+            let value = trial.globals[global] + step * task.scales[global];
+            trial.globals[global] = task.within(global, value);
         }
         for (start, step) in trial.starts.iter_mut().zip(&starts) {
             for (value, step) in start.iter_mut().zip(step) {

@@ -46,6 +46,7 @@
 //! ```
 
 mod compare;
+mod convergence;
 mod covariance;
 mod elimination;
 mod error;
@@ -55,17 +56,22 @@ mod frequencies;
 mod identifiability;
 mod least_squares;
 mod problem;
+mod ratios;
 mod record;
+mod release;
 mod report;
 mod resolve;
+mod search;
 mod sensitivity;
 mod start;
 mod task;
 
+pub use convergence::{Convergence, SearchFailure, Unfound};
 pub use error::IdentificationError;
 pub use family::{Family, FamilyOf};
-pub use fit::{AngleErrors, Fit, ParameterEstimate, StageReport};
+pub use fit::{AngleErrors, Fit, ParameterEstimate, StageReport, Standing};
 pub use frequencies::Frequency;
 pub use identifiability::{Identifiability, OpenChange};
 pub use problem::{Identification, Shooting};
+pub use ratios::{DIVIDED, TIMES};
 pub use record::AngleRecord;

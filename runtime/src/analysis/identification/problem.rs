@@ -2,13 +2,16 @@
 
 use std::ops::Range;
 
+use super::convergence::SearchFailure;
 use super::error::IdentificationError;
 use super::family::Family;
-use super::fit::{Fit, StageReport};
+use super::fit::Fit;
 use super::frequencies::Frequency;
-use super::least_squares::{DAMPING, FULL, FitStage, ROUGH, Solved};
+use super::least_squares::{DAMPING, FitStage};
 use super::record::AngleRecord;
-use super::task::{FitTask, split};
+use super::search::Search;
+use super::start::SmoothedRecord;
+use super::task::FitTask;
 
 /// Parameters to be found, of a family of models.
 #[derive(Clone, Debug)]
@@ -16,6 +19,8 @@ pub struct Identification<F> {
     pub(super) family: F,
     pub(super) known: Vec<(String, f64)>,
     pub(super) unknown: Vec<StartValue>,
+    /// Least values of unknowns.
+    pub(super) least: Vec<(String, f64)>,
     pub(super) offsets: bool,
     pub(super) frequencies: Vec<Frequency>,
     pub(super) shooting: Shooting,
@@ -59,11 +64,6 @@ impl Default for Shooting {
     }
 }
 
-/// Number of choices of unknowns that are held in the first stage, at most.
-const CHOICES: usize = 8;
-/// By how much the tolerance of early stages is larger.
-const LOOSENED: f64 = 1e3;
-
 impl<F: Family> Identification<F> {
     /// The models of a family, of whose parameters nothing is said as yet.
     pub fn new(family: F) -> Self {
@@ -71,6 +71,7 @@ impl<F: Family> Identification<F> {
             family,
             known: Vec::new(),
             unknown: Vec::new(),
+            least: Vec::new(),
             offsets: false,
             frequencies: Vec::new(),
             shooting: Shooting::default(),
@@ -106,8 +107,17 @@ impl<F: Family> Identification<F> {
         self
     }
 
+    /// Searches for an unknown among values that are no less than this one: friction that does
+    /// not drive, say. Where the data would have it smaller it ends there
+    /// ([`Standing::AtBound`](super::Standing::AtBound)).
+    #[must_use]
+    pub fn at_least(mut self, name: &str, value: f64) -> Self {
+        self.least.push((name.to_owned(), value));
+        self
+    }
+
     /// Searches for the zero of each measured link's angles, too: an angle of the record is
-    /// that of the model and its `offset of LINK`.
+    /// that of the model and its `offset of LINK`, which is half a turn at most.
     #[must_use]
     pub fn with_offsets(mut self) -> Self {
         self.offsets = true;
@@ -141,12 +151,51 @@ impl<F: Family> Identification<F> {
     ///
     /// # Errors
     ///
-    /// [`IdentificationError`]. What the data do not determine is no error: the fit tells it
-    /// ([`Fit::identifiability`]).
+    /// [`IdentificationError`]. A search that ended nowhere is
+    /// [`NotFound`](IdentificationError::NotFound), which carries the best that it found. What the
+    /// data do not determine is no error: the fit tells it ([`Fit::identifiability`]).
     pub fn fit(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
+        let (search, globals) = self.search(record, self.shooting)?;
+        search.from_globals(globals)
+    }
+
+    /// Finds the unknowns as [`fit`](Self::fit) does, in the longest segments that keep the
+    /// motion of the record: one motion where none is lost.
+    ///
+    /// # Errors
+    ///
+    /// As [`fit`](Self::fit), but for motions that are lost.
+    pub fn fit_in_segments(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
+        let mut shooting = self.shooting;
+        loop {
+            let (search, globals) = self.search(record, shooting)?;
+            match search.from_globals(globals) {
+                Err(IdentificationError::NotFound(unfound)) => match unfound.failure {
+                    SearchFailure::Lost { followed } if followed < shooting.longest => {
+                        shooting.longest = followed;
+                        shooting.first = shooting.first.min(followed);
+                    }
+                    _ => return Err(IdentificationError::NotFound(unfound)),
+                },
+                result => return result,
+            }
+        }
+    }
+
+    fn search<'a>(
+        &'a self,
+        record: &'a AngleRecord,
+        shooting: Shooting,
+    ) -> Result<(Search<'a, F>, Vec<f64>), IdentificationError> {
         let (task, globals) = self.task(record)?;
-        let stage = self.first_stage(&task, record, globals)?;
-        self.lengthen(task, stage, self.shooting.first, record)
+        let search = Search {
+            identification: self,
+            shooting,
+            task,
+            record,
+            smoothed: SmoothedRecord::new(record)?,
+        };
+        Ok((search, globals))
     }
 
     /// Finds the unknowns from a record, beginning where another fit has ended: with its values
@@ -158,37 +207,23 @@ impl<F: Family> Identification<F> {
     ///
     /// As [`fit`](Self::fit).
     pub fn fit_from(&self, fit: &Fit, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (task, mut globals) = self.task(record)?;
-        for (global, name) in globals.iter_mut().zip(&task.names) {
-            *global = fit.value(name).unwrap_or(*global);
+        let (search, mut globals) = self.search(record, self.shooting)?;
+        let task = &search.task;
+        for (index, (global, name)) in globals.iter_mut().zip(&task.names).enumerate() {
+            *global = task.within(index, fit.value(name).unwrap_or(*global));
         }
         match (task.segments_of(fit), fit.stages.last()) {
             (Some(segments), Some(last)) => {
-                self.check_unknowns(&task, &globals, &segments)?;
-                let stage = self.stage(&task, segments, fit.start_states(), globals);
-                self.lengthen(task, stage, last.length, record)
+                self.check_unknowns(task, &globals, &segments)?;
+                let stage = self.stage(task, segments, fit.start_states(), globals);
+                search.from_stage(stage, last.length, &fit.convergence)
             }
-            _ => {
-                let stage = self.first_stage(&task, record, globals)?;
-                self.lengthen(task, stage, self.shooting.first, record)
-            }
+            _ => search.from_globals(globals),
         }
     }
 
-    /// The stage of first segments, whose motions begin as the data show them.
-    fn first_stage(
-        &self,
-        task: &FitTask<'_>,
-        record: &AngleRecord,
-        globals: Vec<f64>,
-    ) -> Result<FitStage, IdentificationError> {
-        let segments = split(record.times(), self.shooting.first);
-        self.check_unknowns(task, &globals, &segments)?;
-        let starts = task.first_states(record, &globals, &segments)?;
-        Ok(self.stage(task, segments, starts, globals))
-    }
-
-    fn stage(
+    /// Segments with these states at their starts.
+    pub(super) fn stage(
         &self,
         task: &FitTask<'_>,
         segments: Vec<Range<usize>>,
@@ -202,43 +237,6 @@ impl<F: Family> Identification<F> {
             globals,
             free: (0..task.names.len()).collect(),
             damping: DAMPING,
-        }
-    }
-
-    /// Solves stage after stage, from one whose segments have this length (s) to the longest.
-    fn lengthen(
-        &self,
-        mut task: FitTask<'_>,
-        mut stage: FitStage,
-        mut length: f64,
-        record: &AngleRecord,
-    ) -> Result<Fit, IdentificationError> {
-        let mut reports = Vec::new();
-        loop {
-            let is_last = stage.segments.len() <= 1 || 2.0 * length > self.shooting.longest;
-            let (settled, loosened) = match is_last {
-                true => (FULL, 1.0),
-                false => (ROUGH, LOOSENED),
-            };
-            task.tolerance = self.shooting.tolerance * loosened;
-            let choices = if reports.is_empty() { CHOICES } else { 1 };
-            let solved = stage.solve_determined(&task, settled, choices);
-            let Solved {
-                residuals,
-                steps,
-                held,
-            } = solved.ok_or_else(|| no_motion(record))?;
-            reports.push(StageReport {
-                segments: stage.segments.len(),
-                length,
-                rms: task.errors(&stage, &residuals).rms(),
-                steps,
-            });
-            length *= 2.0;
-            if is_last {
-                return self.report(&task, stage, &held, &residuals, reports, record);
-            }
-            stage.merge();
         }
     }
 

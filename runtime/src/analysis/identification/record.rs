@@ -18,6 +18,15 @@ pub(super) struct MeasuredLink {
     pub(super) deviation: f64,
 }
 
+impl MeasuredLink {
+    /// The data that there are, each behind the index of its time.
+    pub(super) fn data(&self) -> Vec<(usize, f64)> {
+        let data = self.angles.iter().enumerate();
+        data.filter_map(|(sample, angle)| Some((sample, (*angle)?)))
+            .collect()
+    }
+}
+
 impl AngleRecord {
     /// A record at these times (s), without angles as yet.
     #[must_use]
@@ -45,6 +54,13 @@ impl AngleRecord {
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
+    }
+
+    /// Returns the angles of a link that was measured, rad.
+    #[must_use]
+    pub fn angles(&self, link: &str) -> Option<&[Option<f64>]> {
+        let own = self.links.iter().find(|own| own.name == link);
+        own.map(|own| own.angles.as_slice())
     }
 
     /// Returns the part of the record from one time on and before another.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::error::{IdentificationError, finite, positive};
+use super::error::{IdentificationError, finite, number, positive};
 use super::family::Family;
 use super::frequencies::Frequency;
 use super::problem::{Identification, Shooting, StartValue};
@@ -11,6 +11,8 @@ use super::task::{FitTask, LinkData};
 
 /// Change of an offset that matters, rad.
 const OFFSET: f64 = 0.01;
+/// Offsets within a turn.
+const TURN: [f64; 2] = [-core::f64::consts::PI, core::f64::consts::PI];
 
 impl<F: Family> Identification<F> {
     /// The numerical problem, and its globals at the start.
@@ -96,11 +98,27 @@ impl<F: Family> Identification<F> {
             offset: self.offsets.then_some(parameters + number),
         });
         let data = data.collect();
+        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; parameters];
+        for (name, least) in &self.least {
+            let index = names.iter().position(|own| own == name);
+            let index = index.ok_or_else(|| IdentificationError::UnknownParameter {
+                name: name.clone(),
+                parameters: names.clone(),
+            })?;
+            finite(&format!("least value of `{name}`"), *least)?;
+            number(
+                &format!("start of `{name}`, which is at least {least},"),
+                globals[index],
+                globals[index] >= *least,
+            )?;
+            bounds[index][0] = *least;
+        }
         if self.offsets {
             for link in &record.links {
                 names.push(format!("offset of {}", link.name));
                 scales.push(OFFSET);
                 globals.push(0.0);
+                bounds.push(TURN);
             }
         }
         let task = FitTask {
@@ -110,6 +128,7 @@ impl<F: Family> Identification<F> {
             unknown,
             names,
             scales,
+            bounds,
             times: record.times(),
             links: data,
             frequencies: self.frequencies.clone(),

@@ -2,11 +2,72 @@
 
 use std::ops::Range;
 
+use super::convergence::Convergence;
 use super::error::IdentificationError;
-use super::fit::Fit;
-use super::record::AngleRecord;
+use super::fit::{AngleErrors, Fit};
+use super::record::{AngleRecord, MeasuredLink};
+use super::release::{bends, resolution};
 use super::task::FitTask;
 use crate::analysis::KinematicSmoother;
+use crate::analysis::smoothing::SmoothedMotion;
+
+/// What the data show by the smoothness of their motion alone.
+pub(super) struct SmoothedRecord {
+    links: Vec<SmoothedMotion<3>>,
+    /// Root mean square of the data's errors, rad.
+    pub(super) noise: f64,
+    /// Root mean square of the motion about its mean, rad, 1 at most.
+    pub(super) swing: f64,
+}
+
+impl SmoothedRecord {
+    pub(super) fn new(record: &AngleRecord) -> Result<Self, IdentificationError> {
+        let mut all = Self {
+            links: Vec::with_capacity(record.links.len()),
+            noise: 0.0,
+            swing: 0.0,
+        };
+        let mut number = 0.0;
+        for MeasuredLink { name, angles, .. } in &record.links {
+            let smoothed = KinematicSmoother::default().smooth(record.times(), angles);
+            let smoothed = smoothed.map_err(|error| IdentificationError::Velocities {
+                link: name.clone(),
+                error,
+            })?;
+            let data: Vec<f64> = angles.iter().flatten().copied().collect();
+            let count = data.len() as f64;
+            let mean = data.iter().sum::<f64>() / count;
+            let errors = smoothed.noise().max(resolution(data.iter().copied()));
+            all.noise += count * errors * errors;
+            let from_mean = data.iter().map(|angle| (angle - mean).powi(2));
+            all.swing += from_mean.sum::<f64>();
+            number += count;
+            all.links.push(smoothed);
+        }
+        let root = |squares: f64| (squares / f64::max(number, 1.0)).sqrt();
+        (all.noise, all.swing) = (root(all.noise), root(all.swing).min(1.0));
+        Ok(all)
+    }
+}
+
+impl SmoothedRecord {
+    /// The convergence of a search by what is left over.
+    pub(super) fn compare(&self, before: &Convergence, errors: &AngleErrors) -> Convergence {
+        let mut squares = 0.0;
+        let mut count = 0;
+        for link in 0..self.links.len() {
+            let errors: Vec<f64> = errors.rows.iter().filter_map(|row| row[link]).collect();
+            squares += bends(&errors);
+            count += errors.len().saturating_sub(2);
+        }
+        let rough = (squares / count.max(1) as f64).sqrt();
+        Convergence {
+            noise: self.noise,
+            ..*before
+        }
+        .with_residual(errors.rms(), rough)
+    }
+}
 
 impl FitTask<'_> {
     /// The segments of a fit; none where it is one of other times or of another tree.
@@ -26,23 +87,15 @@ impl FitTask<'_> {
     /// the motion of the segment before leaves them, and at rest in the beginning.
     pub(super) fn first_states(
         &self,
-        record: &AngleRecord,
+        smoothed: &SmoothedRecord,
         globals: &[f64],
         segments: &[Range<usize>],
-    ) -> Result<Vec<Vec<f64>>, IdentificationError> {
+    ) -> Vec<Vec<f64>> {
         let links = self.dimension / 2;
-        let mut measured = Vec::with_capacity(self.links.len());
-        for (data, link) in self.links.iter().zip(&record.links) {
-            let smoothed = KinematicSmoother::default().smooth(self.times, data.angles);
-            measured.push(smoothed.map_err(|error| IdentificationError::Velocities {
-                link: link.name.clone(),
-                error,
-            })?);
-        }
         let mut states = Vec::with_capacity(segments.len());
         let mut state = vec![0.0; self.dimension];
         for samples in segments {
-            for (data, motion) in self.links.iter().zip(&measured) {
+            for (data, motion) in self.links.iter().zip(&smoothed.links) {
                 let [angle, velocity, _] = motion.mean(samples.start);
                 let offset = data.offset.map_or(0.0, |offset| globals[offset]);
                 state[data.component] = angle - offset;
@@ -55,6 +108,6 @@ impl FitTask<'_> {
                 state = end;
             }
         }
-        Ok(states)
+        states
     }
 }

@@ -28,6 +28,8 @@ pub(super) struct FitTask<'a> {
     pub(super) names: Vec<String>,
     /// Sizes of changes of globals that matter.
     pub(super) scales: Vec<f64>,
+    /// The least and the largest value of each.
+    pub(super) bounds: Vec<[f64; 2]>,
     pub(super) times: &'a [f64],
     pub(super) links: Vec<LinkData<'a>>,
     pub(super) frequencies: Vec<Frequency>,
@@ -77,6 +79,17 @@ impl FitTask<'_> {
             values[parameter] = global;
         }
         values
+    }
+
+    /// Whether a global with this value lies at its bound.
+    pub(super) fn is_at_bound(&self, global: usize, value: f64) -> bool {
+        self.bounds[global].contains(&value)
+    }
+
+    /// The value within the bounds of a global that is nearest to this one.
+    pub(super) fn within(&self, global: usize, value: f64) -> f64 {
+        let [least, largest] = self.bounds[global];
+        value.max(least).min(largest)
     }
 
     /// Number of data from a sample on and before another.

@@ -1,0 +1,278 @@
+//! From starts to one motion: segments that become longer, from several starts.
+
+use super::convergence::{Convergence, SearchFailure, Unfound};
+use super::error::IdentificationError;
+use super::family::Family;
+use super::fit::{Fit, StageReport};
+use super::least_squares::{FULL, FitStage, ROUGH, Solved};
+use super::problem::{Identification, Shooting, no_motion};
+use super::record::AngleRecord;
+use super::start::SmoothedRecord;
+use super::task::{FitTask, split};
+
+/// Number of starts that are tried: of a search whose residual is the noise's, of one where
+/// starts agree, and at most.
+const STARTS: [usize; 3] = [2, 3, 6];
+/// How far further starts are away from the one that was given.
+const OFF: f64 = 0.3;
+/// Part of the first segments that those of further starts have at first, and the samples that
+/// each has at least: the shorter, the nearer the sum of squares to a bowl.
+const SHORT: f64 = 0.25;
+const SAMPLES: f64 = 6.0;
+/// Number of choices of unknowns that are held in the first stage, at most.
+const CHOICES: usize = 8;
+/// By how much the tolerance of early stages is larger.
+const LOOSENED: f64 = 1e3;
+/// How much dearer jumps become where longer segments lose the motion, and how often.
+const DEARER: f64 = 10.0;
+const TRIES: usize = 1;
+
+/// A stage that is solved, and those before it.
+#[derive(Clone)]
+pub(super) struct Rung {
+    pub(super) stage: FitStage,
+    pub(super) solved: Solved,
+    pub(super) reports: Vec<StageReport>,
+    pub(super) convergence: Convergence,
+    /// Length of the segments, s.
+    length: f64,
+    is_last: bool,
+    /// Whether longer segments have lost the motion.
+    is_lost: bool,
+}
+
+/// A search under way.
+pub(super) struct Search<'a, F> {
+    pub(super) identification: &'a Identification<F>,
+    pub(super) shooting: Shooting,
+    pub(super) task: FitTask<'a>,
+    pub(super) record: &'a AngleRecord,
+    pub(super) smoothed: SmoothedRecord,
+}
+
+impl<F: Family> Search<'_, F> {
+    /// Tries starts, and makes the segments of the best longer.
+    pub(super) fn from_globals(mut self, globals: Vec<f64>) -> Result<Fit, IdentificationError> {
+        let first = self.shooting.first;
+        let segments = split(self.record.times(), first);
+        self.identification
+            .check_unknowns(&self.task, &globals, &segments)?;
+        let mut rungs: Vec<Rung> = Vec::new();
+        for number in 0..STARTS[2] {
+            rungs.extend(self.scout(number, &globals));
+            let Some(best) = best(&rungs) else {
+                continue;
+            };
+            let convergence = with_starts(best, &rungs, number + 1);
+            let enough = match convergence.is_noise() && !best.is_lost {
+                true => STARTS[0],
+                false if convergence.agreed > 1 => STARTS[1],
+                false => STARTS[2],
+            };
+            // Without angles there is one motion, which rests.
+            if number + 1 >= enough || self.record.links.is_empty() {
+                break;
+            }
+        }
+        let best = best(&rungs).ok_or_else(|| no_motion(self.record))?;
+        let mut rung = best.clone();
+        rung.convergence = with_starts(best, &rungs, rungs.len());
+        self.to_the_end(rung)
+    }
+
+    /// Goes on from a stage that another search has solved.
+    pub(super) fn from_stage(
+        mut self,
+        stage: FitStage,
+        length: f64,
+        before: &Convergence,
+    ) -> Result<Fit, IdentificationError> {
+        let rung = self.solve(stage, length, Vec::new(), before);
+        let rung = rung.ok_or_else(|| no_motion(self.record))?;
+        self.to_the_end(rung)
+    }
+
+    /// Solves the first segments from a start: the one that was given, in segments of the first
+    /// length and in shorter ones, and others around it.
+    fn scout(&mut self, number: usize, globals: &[f64]) -> Option<Rung> {
+        let shooting = self.shooting;
+        let mut globals = globals.to_vec();
+        if number > 1 {
+            let parameters = self.task.unknown.len();
+            for (index, global) in globals.iter_mut().enumerate().take(parameters) {
+                *global *= 1.0 + OFF * spread(number, index);
+            }
+            self.identification
+                .family
+                .check(&self.task.parameters(&globals))
+                .ok()?;
+        }
+        let times = self.record.times();
+        let span = times
+            .last()
+            .zip(times.first())
+            .map_or(0.0, |(last, first)| last - first);
+        let interval = span / times.len().max(2) as f64;
+        let length = match number {
+            0 => shooting.first,
+            _ => (shooting.first * SHORT)
+                .max(SAMPLES * interval)
+                .min(shooting.first),
+        };
+        let segments = split(times, length);
+        let starts = self.task.first_states(&self.smoothed, &globals, &segments);
+        let stage = self
+            .identification
+            .stage(&self.task, segments, starts, globals);
+        let none = Convergence::before(&self.smoothed);
+        let rung = self.solve(stage, length, Vec::new(), &none)?;
+        let rung = self.lengthen(rung, shooting.first);
+        let segments = split(times, shooting.first);
+        if rung.is_lost || rung.stage.segments == segments {
+            return Some(rung);
+        }
+        // In the segments of the others, to be compared with them.
+        let globals = rung.stage.globals.clone();
+        let starts = self.task.first_states(&self.smoothed, &globals, &segments);
+        let stage = self
+            .identification
+            .stage(&self.task, segments, starts, globals);
+        let same = self.solve(stage, shooting.first, rung.reports.clone(), &none);
+        let kept = same.filter(|same| rung.convergence.is_kept(&same.convergence));
+        Some(kept.unwrap_or(rung))
+    }
+
+    /// Solves a stage of segments of this length, s.
+    fn solve(
+        &mut self,
+        mut stage: FitStage,
+        length: f64,
+        mut reports: Vec<StageReport>,
+        before: &Convergence,
+    ) -> Option<Rung> {
+        let shooting = self.shooting;
+        let is_last = stage.segments.len() <= 1 || 2.0 * length > shooting.longest * (1.0 + 1e-9);
+        let (settled, loosened) = match is_last {
+            true => (FULL, 1.0),
+            false => (ROUGH, LOOSENED),
+        };
+        self.task.tolerance = shooting.tolerance * loosened;
+        let choices = if reports.is_empty() { CHOICES } else { 1 };
+        let solved = stage.solve_determined(&self.task, settled, choices)?;
+        let errors = self.task.errors(&stage, &solved.residuals);
+        let rms = errors.rms();
+        reports.push(StageReport {
+            segments: stage.segments.len(),
+            length,
+            rms,
+            steps: solved.steps,
+        });
+        Some(Rung {
+            stage,
+            solved,
+            reports,
+            convergence: self.smoothed.compare(before, &errors),
+            length,
+            is_last,
+            is_lost: false,
+        })
+    }
+
+    /// Makes one of every two segments, until they have this length (s) or lose the motion.
+    fn lengthen(&mut self, mut rung: Rung, until: f64) -> Rung {
+        let mut tries = 0;
+        while !rung.is_last && !rung.is_lost && rung.length < until * (1.0 - 1e-9) {
+            let mut stage = rung.stage.clone();
+            stage.merge();
+            let before = rung.convergence;
+            let longer = self.solve(stage, 2.0 * rung.length, rung.reports.clone(), &before);
+            match longer.filter(|longer| before.is_kept(&longer.convergence)) {
+                Some(longer) => rung = longer,
+                None if tries < TRIES => {
+                    // Where segments join more closely, one motion through two of them is nearer.
+                    tries += 1;
+                    let mut stage = rung.stage.clone();
+                    stage
+                        .junction
+                        .iter_mut()
+                        .for_each(|weight| *weight *= DEARER);
+                    let closer = self.solve(stage, rung.length, rung.reports.clone(), &before);
+                    match closer.filter(|closer| before.is_kept(&closer.convergence)) {
+                        Some(closer) => rung = closer,
+                        None => rung.is_lost = true,
+                    }
+                }
+                None => rung.is_lost = true,
+            }
+        }
+        rung
+    }
+
+    /// Makes segments as long as they may be, and judges what is found.
+    fn to_the_end(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
+        let rung = match rung.convergence.is_followed() {
+            true => self.lengthen(rung, f64::INFINITY),
+            false => rung,
+        };
+        let (is_lost, length, stages) = (rung.is_lost, rung.length, rung.reports.len());
+        let fit = self.report(rung)?;
+        let failure = match fit.convergence.failure() {
+            _ if is_lost => Some(SearchFailure::Lost { followed: length }),
+            // Chaos makes the sum of squares so rough that a search does not come to its end.
+            Some(SearchFailure::Unsettled) if stages > 1 => Some(SearchFailure::Lost {
+                followed: 0.5 * length,
+            }),
+            // Without angles there is nothing to follow.
+            Some(SearchFailure::Astray | SearchFailure::Alone) if self.task.links.is_empty() => {
+                None
+            }
+            failure => failure,
+        };
+        match failure {
+            None => Ok(fit),
+            Some(failure) => Err(IdentificationError::NotFound(Box::new(Unfound {
+                failure,
+                release: self.record.release(),
+                best: fit.without_deviations(),
+            }))),
+        }
+    }
+}
+
+/// The best of several starts: one whose segments follow the motion for the longest.
+fn best(rungs: &[Rung]) -> Option<&Rung> {
+    let key = |rung: &Rung| {
+        let followed = rung.convergence.is_followed();
+        (
+            followed,
+            if followed { rung.length } else { 0.0 },
+            -rung.convergence.rms,
+        )
+    };
+    rungs.iter().max_by(|a, b| {
+        let (a, b) = (key(a), key(b));
+        a.0.cmp(&b.0)
+            .then(a.1.total_cmp(&b.1))
+            .then(a.2.total_cmp(&b.2))
+    })
+}
+
+/// The convergence of the best start, with the number of those that ended alike.
+fn with_starts(best: &Rung, rungs: &[Rung], starts: usize) -> Convergence {
+    let alike = rungs.iter().filter(|rung| {
+        rung.length >= best.length && best.convergence.is_alike(rung.convergence.rms)
+    });
+    Convergence {
+        starts,
+        agreed: alike.count(),
+        ..best.convergence
+    }
+}
+
+/// Numbers between −1 and 1, spread evenly over starts and unknowns.
+fn spread(start: usize, unknown: usize) -> f64 {
+    // Multiples of the golden ratio stay apart from each other.
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let turned = golden * ((start * start + 1) * (2 * unknown + 1)) as f64;
+    2.0 * turned.fract() - 1.0
+}
