@@ -41,7 +41,7 @@ impl ObservableSymbols {
         symbols
     }
 
-    /// Those that no parameter can have as well: coordinates, their velocities and momenta,
+    /// Those that are no constants of the model: coordinates, their velocities and momenta,
     /// energies and gravity.
     fn without_constants(scene: &Scene) -> Self {
         let mut symbols = Self {
@@ -123,8 +123,8 @@ impl ObservableSymbols {
     }
 }
 
-/// First words of the names of symbols that are no constants of the model.
-const FIRST_WORDS: [&str; 6] = ["theta", "omega", "p", "kinetic", "potential", "gravity"];
+/// First words of the names that no parameter can have.
+const FIRST_WORDS: [&str; 5] = ["theta", "omega", "kinetic", "potential", "gravity"];
 
 /// Returns true if a parameter is gravity, and is called so.
 fn is_gravity(scene: &Scene, parameter: usize) -> bool {
@@ -132,9 +132,10 @@ fn is_gravity(scene: &Scene, parameter: usize) -> bool {
         && scene.gravity == Quantity::parameter(ParameterId(parameter))
 }
 
-/// Reports parameters whose names mean something else in expressions. Names of constants of
-/// the model may be theirs: `inertia = inertia_arm` says what it is, and where both are in
-/// reach, in observables, the name is refused.
+/// Reports parameters whose names mean something else in expressions: angles, velocities,
+/// energies and gravity. Names of constants of the model may be theirs, as `inertia = inertia_arm`
+/// says what it is, and so may those of momenta, which no drive is taken for a function of;
+/// where both are in reach, in observables, these are refused too.
 pub(super) fn check_meanings(scene: &Scene, spans: &[Span], report: &mut Faults) {
     let mut first_words = scene
         .parameters
@@ -145,7 +146,14 @@ pub(super) fn check_meanings(scene: &Scene, spans: &[Span], report: &mut Faults)
     }
     let symbols = ObservableSymbols::without_constants(scene);
     for (index, (parameter, &span)) in scene.parameters.iter().zip(spans).enumerate() {
-        if symbols.get(&parameter.name).is_some() && !is_gravity(scene, index) {
+        let is_other = match symbols.get(&parameter.name) {
+            None => false,
+            Some(Meaning::One(ObservedAtom::Variable(variable))) => {
+                variable.kind != VariableKind::Momentum
+            }
+            Some(_) => true,
+        };
+        if is_other && !is_gravity(scene, index) {
             let name = parameter.name.clone();
             report.error(span, OutputMessage::AmbiguousSymbol { name });
         }
