@@ -19,7 +19,7 @@ macro_rules! named_members {
             /// All of them, in their order.
             pub const ALL: [Self; [$($text),+].len()] = [$(Self::$member),+];
 
-            /// Its name.
+            /// Name of the member.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+
@@ -46,7 +46,7 @@ macro_rules! named_members {
         }
 
         impl $name {
-            /// Its meaning in words.
+            /// Meaning of the member in words.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$member => $meaning,)+

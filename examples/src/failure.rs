@@ -37,7 +37,7 @@ pub enum Failure {
     /// A start of a cascade whose numbers are no longer finite.
     #[error("start {start} has diverged at {time:.1} s: take more `--steps`")]
     Diverged {
-        /// Its number.
+        /// Number of the start.
         start: usize,
         /// Time, s.
         time: f64,
@@ -109,7 +109,7 @@ pub enum Failure {
     Busy {
         /// The folder.
         folder: PathBuf,
-        /// Its program and process in brackets, if they could be read.
+        /// Program and process of the other run in brackets, if they could be read.
         holder: String,
     },
     /// A file could not be written.

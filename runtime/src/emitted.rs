@@ -1,4 +1,4 @@
-//! Names that emitted code uses and nobody else. They change without notice
+//! Names that emitted code uses and nobody else. Such names change without notice
 //! from version to version: expand a scene with the version that runs it. `Simd` is
 //! sealed, and the registers that implement it cannot be named: see `simd`.
 

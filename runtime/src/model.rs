@@ -27,7 +27,7 @@ impl<T: Add<Output = T>> Transfer<T> {
 pub struct ParameterError {
     /// The quantity, as in "mass of `child`".
     pub what: &'static str,
-    /// Its value, in SI units.
+    /// Value of the quantity, in SI units.
     pub value: f64,
     /// The condition on it, as in "finite and positive".
     pub requirement: &'static str,

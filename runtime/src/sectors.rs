@@ -55,13 +55,13 @@ impl SectorCoordinate {
 pub struct Sector {
     /// `in_phase` for the means, else the name of the uppermost difference.
     pub name: &'static str,
-    /// Its coordinates, from the root outwards.
+    /// Coordinates of the sector, from the root outwards.
     pub coordinates: &'static [SectorCoordinate],
 }
 
 /// A model whose sectors are known.
 ///
-/// Its functions transform states, for any scalar. All slices have one number
+/// The functions transform states, for any scalar. All slices have one number
 /// for each link; a slice of another length is answered with NaN. Effort: the
 /// number of weights, O(n · depth · copies) for n links.
 ///

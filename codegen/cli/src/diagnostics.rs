@@ -4,7 +4,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use branched_pendulum_codegen::report::{Diagnostic, Faults, Problem};
 use std::ops::Range;
 
-/// All errors of an attribute, in the order of the source. Those that are about
+/// All errors of an attribute, in the order of the source. Errors about
 /// no token are about the struct at `item`.
 pub(crate) fn all(
     path: &str,

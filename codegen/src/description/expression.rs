@@ -20,9 +20,9 @@ pub(super) const EACH_WHOLE: &str = "`each(...)` around whole values, as in `eac
 /// A value as written.
 #[derive(Debug, Clone)]
 pub struct Expression {
-    /// Its tokens; the first of them where the compiler does not join spans.
+    /// Tokens of the value; the first of them where the compiler does not join spans.
     pub span: Span,
-    /// Its form and its parts.
+    /// Form and parts of the value.
     pub kind: ExpressionKind,
 }
 

@@ -126,7 +126,7 @@ impl Reductions {
 pub struct LockedClause {
     /// The link.
     pub link: Ident,
-    /// Its angle to the link that it hangs from, rad.
+    /// Angle of the link to the one that it hangs from, rad.
     pub angle: Expression,
 }
 
@@ -181,11 +181,11 @@ impl Default for CratePath {
 /// The struct under the attribute: what survives of it in the expansion.
 #[derive(Debug, Clone)]
 pub struct StructItem {
-    /// Its other attributes, doc comments included.
+    /// Other attributes of the struct, doc comments included.
     pub attrs: Vec<OuterAttribute>,
-    /// Its visibility.
+    /// Visibility of the struct.
     pub vis: TokenStream,
-    /// Its name.
+    /// Name of the struct.
     pub ident: Ident,
     /// The item as it was given, to be repeated where nothing else can be
     /// emitted.
@@ -195,7 +195,7 @@ pub struct StructItem {
 /// An attribute of the struct: repeated, and not understood.
 #[derive(Debug, Clone)]
 pub struct OuterAttribute {
-    /// Its name, where that is one word.
+    /// Name of the attribute, where it is one word.
     pub name: Option<Ident>,
     /// All of it.
     pub tokens: TokenStream,
@@ -224,7 +224,7 @@ pub struct DriveClause {
 /// A link, or a rule for several.
 #[derive(Debug, Clone)]
 pub struct Node {
-    /// Its name.
+    /// Name of the link or of the rule.
     pub name: Ident,
     /// Word behind the colon: a shape, or `generations`.
     pub shape: Option<Ident>,
@@ -265,7 +265,7 @@ impl Node {
 pub struct Multiplicity {
     /// The number; `u32::MAX` for all larger ones.
     pub count: u32,
-    /// Its place.
+    /// Place of the number.
     pub span: Span,
 }
 
@@ -281,7 +281,7 @@ pub struct Property {
 }
 
 impl Property {
-    /// Its name with the parentheses that it stands in; `friction` for the short form and
+    /// Name with the parentheses that it stands in; `friction` for the short form and
     /// the long one, `friction(viscous = c)`.
     pub fn key(&self) -> String {
         let name = &self.name;
@@ -326,16 +326,16 @@ impl Value {
 /// A quantity of the user's own.
 #[derive(Debug, Clone)]
 pub struct ObservableClause {
-    /// Its name.
+    /// Name of the quantity.
     pub name: Ident,
-    /// Its definition.
+    /// Definition of the quantity.
     pub value: Expression,
 }
 
 /// Something to emit.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// Its name.
+    /// Name of the output.
     pub name: Ident,
     /// Members of its parentheses; `None` without parentheses.
     pub forms: Option<Vec<RequestForm>>,
@@ -346,7 +346,7 @@ pub struct Request {
 /// A form of a requested output.
 #[derive(Debug, Clone)]
 pub struct RequestForm {
-    /// Its name.
+    /// Name of the form.
     pub name: Ident,
     /// Number behind the `=`.
     pub value: Option<Multiplicity>,

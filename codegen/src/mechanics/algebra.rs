@@ -34,7 +34,7 @@ pub enum AlgebraError {
         /// The observable's name.
         observable: String,
     },
-    /// Its formulas have more than [`MOST_TERMS`] terms.
+    /// A formula has more than [`MOST_TERMS`] terms.
     TooManyTerms,
     /// The derivation panicked: a broken invariant of ours.
     Broken {

@@ -48,7 +48,7 @@ pub struct Symbol {
     pub text: String,
     /// Spelling in LaTeX.
     pub latex: String,
-    /// Its role in formulas.
+    /// Role of the symbol in formulas.
     pub role: Role,
 }
 
@@ -61,13 +61,13 @@ pub struct Symbols {
 }
 
 impl Symbols {
-    /// A parameter of the scene. Its name is the user's: it may be spelled like
+    /// A parameter of the scene. The name is the user's: it may be spelled like
     /// a symbol of ours, and stays apart from that.
     pub fn parameter(&mut self, name: &str, latex: &str) -> SymbolId {
         self.push(Role::Parameter, name.to_owned(), name, latex)
     }
 
-    /// The symbol spelled `text` in formulas, created if it is new. Its
+    /// The symbol spelled `text` in formulas, created if it is new. The
     /// spelling in code is `code`, with a number if another symbol has that
     /// already: `coupling_a_b_c` may couple a to b_c or a_b to c.
     pub fn intern(&mut self, role: Role, code: &str, text: &str, latex: &str) -> SymbolId {

@@ -14,7 +14,7 @@ use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorque
 pub struct BrakingTorque {
     /// The symbol that stands for it.
     pub symbol: SymbolId,
-    /// Its first and second derivative by w; of single links.
+    /// First and second derivative of the torque by w; of single links.
     pub slopes: [SymbolId; 2],
     /// The part of the links that it acts on.
     pub place: FrictionPlace,
@@ -29,9 +29,9 @@ pub enum TorqueSource {
     Link {
         /// The link.
         link: LinkId,
-        /// Its rate w in the frame's velocities.
+        /// Rate w of the link in the frame's velocities.
         rate: Expr,
-        /// Its law.
+        /// Law of the friction.
         law: Box<FrictionLaw<Expr>>,
         /// The speed s, a symbol for formulas alone.
         speed: SymbolId,

@@ -1,4 +1,4 @@
-//! Angles and rates of joints. They are symbols of their own all through the derivation, and
+//! Angles and rates of joints. Both are symbols of their own all through the derivation, and
 //! are formed by one subtraction: of rounded products κ θ_i − κ θ_π(i) stiff springs would
 //! keep few digits.
 

@@ -64,9 +64,9 @@ pub struct LinkSymbols {
 /// the subtree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkBalance {
-    /// Its symbols.
+    /// Symbols of the link.
     pub symbols: LinkSymbols,
-    /// Its constants.
+    /// Constants of the link.
     pub composite: Composite,
     /// Coefficient J of ω̇ in the torque.
     pub joint_inertia: Expr,

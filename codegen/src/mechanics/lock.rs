@@ -33,7 +33,7 @@ pub enum LockError {
     NoHome,
     /// The lock file cannot be written or locked.
     File {
-        /// Its path.
+        /// Path of the file.
         path: PathBuf,
         /// Reason given by the system.
         source: io::Error,

@@ -46,7 +46,7 @@ pub(super) struct CopyConstants {
 pub(super) struct Mismatch<'f> {
     /// The tree.
     pub(super) frame: &'f DerivedFrame,
-    /// Its mean tree.
+    /// The mean tree.
     pub(super) mean: &'f DerivedFrame,
     /// Velocities u that the mismatch adds.
     added: Vec<SymbolId>,

@@ -69,13 +69,13 @@ use std::collections::BTreeMap;
 /// A constant of the model: a combination of masses, lengths and gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
-    /// Its symbol.
+    /// Symbol of the constant.
     pub symbol: SymbolId,
-    /// Its value in terms of the scene's parameters.
+    /// Value in terms of the scene's parameters.
     pub value: Expr,
-    /// Its meaning in words.
+    /// Meaning in words.
     pub meaning: String,
-    /// Its unit.
+    /// Unit of the value.
     pub unit: &'static str,
 }
 
@@ -222,7 +222,7 @@ pub struct MassExpansion {
 /// The mean tree of one whose copies differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanTree {
-    /// Its mechanics, in the symmetric coordinates of the tree.
+    /// Mechanics of the mean tree, in the symmetric coordinates of the tree.
     pub frame: Frame,
     /// The velocities that the mismatch adds at given momenta; solved for with the mass
     /// matrix of the mean tree.
@@ -240,7 +240,7 @@ pub struct WrittenOut {
     pub velocities: Vec<Expr>,
     /// M̃⁻¹ at the in-phase motion, dense.
     pub inverse: Vec<Vec<Expr>>,
-    /// Its first-order correction in the difference angles, dense.
+    /// First-order correction of M̃⁻¹ in the difference angles, dense.
     pub inverse_first_order: Vec<Vec<Expr>>,
 }
 

@@ -22,14 +22,14 @@ pub struct Observables {
 pub struct AppliedFunction {
     /// The function.
     pub function: Function,
-    /// Its argument.
+    /// Argument of the function.
     pub argument: Expr,
 }
 
 /// An observable with its rates of change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObservableFormulas {
-    /// Its name.
+    /// Name of the observable.
     pub name: String,
     /// True if its variables are the symmetric ones.
     pub symmetric: bool,

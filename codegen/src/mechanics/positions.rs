@@ -22,11 +22,11 @@ pub struct RelativePosition {
 /// The points of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPositions {
-    /// Its own pivot, on the parent; none of the root.
+    /// Pivot of the link, on the parent; none of the root.
     pub pivot: Option<RelativePosition>,
-    /// Its centre of mass.
+    /// Centre of mass of the link.
     pub centre: RelativePosition,
-    /// Its end.
+    /// End of the link.
     pub end: RelativePosition,
 }
 

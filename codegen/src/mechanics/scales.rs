@@ -49,7 +49,7 @@ pub struct ScaleSymbols {
 /// Energies by scale of one link, and what changes them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkScales {
-    /// Its symbols.
+    /// Symbols of the link.
     pub symbols: ScaleSymbols,
     /// Strain of the spring, and the torques of spring, friction and drag.
     pub torques: [Expr; 4],

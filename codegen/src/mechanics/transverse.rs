@@ -19,7 +19,7 @@ use std::ops::Range;
 /// The equations of one sector: M δ̈ + residual = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransverseFormulas {
-    /// Its links.
+    /// Links of the sector.
     pub sector: TransverseCopies,
     /// Differences of its links.
     pub differences: Vec<SymbolId>,
@@ -31,7 +31,7 @@ pub struct TransverseFormulas {
     pub residual: Vec<Expr>,
     /// Energy of the differences in one holder's copies.
     pub energy: Expr,
-    /// Its rate without friction and drag.
+    /// Rate of the energy without friction and drag.
     pub transfer: Expr,
     /// The power of friction and drag on it; zero without both.
     pub friction: Expr,
@@ -47,7 +47,7 @@ pub struct TransverseMechanics {
     pub accelerations: Vec<SymbolId>,
     /// The sectors.
     pub sectors: Vec<TransverseFormulas>,
-    /// Those that act back, if any are asked for.
+    /// Small differences that act back, if any are asked for.
     pub small: Option<SmallMechanics>,
 }
 

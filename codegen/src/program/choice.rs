@@ -155,7 +155,7 @@ impl Lowering<'_> {
             .accelerations
     }
 
-    /// That choice around links whose acceleration is given: their rows are the torques
+    /// Elimination around links whose acceleration is given: their rows are the torques
     /// that it takes.
     fn factorization_around(&mut self, environment: &mut Environment<'_>, held: &Held) -> Moved {
         let frame = environment.frame;

@@ -58,9 +58,9 @@ impl ConstantOp {
 pub struct ConstantDefinition {
     /// The operation that forms it.
     pub op: ConstantOp,
-    /// Its value, where no parameter is involved.
+    /// Value of the constant, where no parameter is involved.
     pub exact: Option<Rational>,
-    /// Its name in code.
+    /// Name of the constant in code.
     pub name: String,
 }
 

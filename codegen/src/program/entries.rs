@@ -10,7 +10,7 @@ use crate::scene::{LinkId, Scene, Solve};
 /// Entry points, the solve that they take, and the constants by strip.
 type Lowered = (Vec<Entry>, SolveChoice, Option<LoopTree>);
 
-/// Those of a tree in loops, which take the recursion through it link by link.
+/// Entry points of a tree in loops, which take the recursion through it link by link.
 pub(super) fn link_entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     let mechanics = lowering.mechanics;
     let mut list = EntryList::new(scene, lowering);

@@ -10,7 +10,7 @@ use crate::scene::{Coordinate, CoordinateKind, Scene};
 pub struct Entry {
     /// Function name.
     pub name: String,
-    /// Its purpose.
+    /// Purpose of the function.
     pub purpose: Purpose,
     /// Arguments in order.
     pub arguments: Vec<Argument>,

@@ -5,7 +5,7 @@ use super::nearest::nearest;
 /// A member of a description that is no link.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SceneSetting {
-    /// Its name.
+    /// Name of the setting.
     pub name: &'static str,
     /// How one writes it.
     pub example: &'static str,

@@ -37,7 +37,7 @@ pub(super) struct BodyShape {
 pub(super) struct Condition {
     /// Name of the length, in words.
     pub(super) what: &'static str,
-    /// Its value.
+    /// Value of the length.
     pub(super) value: fn(&GivenProperties) -> Quantity,
 }
 

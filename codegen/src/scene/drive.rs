@@ -187,7 +187,7 @@ fn part(
     })
 }
 
-/// The factor that divisors amount to, none without any. They are the same at
+/// The factor that divisors amount to, none without any. Divisors are the same at
 /// all times, so that the drive is finite at all times.
 fn divisor(
     divisors: &[Expression],
@@ -240,7 +240,7 @@ impl<V> Signal<V> {
 }
 
 impl Drive {
-    /// Its parts by name, with their units.
+    /// Parts of the drive by name, with their units.
     pub fn parts(&self) -> impl Iterator<Item = (&'static str, &Signal, &'static str)> {
         let parts = [
             ("torque", &self.torque, "N m"),

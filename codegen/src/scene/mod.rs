@@ -110,7 +110,7 @@ pub struct Scene {
     /// Quantities of the user's own. One that is written in symmetric
     /// coordinates comes with `requests.symmetric`.
     pub observables: Vec<Observable>,
-    /// Links whose motion the caller states, those of each set together. They come with
+    /// Links whose motion the caller states, those of each set together. The sets come with
     /// `requests.forces`.
     pub prescribed: Vec<PrescribedSet>,
     /// How the links stand for those of the whole tree, where the description makes it
@@ -150,7 +150,7 @@ impl Scene {
     }
 }
 
-/// A rigid link. Its angle is absolute, from the [vertical](Scene::vertical).
+/// A rigid link, whose angle is absolute, from the [vertical](Scene::vertical).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// Snake-case name, unique in the scene.
@@ -287,7 +287,7 @@ pub enum NodeMotion {
 pub struct Parameter {
     /// Snake-case name.
     pub name: String,
-    /// Its uses, in words, with its unit where it stands alone.
+    /// Uses of the parameter, in words, with the unit where it stands alone.
     pub doc: String,
     /// The strictest condition among its direct uses.
     pub sign: Sign,

@@ -20,7 +20,7 @@ use crate::report::{Faults, Message, OutputMessage, TreeMessage, ValueMessage, n
 pub struct Observable {
     /// Snake-case name; its functions are called after it.
     pub name: String,
-    /// Its definition.
+    /// Definition of the observable.
     pub value: Observed,
 }
 
@@ -62,7 +62,7 @@ pub struct Variable {
 pub enum VariableKind {
     /// The coordinate itself, rad.
     Angle,
-    /// Its velocity, rad/s.
+    /// Velocity of the coordinate, rad/s.
     Velocity,
     /// The momentum that belongs to it, kg m²/s.
     Momentum,

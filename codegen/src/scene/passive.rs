@@ -41,7 +41,7 @@ pub struct FrictionLaw<V = Quantity> {
 /// The part of a link that friction acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionPlace {
-    /// Its pivot, on the rate relative to the parent.
+    /// The link's pivot, on the rate relative to the parent.
     Joint,
     /// Itself, against the ground, on its own rate.
     Ground,
@@ -95,7 +95,7 @@ impl<V> PassiveTorques<V> {
 }
 
 impl FrictionLaw {
-    /// The law in these parentheses of a link. Its width divides, so that it is one where
+    /// The law in these parentheses of a link. The width divides, so that it is one where
     /// there is no law.
     fn of(given: &GivenProperties, force: &str) -> Self {
         let member = |name: &str| format!("{force}({name})");

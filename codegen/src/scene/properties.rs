@@ -84,7 +84,7 @@ impl Properties {
         }
     }
 
-    /// Those of a generation of the rule, counted from 0; `None` after reporting what
+    /// Properties of a generation of the rule, counted from 0; `None` after reporting what
     /// is wrong.
     pub(super) fn of_generation(
         &self,

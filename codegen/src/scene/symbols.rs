@@ -41,7 +41,7 @@ impl ObservableSymbols {
         symbols
     }
 
-    /// Those that are no constants of the model: coordinates, their velocities and momenta,
+    /// Symbols that are no constants of the model: coordinates, their velocities and momenta,
     /// energies and gravity.
     fn without_constants(scene: &Scene) -> Self {
         let mut symbols = Self {

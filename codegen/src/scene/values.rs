@@ -12,7 +12,7 @@ use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
 pub(super) struct Usage<'a> {
     /// Name of the value, as in "mass of `child`".
     pub(super) what: String,
-    /// Its unit; empty for a pure number.
+    /// Unit of the value; empty for a pure number.
     pub(super) unit: &'a str,
     /// The condition on its sign.
     pub(super) sign: Sign,

@@ -34,11 +34,11 @@ cascade! {
     Cascade: emit(energies, positions),
 }
 cascade! {
-    /// That cascade, written out link by link.
+    /// The cascade, written out link by link.
     CascadeWrittenOut: code = unrolled,
 }
 cascade! {
-    /// That cascade with all copies in phase: six links.
+    /// The cascade with all copies in phase: six links.
     CascadeInPhase: in_phase(all), emit(taylor),
 }
 
@@ -62,10 +62,10 @@ branch! {
     Branch: emit(energies, positions, taylor),
 }
 branch! {
-    /// That branch, in loops.
+    /// The branch, in loops.
     BranchLoops: code = loops,
 }
 branch! {
-    /// That branch with all copies in phase: five links.
+    /// The branch with all copies in phase: five links.
     BranchInPhase: in_phase(all), emit(taylor),
 }

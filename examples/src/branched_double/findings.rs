@@ -176,14 +176,14 @@ pub struct Frequencies {
 }
 
 impl Frequencies {
-    /// Those that the paper measured.
+    /// Frequencies that the paper measured.
     pub const MEASURED: Self = Self {
         plus: 0.88,
         minus: 1.58,
         antiphase: 1.26,
     };
 
-    /// Those of the linear modes about rest.
+    /// Frequencies of the linear modes about rest.
     ///
     /// # Errors
     /// As [`Modes::new`].

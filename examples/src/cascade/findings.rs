@@ -31,9 +31,9 @@ const LARGEST_BAR: f64 = 0.1;
 /// What the powers of motor and friction say of the integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Balance {
-    /// They are equal within three error bars, which are a tenth of the motor's power at most.
+    /// The powers are equal within three error bars, of a tenth of the motor's power at most.
     Closed,
-    /// They differ by more than three error bars: the steps are too long.
+    /// The powers differ by more than three error bars: the steps are too long.
     Lost,
     /// The error bars are too wide to say, or there are none.
     Undecided,
@@ -42,11 +42,11 @@ pub enum Balance {
 /// The state of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
-    /// Its energy, J, in the steady state.
+    /// Energy of the scale, J, in the steady state.
     Awake(Average),
     /// It hardly moves: its mean energy, J.
     Asleep(f64),
-    /// Its energy has no average, and why.
+    /// The energy has no average, and why.
     Unsettled(StatisticsError),
 }
 

@@ -119,7 +119,7 @@ pub fn follow<P: RodTree>(
 struct WindowMotion<'a, P> {
     arguments: &'a Arguments,
     tree: &'a P,
-    /// Its number.
+    /// Number of the window.
     window: usize,
     /// True if values of the fluxes are counted.
     counts: bool,

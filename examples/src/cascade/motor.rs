@@ -56,7 +56,7 @@ impl Motor {
 pub struct Random(Xoshiro256PlusPlus);
 
 impl Random {
-    /// Those of the start `index`.
+    /// Random numbers of the start `index`.
     pub fn of_start(seed: u64, index: usize) -> Self {
         let own = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index as u64;
         Self(Xoshiro256PlusPlus::seed_from_u64(own))

@@ -66,7 +66,7 @@ impl Friction {
 pub struct Scan {
     /// The friction.
     pub friction: Friction,
-    /// Its constant, N m s.
+    /// Constant of the friction, N m s.
     pub constant: f64,
     /// Angles of the scan, degrees.
     pub angles_deg: Vec<f64>,

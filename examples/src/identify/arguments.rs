@@ -94,7 +94,7 @@ impl Tree {
 }
 
 impl Law {
-    /// Its name in tables.
+    /// Name of the law in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viscous => "viscous",

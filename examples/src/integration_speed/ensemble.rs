@@ -77,7 +77,7 @@ const WAYS: [&str; 4] = [
 /// several runs of each.
 ///
 /// # Errors
-/// Those of the integration.
+/// Errors of the integration.
 pub fn speeds(
     starts: &[State<f64>],
     end: f64,
@@ -102,7 +102,7 @@ pub fn speeds(
 /// Speeds for models that differ, each from its own start.
 ///
 /// # Errors
-/// Those of the integration.
+/// Errors of the integration.
 pub fn scan_speeds(
     releases: &[Release],
     end: f64,

@@ -24,7 +24,7 @@ pub struct Point {
 /// Three tolerances a decade from 1e-2 to 1e-16, each run `repeats` times.
 ///
 /// # Errors
-/// Those of the integration.
+/// Errors of the integration.
 pub fn points<O: Ode<f64>, M: Integrator<f64, O>>(
     ode: &O,
     problem: &Problem,

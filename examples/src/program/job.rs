@@ -37,7 +37,7 @@ pub enum Ended {
 }
 
 /// The record of a run, beside its results: who ran, with which arguments, how
-/// it ended, and which files it left. Its arguments are what `--repeat` reads.
+/// it ended, and which files it left. The arguments are what `--repeat` reads.
 #[derive(Debug)]
 pub(super) struct Record {
     pub(super) program: String,

@@ -16,9 +16,9 @@ const CHECKSUM: usize = 9;
 pub struct RunIdentity {
     /// Name of the program.
     pub program: String,
-    /// Its version.
+    /// Version of the program.
     pub version: String,
-    /// Its arguments, as JSON, but for those that say how and which part of the run is
+    /// Arguments of the program, as JSON, but for those that say how and which part of the run is
     /// computed.
     pub arguments: String,
 }

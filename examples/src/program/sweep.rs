@@ -41,7 +41,7 @@ pub struct Sharding {
 /// One of several shards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Shard {
-    /// Its number, from 0.
+    /// Number of the shard, from 0.
     pub index: u32,
     /// Number of all.
     pub count: u32,
@@ -67,7 +67,7 @@ impl Shard {
         format!("shard-{}-of-{}", self.index, self.count)
     }
 
-    /// Its share of `items` items.
+    /// Returns the shard's share of `items` items.
     pub fn items(self, items: usize) -> Vec<usize> {
         (self.index as usize..items)
             .step_by(self.count as usize)
@@ -88,7 +88,7 @@ pub enum SweepError {
     /// The folder holds another sweep.
     #[error("the folder holds another sweep: {found}, where {expected} is asked for")]
     Manifest {
-        /// Its manifest.
+        /// Manifest of the sweep that is there.
         found: String,
         /// The manifest of this one.
         expected: String,

@@ -11,13 +11,13 @@ use crate::failure::Failure;
 /// A mode, from its linear oscillation on.
 #[derive(Clone, Debug)]
 pub struct NormalMode {
-    /// Its sign in the paper: f_+ is the slower one.
+    /// Sign of the mode in the paper: f_+ is the slower one.
     pub sign: char,
     /// Frequency of small motions, Hz.
     pub frequency_hz: f64,
     /// Shape of small motions: parts of parent and children with unit momenta.
     pub shape: [f64; 2],
-    /// Its motions, from small to large.
+    /// Motions of the mode, from small to large.
     pub orbits: Vec<BrakeOrbit>,
     /// Growth of differences along each.
     pub floquet: Vec<Floquet>,

@@ -30,7 +30,7 @@ pub const ADAPTIVE: [Method; 4] = [
 pub struct Trial {
     /// The method.
     pub method: Method,
-    /// Its step or tolerance.
+    /// Step or tolerance of the method.
     pub setting: f64,
     /// Angle of release (degrees) or friction (N m s).
     pub height: f64,

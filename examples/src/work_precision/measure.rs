@@ -27,7 +27,7 @@ pub const METHODS: [Method; 8] = [
 pub struct Measurement {
     /// The method.
     pub method: Method,
-    /// Its tolerance or step.
+    /// Tolerance or step of the method.
     pub setting: f64,
     /// Largest error at the end, rad or rad/s.
     pub error: f64,

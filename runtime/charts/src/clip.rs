@@ -49,7 +49,7 @@ pub(crate) fn line(points: &[Point], area: &Rect) -> Vec<Vec<Point>> {
 }
 
 /// The part of a segment inside `area`, by the method of Liang and Barsky
-/// (ACM Trans. Graphics 3 (1984) 1). Its ends are exact where they lie inside.
+/// (ACM Trans. Graphics 3 (1984) 1). The ends are exact where they lie inside.
 fn segment(from: Point, to: Point, area: &Rect) -> Option<(Point, Point)> {
     // Nearer than this a point moves by less than a tenth of a pixel where the
     // segment crosses the edge; farther ones could overflow.

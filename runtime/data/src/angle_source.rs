@@ -13,7 +13,7 @@ use super::table::Table;
 /// neither does, points are taken if the table has them.
 ///
 /// # Errors
-/// Those of [`AngleColumns::read`] and [`Markers::read`]; [`ReadErrorKind::Option`] if both
+/// Errors of [`AngleColumns::read`] and [`Markers::read`]; [`ReadErrorKind::Option`] if both
 /// say more, or if neither does and the table has angles beside points.
 pub fn read_angles(
     table: &Table,

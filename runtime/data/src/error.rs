@@ -255,7 +255,7 @@ pub enum ReadErrorKind {
     Unit {
         /// The column.
         name: String,
-        /// Its unit.
+        /// Unit of the column.
         unit: String,
         /// Angles or times.
         quantity: &'static str,

@@ -82,7 +82,7 @@ impl Table {
     /// Reads the text of a file; `path` stands for it in errors.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read).
+    /// Errors of [`read`](Self::read).
     pub fn parse(
         path: impl AsRef<Path>,
         text: &str,

@@ -221,7 +221,7 @@ impl Table {
     /// Returns the table with one row of those that follow each other with one time.
     ///
     /// # Errors
-    /// Those of a time that cannot be made out.
+    /// Errors of a time that cannot be made out.
     pub fn without_repeated_times(
         mut self,
         clock: &Clock,

@@ -46,7 +46,7 @@ impl AngleUnit {
         }
     }
 
-    /// Its name in sentences.
+    /// Name of the unit in sentences.
     pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Radians => "radians",

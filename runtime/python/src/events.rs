@@ -26,7 +26,7 @@ pub(crate) struct Watched<'py> {
 }
 
 impl<'py> Watched<'py> {
-    /// Those of one function, or of several in a list.
+    /// Watches one function, or several in a list.
     pub(crate) fn all(events: &Bound<'py, PyAny>) -> PyResult<Vec<Self>> {
         if events.is_callable() {
             return Ok(vec![Self::of("events".to_owned(), events.clone())?]);

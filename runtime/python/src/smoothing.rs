@@ -26,7 +26,7 @@ pub(crate) struct Estimate {
     /// Standard deviation of the data of each coordinate that was smoothed.
     pub(crate) noise: Vec<f64>,
     pub(crate) whiteness: f64,
-    /// Those that equations of motion lack, N m s.
+    /// Coefficients of friction that equations of motion lack, N m s.
     pub(crate) frictions: Vec<f64>,
     pub(crate) draw: Box<Draw>,
 }

@@ -114,7 +114,7 @@ pub fn equilibrium<const N: usize>(
 ///
 /// # Errors
 ///
-/// Those of `at`, and as [`equilibrium`].
+/// Errors of `at`, and as [`equilibrium`].
 pub fn equilibrium_of_torques<R: AsRef<[f64]>>(
     start: &[f64],
     mut at: impl FnMut(&[f64]) -> Result<(Vec<R>, Vec<f64>), ModesError>,

@@ -18,7 +18,7 @@ pub struct Modes {
     /// Frequencies in hertz, ascending.
     pub frequencies_hz: Vec<f64>,
     /// Shapes: `shapes[k][i]` is the part of coordinate i in mode k, in
-    /// kg^(-1/2) m^(-1). They are orthonormal with respect to the mass matrix
+    /// kg^(-1/2) m^(-1). Shapes are orthonormal with respect to the mass matrix
     /// (xᵀ M x = 1), and their largest component is positive. Modes of equal
     /// frequency span a space; which basis of it is returned is arbitrary.
     pub shapes: Vec<Vec<f64>>,
@@ -294,7 +294,7 @@ errors! {
         NotAtRest {
             /// Index of the coordinate on which the largest of them acts.
             coordinate: usize,
-            /// That torque, N m.
+            /// The largest torque, N m.
             torque: f64,
             /// Torques on all coordinates, N m.
             torques: Vec<f64>,

@@ -13,7 +13,7 @@
 //! [`SectorCoordinate::weights`] the coordinates are means and (for two copies,
 //! half) differences: q_j = Σ_i weight_ij θ_i / norm_j with norm_j = Σ_i
 //! weight_ij² ([`SectorCoordinate::norm`]). The *orthonormal* coordinates are
-//! x_j = √norm_j · q_j. They are the image of the angles under a rotation, so
+//! x_j = √norm_j · q_j. These are the image of the angles under a rotation, so
 //! that squares sum: Σ x_j² = Σ θ_i². Momenta go the other way, by 1/√norm_j,
 //! and entry (j, k) of a matrix by 1/√(norm_j norm_k). Frequencies do not
 //! depend on the choice; sizes of entries in different blocks compare in the

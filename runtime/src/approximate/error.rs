@@ -41,7 +41,7 @@ errors! {
         } => "the {matrix} matrix is not symmetric",
         /// A frame is not positive and finite.
         Frame {
-            /// Its length, s.
+            /// Length of the frame, s.
             value: f64,
         } => "a frame of {value} s is not positive and finite",
     }

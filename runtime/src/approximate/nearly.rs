@@ -81,7 +81,7 @@ use crate::system::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct NearlyInPhase<P, T, O = SmallOde<P>> {
-    /// That of `frames`, for the estimate.
+    /// The model of `frames`, for the estimate.
     model: P,
     frames: Frames<O, T>,
     patterns: DifferencePatterns,

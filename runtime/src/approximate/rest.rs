@@ -14,7 +14,7 @@ const LONGEST_STEP: f64 = 0.5;
 ///
 /// # Errors
 ///
-/// Those of `step`.
+/// Errors of `step`.
 pub(crate) fn come_to_rest<E>(
     angles: &mut [f64],
     mut step: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,

@@ -9,7 +9,7 @@ errors! {
     pub enum BatchError {
         /// An argument has another number of slices than the pendulum has links.
         Links {
-            /// Its name.
+            /// Name of the argument.
             argument: &'static str,
             /// Number of links.
             expected: usize,

@@ -23,8 +23,8 @@ impl Ensemble<'_> {
     ///
     /// Each trajectory has its own steps, chosen by the rules
     /// of `method` from its own errors, and its own errors and account, as
-    /// [`integrate`](Self::integrate) gives them. Its bits depend on its start
-    /// alone: not on its place, the other starts or the number of threads. They
+    /// [`integrate`](Self::integrate) gives them. The bits depend on its start
+    /// alone: not on its place, the other starts or the number of threads; they
     /// are not those of [`integrate`](Self::integrate), because products and sums
     /// are fused here where the machine can; both keep the tolerance. A lane whose
     /// trajectory has ended takes the next start.

@@ -216,7 +216,7 @@ pub enum RunError<T, E> {
     Integration(IntegrationError<T>),
     /// The observer failed.
     Observer {
-        /// Its error.
+        /// Error of the observer.
         error: E,
         /// The state that it saw, to continue from.
         last: State<T>,
@@ -249,7 +249,7 @@ impl<T: Real, E: fmt::Display> fmt::Display for RunError<T, E> {
     }
 }
 
-/// Its messages are those of the error that it holds.
+/// Messages are those of the error within.
 impl<T: Real, E: Error> Error for RunError<T, E> {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {

@@ -51,7 +51,7 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
     #[doc(hidden)]
     type Steps: Steps<T, O>;
 
-    /// Its memory for a run from `start`, which has been checked.
+    /// Returns the memory for a run from `start`, which has been checked.
     ///
     /// # Errors
     ///

@@ -31,7 +31,7 @@ pub enum Form {
 
 impl Form {
     /// Returns true if the polynomial of a state of `n` components has so many numbers in its
-    /// terms of both kinds. Those of a method do; a file may say anything.
+    /// terms of both kinds. A method's has; a file may say anything.
     #[cfg(feature = "serde")]
     pub(super) fn fits(self, n: usize, [terms, apart]: [usize; 2]) -> bool {
         // How many terms are at least there, and at most.

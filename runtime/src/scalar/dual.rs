@@ -26,7 +26,7 @@ use super::Scalar;
 pub struct Dual<T, const N: usize> {
     /// The number.
     pub value: T,
-    /// Its derivatives.
+    /// Derivatives of the number.
     pub tangents: [T; N],
 }
 

@@ -40,7 +40,7 @@ pub trait ByKind<S: Scalar>: Sized {
 /// A generic function that is compiled with this crate for `f64` and for `f32`, once,
 /// and not with every crate that calls it.
 pub trait Compiled {
-    /// Its type.
+    /// Type of the function.
     type Function<T: Scalar>;
 
     /// Returns it for any numbers.

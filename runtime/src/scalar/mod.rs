@@ -29,7 +29,7 @@
 //! - [`Pendulum::accelerations_into`](crate::Pendulum::accelerations_into) of an
 //!   emitted model in `f64` or `f32`, which integrators call, and
 //!   [`Batch`](crate::batch::Batch) fuse on x86-64 machines with AVX2 and FMA, in
-//!   builds with `std`. They give equal bits to a state, alone or in a batch,
+//!   builds with `std`. Both give equal bits to a state, alone or in a batch,
 //!   with AVX2 or AVX-512: the same on every machine that has these, and other last
 //!   bits than on those that do not. There, and for a batch with
 //!   [`InstructionSet::Build`], the bits are those of the functions above.

@@ -19,7 +19,7 @@ pub(crate) type Turned<T, const N: usize> = ([T; N], [T; N]);
 pub struct Turns<T, const N: usize>(Option<Turned<T, N>>);
 
 impl<T: Scalar, const N: usize> Turns<T, N> {
-    /// Those of all these angles.
+    /// Sines and cosines of all these angles.
     #[inline(always)]
     pub fn among(angles: [T; N]) -> Self {
         Self(T::by_kind(SinesAhead(&angles)))

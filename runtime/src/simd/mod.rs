@@ -240,7 +240,7 @@ pub trait Simd<T>: Scalar + Sealed<T> {
         (-a).mul_add(b, self)
     }
 
-    /// Its numbers where they lie in memory: an array of so many.
+    /// The numbers as they lie in memory: an array of so many.
     type Chunk: Row<T>;
 
     /// Returns the last numbers of a slice, if it has enough.

@@ -1,6 +1,6 @@
 //! Traits of models and systems, for references to them.
 
-/// Implements a trait for references to what implements it. Its methods are listed as
+/// Implements a trait for references to what implements it. The methods are listed as
 /// signatures; all are handed on, those with a default too. Functions on any scalar are
 /// listed behind `for`.
 macro_rules! by_reference {

@@ -222,7 +222,7 @@ pub trait InRegisters<R> {
     );
 }
 
-/// Its constants are registers.
+/// A pendulum whose constants are registers.
 struct CastPendulum<P, R> {
     pendulum: P,
     time: R,

@@ -94,7 +94,7 @@ impl DifferencePatterns {
 
     /// The patterns with these weights of copies of some sectors, by their names, in the
     /// order in which the whole tree has the copies: under the first holder, under the
-    /// next. They are made so large that their squares add up to the number of copies
+    /// next. Patterns are made so large that their squares add up to the number of copies
     /// under one holder.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 /// model.
 ///
 /// A description with `in_phase(…)` or `locked(…)` gives a model of fewer links; its
-/// constant `WHOLE` takes a state of the model to one of the tree as described. That is
+/// constant `WHOLE` takes a state of the model to one of the tree as described. This is
 /// exact: the whole tree, started so, moves so.
 ///
 /// ```
@@ -211,7 +211,7 @@ impl WholeTree {
     /// Writes the angular velocities or accelerations of all links at those of the model.
     ///
     /// # Errors
-    /// Those of [`angles`](Self::angles).
+    /// Errors of [`angles`](Self::angles).
     pub fn velocities<T: Scalar>(
         &self,
         model: &[T],
@@ -225,7 +225,7 @@ impl WholeTree {
     /// same.
     ///
     /// # Errors
-    /// Those of [`angles`](Self::angles).
+    /// Errors of [`angles`](Self::angles).
     pub fn torques<T: Scalar>(&self, whole: &[T], model: &mut [T]) -> Result<(), WholeLengthError> {
         self.check(model.len(), whole.len())?;
         model.fill(T::from_f64(0.0));

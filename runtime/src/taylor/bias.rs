@@ -11,7 +11,7 @@ pub(super) trait Bias<T, const N: usize> {
     fn at(&mut self, known: &KnownOrder<T, N>) -> [T; N];
 }
 
-/// Those that a function gives.
+/// The bias that a function gives.
 pub(super) struct MovingBias<F>(pub(super) F);
 
 impl<T, F: FnMut(&KnownOrder<T, N>) -> [T; N], const N: usize> Bias<T, N> for MovingBias<F> {

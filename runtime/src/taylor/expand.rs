@@ -6,7 +6,7 @@
 //! γ_i X_i − σ_i Y_i + bias_i = 0,
 //!
 //! where X and Y are the force on the link, times its lever, across and along what
-//! it was at the start, its own inertia and its weight included. They are linear in
+//! it was at the start, its own inertia and its weight included. Both are linear in
 //! the C and S of all links, with coefficients of the start. Four products of series
 //! a link are all there is, for a tree of any shape and depth.
 //!
@@ -27,7 +27,7 @@ use core::marker::PhantomData;
 
 /// Says which link of a tree hangs on which.
 pub trait Connectivity<const N: usize> {
-    /// Index of each link's parent, which comes before it. That of the root, link 0, does
+    /// Index of each link's parent, which comes before it. The root's, link 0, does
     /// not count.
     const PARENTS: [usize; N];
 
@@ -105,7 +105,7 @@ pub struct LinkConstants<T, const N: usize> {
     /// carries, along and across.
     pub moments: [[T; 2]; N],
     /// (ℓ, w): where the link hangs on its parent, from the parent's pivot, along and
-    /// across. That of the root does not count.
+    /// across. The root's does not count.
     pub attachments: [[T; 2]; N],
     /// G of the torque −G sin θ − F cos θ of gravity.
     pub weights: [T; N],

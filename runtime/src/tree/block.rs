@@ -113,7 +113,7 @@ pub(super) struct SubtreeBlock<'a> {
     pub(super) widest: usize,
     /// True if its results are written once it has gone up.
     pub(super) ends: bool,
-    /// Its links with children.
+    /// Links with children.
     pub(super) strips: &'a Strips,
 }
 

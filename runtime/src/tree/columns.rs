@@ -193,7 +193,7 @@ impl<T: Copy> Cells<T> {
     /// Reads numbers of the link `at`, or of as many links as `V` has lanes.
     ///
     /// # Safety
-    /// They may be read there.
+    /// The numbers may be read there.
     // A plain loop: iterators are many lines to compile, with each model.
     #[inline(always)]
     pub(super) unsafe fn read<V: Simd<T>, A: Row<V>>(self, at: usize) -> A {
@@ -211,7 +211,7 @@ impl<T: Copy> Cells<T> {
     /// Writes numbers of the link `at`, or of as many links as `V` has lanes.
     ///
     /// # Safety
-    /// They may be written there.
+    /// The numbers may be written there.
     #[inline(always)]
     pub(super) unsafe fn write<V: Simd<T>, A: Row<V>>(self, at: usize, vectors: &A) {
         let start = self.from(at).start;

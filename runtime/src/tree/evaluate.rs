@@ -266,7 +266,7 @@ impl<'a, T: Copy> Level<'a, T> {
 /// The blocks of a thread.
 struct SomeBlocks<'a, T> {
     level: Level<'a, T>,
-    /// Those that start with these links.
+    /// The blocks that start with these links.
     links: Range<usize>,
     lasting: &'a mut [T],
     passing: &'a mut [T],

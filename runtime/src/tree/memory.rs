@@ -85,7 +85,7 @@ impl Sizes {
         if self.joints { 2 } else { 0 }
     }
 
-    /// Those that come from outside.
+    /// Numbers that come from outside.
     #[inline(always)]
     pub(super) const fn outside(&self) -> usize {
         self.torques() + self.holds()
@@ -225,14 +225,14 @@ pub(super) struct Storage<'a, T> {
     pub(super) in_rows: bool,
     /// Sine and cosine of each link's angle, from row `lead` on.
     pub(super) sincos: Columns<'a, T, 2>,
-    /// Likewise angular velocities; none where they are read where they are given.
+    /// Angular velocities in the same rows; none where they are read where they are given.
     pub(super) velocities: Option<Columns<'a, T, 1>>,
-    /// Likewise angles and velocities relative to the parents; empty where nothing
+    /// Angles and velocities relative to the parents in the same rows; empty where nothing
     /// acts in joints.
     pub(super) joint_motions: Columns<'a, T, 2>,
-    /// Likewise torques from outside; empty where equations read none.
+    /// Torques from outside in the same rows; empty where equations read none.
     pub(super) torques: Columns<'a, T, 1>,
-    /// Likewise 1 for held links and 0 for others; empty where equations read none.
+    /// 1 for held links and 0 for others in the same rows; empty where equations read none.
     pub(super) held: Columns<'a, T, 1>,
     pub(super) lead: usize,
     /// Columns of responses of links with children; on the way down the first two

@@ -78,7 +78,7 @@ struct Given<'a, T> {
 }
 
 impl<'a, T: Scalar> Given<'a, T> {
-    /// Those of neighbours, from one place in the tree on and from one in the column, in so
+    /// Numbers of neighbours, from one place in the tree on and from one in the column, in so
     /// many rows.
     #[inline(always)]
     fn of(

@@ -26,7 +26,7 @@ pub(super) struct Policy {
 }
 
 impl Policy {
-    /// For one state: the numbers of a block fit into the second cache. Its width is
+    /// For one state: the numbers of a block fit into the second cache. The width is
     /// whole vectors, and strips that are long enough to be fetched ahead.
     pub(super) const ONE_STATE: Self = Self {
         whole: 8192,

@@ -68,7 +68,7 @@ impl<'a, T: Copy> Shared<'a, T> {
     }
 
     /// Reads numbers from `at` on into `places`; none where there are not so many.
-    /// They are the reader's own, or nobody writes at that time.
+    /// The numbers are the reader's own, or nobody writes at that time.
     pub(super) fn read(self, at: usize, places: &mut [T]) {
         if at <= self.length && places.len() <= self.length - at {
             // SAFETY: the elements lie in the slice, and no other thread writes them

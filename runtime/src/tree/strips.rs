@@ -67,7 +67,7 @@ pub(super) struct SmallSubtrees {
 
 /// The links with children of a block, strip by strip from its first generation on.
 ///
-/// They are the same for all blocks of a partition, but for where these start in arrays of
+/// Strips are the same for all blocks of a partition, but for where these start in arrays of
 /// the whole tree. What has seen once that [`reach`](Self::reach) numbers are there
 /// needs no other question: strips are made here alone, and none goes beyond.
 #[derive(Clone, Debug, PartialEq)]
@@ -263,7 +263,7 @@ impl Strips {
 }
 
 impl Reach {
-    /// Those of a strip as well.
+    /// Reaches as far as one strip more.
     fn take(&mut self, strip: &Strip, widest: usize) {
         let others = strip.copies.saturating_sub(1);
         let in_register = strip.length.max(widest);

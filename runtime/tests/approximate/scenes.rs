@@ -12,7 +12,7 @@ use branched_pendulum::prelude::*;
 )]
 pub struct Branched;
 
-/// Its children in phase, but for small differences.
+/// The same pendulum with children in phase, but for small differences.
 #[branched_pendulum(
     gravity = 9.80665,
     parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction) [
@@ -32,7 +32,7 @@ pub struct BranchedSmall;
 )]
 pub struct Tree;
 
-/// Its copies in phase, but for small differences.
+/// The same tree with copies in phase, but for small differences.
 #[branched_pendulum(
     gravity = 9.80665,
     tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,

@@ -2,7 +2,7 @@
 
 use branched_pendulum::prelude::*;
 
-/// A system of any rates. They are called by their address, so that each method is compiled
+/// A system of any rates. Rates are called by their address, so that each method is compiled
 /// once for all such systems.
 pub(crate) struct Problem<T> {
     dimension: usize,

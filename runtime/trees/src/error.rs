@@ -33,7 +33,7 @@ pub enum TreeError {
     Value {
         /// The quantity, as in "mass of `child`".
         what: String,
-        /// Its value, in SI units.
+        /// Value of the quantity, in SI units.
         value: f64,
         /// The condition on it, as in "positive".
         requirement: &'static str,

@@ -2,7 +2,7 @@
 //!
 //! The attribute `branched_pendulum` derives the equations of one tree when a program is
 //! compiled. Here a text in the attribute's own grammar becomes a tree at once, without a
-//! compiler and without Symbolica: [`PendulumTree::parse`]. Its equations are those that
+//! compiler and without Symbolica: [`PendulumTree::parse`]. The equations are those that
 //! the compiler derived and wrote for one link with all its properties left open; they are
 //! part of this crate, and the runtime takes them through any tree.
 //!

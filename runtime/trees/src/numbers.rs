@@ -146,11 +146,11 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
 
 /// A link of the whole tree.
 struct Place {
-    /// Its index in the scene.
+    /// Index of the link in the scene.
     link: usize,
     /// The parent's index in the whole tree.
     parent: Option<usize>,
-    /// Its number among the copies below the parent, from 1, where there are several.
+    /// Number of the link among the copies below the parent, from 1, where there are several.
     copy: Option<usize>,
 }
 

@@ -7,10 +7,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(getter_with_clone)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its name.
+    /// Name of the parameter.
     #[wasm_bindgen(readonly)]
     pub name: String,
-    /// Its use in words, with the unit behind the last comma.
+    /// Use of the parameter in words, with the unit behind the last comma.
     #[wasm_bindgen(readonly)]
     pub meaning: String,
 }

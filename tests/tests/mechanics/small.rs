@@ -39,7 +39,7 @@ fn state<M: SmallDifferences<f64>>(model: &M, size: f64, random: &mut Random) ->
     state
 }
 
-/// That state with differences of another size.
+/// A state with differences of another size.
 fn scaled<M: Pendulum<f64>>(_: &M, state: &[f64], size: f64) -> Vec<f64> {
     let half = state.len() / 2;
     let scale = |(index, &value): (usize, &f64)| match index % half < M::LINKS {

@@ -20,7 +20,7 @@ macro_rules! tree {
     ($name:ident, $text:ident: $($tree:tt)*) => {
         tree!($name: $($tree)*);
 
-        /// Its description without what is asked for.
+        /// Description of the tree without what is asked for.
         const $text: &str = stringify!($($tree)*);
     };
 }

@@ -24,7 +24,7 @@ pub(super) fn spend_on(terms: u64, formula: &Formula, bytes: u64) {
 /// Size of a formula multiplied out, before like terms are collected.
 pub(super) struct Expansion {
     terms: u64,
-    /// Those that are formed as products of others.
+    /// Terms that are formed as products of others.
     formed: u64,
     /// Most machine words of the number in a term.
     words: u64,

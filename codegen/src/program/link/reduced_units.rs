@@ -41,7 +41,7 @@ pub(super) struct Units {
 }
 
 impl Lowering<'_> {
-    /// Those of a tree that is written out.
+    /// Constants of a tree that is written out.
     pub(super) fn units(&mut self, scene: &Scene, environment: &mut Environment<'_>) -> Units {
         let mechanics = self.mechanics;
         let joints = mechanics.articulation.joints.iter();

@@ -20,7 +20,7 @@ pub struct StripConstants {
     pub is_leaf: bool,
     /// A constant for each of the columns that the equations read.
     pub constants: Vec<ConstantId>,
-    /// Its links as bodies, in SI units, where energies are asked for: half of the
+    /// Links of the strip as bodies, in SI units, where energies are asked for: half of the
     /// mass; first moments along and across; half of the moment of inertia about the
     /// pivot; place on the parent, along and across; weight, and weight times the two
     /// components of the centre of mass; half of the spring's stiffness, friction, drag.
@@ -31,7 +31,7 @@ pub struct StripConstants {
     /// Laws of friction and drag that are not viscous, where energies are asked for and any
     /// link of the tree has one: C, q and ε in the pivot, q and ε against the ground.
     pub laws: Option<[ConstantId; 5]>,
-    /// Its [properties](crate::scene::LINK_PROPERTIES), if positions are asked for.
+    /// [Properties](crate::scene::LINK_PROPERTIES) of the links, if positions are asked for.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
 
@@ -117,7 +117,7 @@ fn shared(builder: &Builder, mut values: impl Iterator<Item = ValueId>) -> Optio
 }
 
 impl Lowering<'_> {
-    /// The constants of all orbits of a tree in loops. They are constants of the model,
+    /// The constants of all orbits of a tree in loops. All are constants of the model,
     /// whatever pass is left out.
     pub(super) fn strip_table(&mut self, scene: &Scene, balance: &LinkBalance) -> Table {
         let off = self.builder.off.take();

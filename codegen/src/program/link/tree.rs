@@ -50,7 +50,7 @@ impl Lowering<'_> {
             .accelerations
     }
 
-    /// That solve around links whose acceleration is given.
+    /// The recursion around links whose acceleration is given.
     pub(in crate::program) fn recursion_around(
         &mut self,
         scene: &Scene,

@@ -24,7 +24,7 @@ use super::table::{self, Link};
 pub struct Errors {
     /// The scene.
     pub scene: &'static str,
-    /// Its number of links.
+    /// Number of its links.
     pub links: usize,
     /// In units of the bound.
     pub worst: [Option<f64>; CONTENDERS.len()],

@@ -38,7 +38,7 @@ pub const CONTENDERS: [&str; 10] = [
 pub struct Row {
     /// The scene.
     pub scene: &'static str,
-    /// Its number of links.
+    /// Number of its links.
     pub links: usize,
     /// The times.
     pub times: [Option<f64>; CONTENDERS.len()],

@@ -24,7 +24,7 @@ pub struct Release {
     pub duration: f64,
     /// Amplitude of the torque on the root, N m.
     pub torque: f64,
-    /// Its frequency, Hz.
+    /// Frequency of the torque, Hz.
     pub frequency: f64,
     /// Every difference at the release from rest, rad.
     pub difference: f64,

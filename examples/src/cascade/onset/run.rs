@@ -104,7 +104,7 @@ impl Onset {
     }
 }
 
-/// Hanging, but for the differences. They alternate in sign and shrink from one
+/// Hanging, but for the differences. These alternate in sign and shrink from one
 /// coordinate to the next, so that no two branches move alike by accident.
 fn at_release(difference: f64) -> [f64; LINKS] {
     use branched_pendulum::SymmetricPendulum;

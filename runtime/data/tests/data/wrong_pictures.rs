@@ -163,7 +163,7 @@ fn read(taken: &Taken, rate: f64, as_dots: bool) -> Result<Recording, ReadError>
 struct Outcomes {
     right: usize,
     doubtful: usize,
-    /// Those among the doubtful that have 240 pictures a second and more.
+    /// Doubtful recordings of 240 pictures a second and more.
     doubtful_of_fast: usize,
     refused: usize,
     /// Good samples that are not used, and wrong ones that are, off by a tenth of a turn and more.

@@ -99,7 +99,7 @@ impl<'a> Advisor<'a> {
 
     /// Measures the candidates and chooses among them.
     ///
-    /// Those that were added first are measured first; what costs half as much again as
+    /// Candidates that were added first are measured first; what costs half as much again as
     /// the best so far is left there. It takes as long as some ten runs of each candidate,
     /// and the reference.
     ///

@@ -47,7 +47,7 @@ pub type Visit<'v> = dyn FnMut(usize, usize, &[f64]) + 'v;
 /// }
 /// ```
 pub trait Candidate {
-    /// Its parts.
+    /// Returns the parts of the candidate.
     fn name(&self) -> CandidateName;
 
     /// The numbers that may be chosen for it.

@@ -7,7 +7,7 @@ use super::comparison::Worst;
 pub struct Measured {
     /// Index of the candidate.
     pub candidate: usize,
-    /// Its tolerance or step.
+    /// Tolerance or step of the candidate.
     pub setting: f64,
     /// Where it is worst; none where the run failed.
     pub worst: Option<Worst>,

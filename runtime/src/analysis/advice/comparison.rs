@@ -10,11 +10,11 @@ use crate::analysis::statistics::Estimate;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Criterion {
-    /// Its values, time by time.
+    /// Values of the output, time by time.
     Values,
     /// The drift of a quantity that the motion keeps.
     Conserved,
-    /// Its mean and mean square.
+    /// Mean and mean square of the output.
     Statistics,
 }
 

@@ -12,7 +12,7 @@ use super::comparison::{Comparison, Criterion};
 pub struct Followed {
     /// Name of the output.
     pub name: String,
-    /// Its unit.
+    /// Unit of the output.
     pub unit: &'static str,
     /// Largest error that is allowed.
     pub tolerance: f64,

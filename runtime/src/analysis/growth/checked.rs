@@ -5,7 +5,7 @@
 pub struct Checked {
     /// The number, by the tighter tolerance.
     pub value: f64,
-    /// Its difference from that of the other tolerance, relative: to the number itself,
+    /// Difference from the number by the other tolerance, relative: to the number itself,
     /// or, for rates and frequencies below one in the time looked at, to that one.
     pub difference: f64,
 }

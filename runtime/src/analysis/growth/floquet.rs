@@ -18,7 +18,7 @@ pub struct Floquet {
     pub period: f64,
     /// The matrix, row by row: deviations of angles first, then of velocities.
     pub matrix: Vec<Vec<f64>>,
-    /// Its eigenvalues, as real and imaginary part, the largest first.
+    /// Eigenvalues of the matrix, as real and imaginary part, the largest first.
     pub multipliers: Vec<[f64; 2]>,
     /// Growth rate, 1/s: the logarithm of the largest multiplier over the period; zero to
     /// rounding where the motion is stable.

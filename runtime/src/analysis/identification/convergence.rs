@@ -40,7 +40,7 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// That of a search that has not begun.
+    /// The convergence of a search that has not begun.
     pub(super) fn before(smoothed: &SmoothedRecord) -> Self {
         Self {
             rms: f64::NAN,

@@ -128,7 +128,7 @@ pub(super) struct Curvature {
 }
 
 impl Curvature {
-    /// That of a triangle of all globals, with what its rows make up for.
+    /// The curvature of a triangle of all globals, with what its rows make up for.
     pub(super) fn new(globals: &DMatrix<f64>, free: &[usize]) -> Self {
         let last = globals.column(globals.ncols() - 1).into_owned();
         if free.is_empty() {

@@ -89,7 +89,7 @@ impl FitStage {
     }
 }
 
-/// Rows that are put below each other. Those that are put have columns of a start, or none,
+/// Rows that are put below each other. Rows that are put have columns of a start, or none,
 /// before the last ones.
 struct Rows {
     matrix: DMatrix<f64>,

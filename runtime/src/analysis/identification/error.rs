@@ -26,17 +26,17 @@ pub enum IdentificationError {
     },
     /// A parameter or a link that is given twice.
     Twice {
-        /// Its name.
+        /// Name of the parameter or link.
         name: String,
     },
     /// A parameter that is neither known nor unknown.
     Missing {
-        /// Its name.
+        /// Name of the parameter.
         name: String,
     },
     /// A number that is not finite, or not positive where it has to be.
     Number {
-        /// Its meaning.
+        /// Meaning of the number.
         what: String,
         /// The number.
         value: f64,
@@ -45,7 +45,7 @@ pub enum IdentificationError {
     Start(ParameterError),
     /// A time that is not finite or not later than the one before.
     Time {
-        /// Its index.
+        /// Index of the time.
         index: usize,
         /// The time, s.
         value: f64,
@@ -98,7 +98,7 @@ pub enum IdentificationError {
     NotFound(Box<Unfound>),
     /// A parameter that the data do not determine.
     NotDetermined {
-        /// Its name.
+        /// Name of the parameter.
         name: String,
         /// Unknowns that can change together with it without a change of the motion.
         with: Vec<String>,

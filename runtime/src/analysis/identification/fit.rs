@@ -40,14 +40,14 @@ pub struct Fit {
 pub struct ParameterEstimate {
     /// Name of the parameter, or `offset of LINK`, or factors and divisors of a ratio.
     pub name: String,
-    /// Its value.
+    /// The value.
     pub value: f64,
     /// What the value stands on.
     pub standing: Standing,
-    /// Its standard deviation, as if errors of the data were independent of each other. None
+    /// Standard deviation, as if errors of the data were independent of each other. None
     /// for what is held, and infinite where nothing can be said.
     pub naive: Option<f64>,
-    /// Its standard deviation by how the estimate changes when blocks of the record are left
+    /// Standard deviation by how the estimate changes when blocks of the record are left
     /// out: the one to trust where what is left over is not white. With few blocks it
     /// belongs to Student's distribution of as many degrees of freedom, less one.
     pub by_blocks: Option<f64>,
@@ -60,7 +60,7 @@ pub enum Standing {
     Determined,
     /// The data, and the values at which these others are held: as wrong as they are.
     GoesWith(Vec<String>),
-    /// Its start, at which it is held since the data leave it open.
+    /// The start, at which the value is held since the data leave it open.
     Held,
     /// A bound, beyond which the data would have it.
     AtBound,

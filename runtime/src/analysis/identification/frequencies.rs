@@ -14,7 +14,7 @@ pub struct Frequency {
     pub mode: usize,
     /// The frequency, Hz.
     pub hertz: f64,
-    /// Its standard deviation, Hz.
+    /// Standard deviation of the frequency, Hz.
     pub deviation: f64,
 }
 

@@ -52,7 +52,7 @@ pub(super) struct FitStage {
 /// Residuals of a stage, in deviations.
 #[derive(Clone)]
 pub(super) struct Residuals {
-    /// Those of angles, segment by segment.
+    /// Residuals of angles, segment by segment.
     pub(super) angles: Vec<Vec<f64>>,
     /// States at the ends of segments.
     ends: Vec<Vec<f64>>,

@@ -1,7 +1,7 @@
 //! Constants that act on a motion, found beside a filter that runs without them.
 //!
-//! They move the expected data linearly, so that the filter runs once, without any, and takes
-//! along what each would do: a regression of the innovations finds them (B. Friedland,
+//! Constants move the expected data linearly, so that the filter runs once, without any, and
+//! takes along what each would do: a regression of the innovations finds them (B. Friedland,
 //! *Treatment of bias in recursive filtering*, IEEE Transactions on Automatic Control 14 (1969)).
 
 use nalgebra::{SMatrix, SVector};

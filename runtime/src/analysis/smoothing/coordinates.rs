@@ -39,7 +39,7 @@ impl SmoothedCoordinates {
     ///
     /// # Errors
     ///
-    /// Those of `smooth`.
+    /// Errors of `smooth`.
     pub fn new(
         data: impl IntoIterator<Item = Vec<Option<f64>>>,
         smooth: impl Fn(&[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,

@@ -21,14 +21,14 @@ pub enum SmoothingError {
     },
     /// A time that is not finite or not later than the one before.
     Time {
-        /// Its index.
+        /// Index of the time.
         index: usize,
         /// The time, s.
         value: f64,
     },
     /// A datum that is infinite or NaN.
     Datum {
-        /// Its index.
+        /// Index of the datum.
         index: usize,
         /// The datum.
         value: f64,
@@ -60,7 +60,7 @@ pub enum SmoothingError {
     /// A noise, a jerk or a density that is not finite and positive, a degree or a
     /// window of polynomials that is not possible.
     Option {
-        /// Its name.
+        /// Name of the option.
         name: &'static str,
         /// The value given.
         value: f64,

@@ -158,7 +158,7 @@ fn root<const D: usize>(mut variance: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> 
 /// Sums over innovations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Innovations {
-    /// Those in their standard deviations, for data of a standard deviation of 1.
+    /// Innovations in their standard deviations, for data of a standard deviation of 1.
     pub(super) standard: Vec<f64>,
     /// Number of those that the start takes up and that say nothing.
     pub(super) free: usize,

@@ -59,14 +59,14 @@ pub struct ModelSmoother<const N: usize> {
     pub disturbances: Vec<[f64; N]>,
     /// Viscous friction that the equations may lack, at most `N` kinds: of each kind the
     /// relative angles p·θ on which it acts, one for each joint, with torques −c Σ p (p·ω).
-    /// Its coefficient c (N m s) is found where the likelihood gains more by it than one more
+    /// Each coefficient c (N m s) is found where the likelihood gains more by it than one more
     /// number does by itself (Schwarz's criterion), and zero otherwise.
     pub frictions: Vec<Vec<[f64; N]>>,
 }
 
 /// Change of the angles, in deviations of the data, below which they end.
 const CONVERGED: f64 = 1e-3;
-/// That change where the likelihood alone is asked for.
+/// Change of the angles where the likelihood alone is asked for.
 const NEAR: f64 = 0.1;
 /// Logarithms of q τ³/σ² that are tried, from the largest down: each motion starts from the
 /// one before, and a model that is not trusted is easily met.

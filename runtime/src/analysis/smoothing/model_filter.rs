@@ -40,7 +40,7 @@ pub(super) struct ModelFilter<'a, const N: usize, L, M, A> {
 pub(super) struct LinearFlow<const D: usize, const N: usize> {
     /// Where it leads without the friction that the equations lack.
     end: SVector<f64, D>,
-    /// Its derivative, with that friction as it is.
+    /// Derivative of the end, with that friction as it is.
     transition: SMatrix<f64, D, D>,
     /// Changes of the end by coefficients of friction of one.
     effects: Effects<D, N>,
@@ -62,7 +62,7 @@ pub(super) struct Filtered<const D: usize, const N: usize> {
 #[derive(Clone)]
 pub(super) struct BrakedMotion<const D: usize, const N: usize> {
     pub(super) states: Vec<[f64; D]>,
-    /// Its coefficients.
+    /// Coefficients of the friction.
     pub(super) frictions: SVector<f64, N>,
 }
 
@@ -328,7 +328,7 @@ impl<const N: usize> AnglesAndRates<N> {
         }
     }
 
-    /// Those in the middle of h until others, by Hermite's cubic.
+    /// Angles and rates in the middle of h until others, by Hermite's cubic.
     fn halfway(&self, next: &Self, h: f64) -> Self {
         let step = next.angles - self.angles;
         Self {

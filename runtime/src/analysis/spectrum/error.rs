@@ -36,7 +36,7 @@ errors! {
             sample rate",
         /// An option of a search for lines that is not possible.
         Option {
-            /// Its name.
+            /// Name of the option.
             name: &'static str,
             /// The value given.
             value: f64,

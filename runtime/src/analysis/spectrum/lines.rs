@@ -74,7 +74,7 @@ pub struct SpectralLine {
     pub deviation_hz: f64,
     /// Amplitude, in the units of the series.
     pub amplitude: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the amplitude.
     pub amplitude_deviation: f64,
     /// Phase at the first sample, rad from −π to π.
     pub phase: f64,

@@ -26,7 +26,7 @@ impl Passages {
     ///
     /// # Errors
     ///
-    /// Those of `find`; [`SpectrumError`] for samples without a spectrum, and for spans and
+    /// Errors of `find`; [`SpectrumError`] for samples without a spectrum, and for spans and
     /// steps shorter than a sample.
     ///
     /// # Examples

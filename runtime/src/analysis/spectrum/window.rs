@@ -11,7 +11,7 @@ pub enum Window {
     /// of the distance.
     #[default]
     Hann,
-    /// That to a power p, as J. Laskar weights series: peaks p + 1 times as wide as the
+    /// Hann's window to a power p, as J. Laskar weights series: peaks p + 1 times as wide as the
     /// narrowest, side lobes that fall off as the power 2p + 1 of the distance.
     HannPower(u8),
 }

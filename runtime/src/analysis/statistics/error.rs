@@ -18,7 +18,7 @@ errors! {
         NotFinite {
             /// Number of its series.
             series: usize,
-            /// Its place in the series.
+            /// Place of the sample in the series.
             index: usize,
         } => "sample {index} of series {series} is not finite",
         /// The series are too short for their correlations: their samples are alike over

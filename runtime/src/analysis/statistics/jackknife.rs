@@ -7,7 +7,7 @@ use super::StatisticsError;
 pub struct Estimate {
     /// The value.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error of the value.
     pub error: f64,
 }
 

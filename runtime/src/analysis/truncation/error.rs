@@ -24,7 +24,7 @@ errors! {
         Value {
             /// The quantity.
             what: &'static str,
-            /// Its value.
+            /// Value of the quantity.
             value: f64,
         } => "{what} cannot be {value}",
         /// Amplitudes do not grow.

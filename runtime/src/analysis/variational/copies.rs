@@ -139,7 +139,7 @@ impl Copies {
         }
     }
 
-    /// Writes the differences of copies from their mean, all else zero. Those of two copies
+    /// Writes the differences of copies from their mean, all else zero. Differences of two copies
     /// are opposite, to the last bit.
     pub(in crate::analysis) fn write_differences(&self, of: &[f64], differences: &mut [f64]) {
         differences.fill(0.0);

@@ -35,9 +35,9 @@ pub enum InputError<T> {
     ToleranceBelowRounding {
         /// Index of the component.
         component: usize,
-        /// Its relative tolerance.
+        /// Relative tolerance of the component.
         relative: T,
-        /// Its absolute tolerance.
+        /// Absolute tolerance of the component.
         absolute: T,
         /// The smallest relative tolerance that is of use to the method.
         smallest: T,
@@ -114,7 +114,7 @@ pub enum InputError<T> {
     Constants {
         /// Constants of the first one.
         expected: usize,
-        /// Its own.
+        /// Constants of this one.
         found: usize,
     },
     /// A system of an ensemble in lanes differs from the first one in more than

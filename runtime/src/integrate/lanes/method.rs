@@ -37,7 +37,7 @@ pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     where
         Self: 'a;
 
-    /// Its options.
+    /// Returns the options of the method.
     #[doc(hidden)]
     fn options(&self) -> &Options<T>;
 
@@ -51,7 +51,7 @@ pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
         Ok(())
     }
 
-    /// Its memory, with this system in every lane.
+    /// Returns the memory, with this system in every lane.
     #[doc(hidden)]
     fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> Self::Steps<'a, R>;
 }

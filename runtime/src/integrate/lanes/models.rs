@@ -21,7 +21,7 @@ use crate::system::LaneOde;
 pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
     /// All of them at once.
     pub(crate) registers: O::Of<R>,
-    /// Its constants in their order.
+    /// Constants of the system in their order.
     constants: Vec<R>,
     dimension: usize,
     shape: usize,

@@ -21,7 +21,7 @@ pub(crate) type Flags = [bool; WIDEST];
 /// The end of a trajectory, good or bad.
 #[derive(Clone, Debug)]
 pub(crate) struct Outcome<T> {
-    /// Its last state and its account, or why it failed.
+    /// Last state and account of the trajectory, or why it failed.
     pub(crate) end: Result<Solution<T>, IntegrationError<T>>,
     /// The states at the times asked for, one after the other, as far as it came.
     pub(crate) samples: Vec<T>,
@@ -35,7 +35,7 @@ pub(crate) struct Outcome<T> {
 pub struct Runs<T> {
     /// True for the lanes that have a trajectory.
     pub(crate) active: Flags,
-    /// Its place among the cases.
+    /// Place of each trajectory among the cases.
     index: [usize; WIDEST],
     /// Start of the step.
     pub(crate) time: Numbers<T>,
@@ -255,7 +255,7 @@ impl<T: Real> Runs<T> {
         self.fail(lane, error);
     }
 
-    /// Those that have failed since one last asked.
+    /// Takes out a trajectory that has failed, and was not taken yet.
     #[inline(always)]
     pub(super) fn take_failed(&mut self) -> Option<(usize, usize, Outcome<T>)> {
         self.failed.pop()

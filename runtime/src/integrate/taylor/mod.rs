@@ -33,7 +33,7 @@ use crate::system::{State, TaylorOde};
 /// about ε^(1/p) for each order. No step is rejected.
 ///
 /// *Dense output* is the polynomial itself, of the method's order and free of
-/// evaluations. Its coefficients belong to the start of the step: at its end it
+/// evaluations. The coefficients belong to the start of the step: at its end it
 /// agrees with the state to the tolerance and to rounding.
 ///
 /// *Cost*: a step computes p orders of the coefficients, each of which

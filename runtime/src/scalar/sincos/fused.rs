@@ -245,7 +245,7 @@ fn all_near<P: FusingNumber>(angles: &[P]) -> bool {
     largest.all_below(P::Lane::LIMIT)
 }
 
-/// Those of all angles, if one of them is outside the common range.
+/// Sines and cosines of all angles, if one of them is outside the common range.
 #[inline(always)]
 pub(crate) fn ahead<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Option<Turned<P, N>> {
     if all_near(angles) {
@@ -259,7 +259,7 @@ pub(crate) fn ahead<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Option<
     Some((sines, cosines))
 }
 
-/// Those of angles in the common range, computed together.
+/// Sines and cosines of angles in the common range, computed together.
 #[inline(always)]
 pub(crate) fn near<P: FusingNumber, const N: usize>(angles: &[P; N]) -> Turned<P, N> {
     common(*angles, &mut P::from_f64(0.0))

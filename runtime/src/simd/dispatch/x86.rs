@@ -30,7 +30,7 @@ impl Present {
         })
     }
 
-    /// Those of `set`, or the widest, if these are narrower: each set holds those before.
+    /// Instructions of `set`, or the widest, if these are narrower: each set holds those before.
     #[inline(always)]
     pub(super) fn at_most(set: InstructionSet) -> Self {
         Self(set.min(Self::widest().0))

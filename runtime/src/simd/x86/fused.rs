@@ -83,7 +83,7 @@ impl double::UnfusedNumber for F64x4 {
     }
 }
 
-/// Those of AVX2 as [`fused::FusingNumber`].
+/// Registers of AVX2 as [`fused::FusingNumber`].
 macro_rules! avx2 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident,
@@ -162,7 +162,7 @@ avx2! {
 /// a ⊕ (b ∧ c), bit by bit, as the table of a ternary instruction.
 const XOR_AND: i32 = 0x78;
 
-/// Those of AVX-512.
+/// Registers of AVX-512 as [`fused::FusingNumber`].
 macro_rules! avx512 {
     (
         $name:ident = $lanes:literal of $lane:ident, $splat:ident, $integer:ident,

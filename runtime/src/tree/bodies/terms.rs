@@ -17,7 +17,7 @@ pub(super) struct TurnedLink<V, const P: usize> {
     pub(super) pivot: [V; P],
     pub(super) sine: V,
     pub(super) cosine: V,
-    /// Its angle or angular velocity: whichever the terms are formed of.
+    /// Angle or angular velocity of the link: whichever the terms are formed of.
     pub(super) given: V,
 }
 

@@ -93,7 +93,7 @@ impl ScaleShape {
         }
     }
 
-    /// Number of different values that parts in a scale have in one generation. They
+    /// Number of different values that parts in a scale have in one generation. Values
     /// repeat along it, since copies of a link have the number of the link modulo the
     /// number of links of their generation.
     pub(super) fn values(&self, scale: usize) -> usize {

@@ -333,7 +333,7 @@ where
     /// The constants of the links from `at` on, each its own.
     ///
     /// # Safety
-    /// They are links of the tree.
+    /// Links of the tree.
     #[inline(always)]
     unsafe fn constants(&self, cells: &OwnCells<N, T>, at: usize) -> E::Constants<V> {
         let mut row = <E::Constants<V> as Row<V>>::filled(V::from_f64(0.0));
@@ -354,7 +354,7 @@ where
 /// the same for all states of a `T`.
 ///
 /// # Safety
-/// They may be read there.
+/// The numbers may be read there.
 #[inline(always)]
 unsafe fn constant<N: Scalar, T: Scalar + Simd<N>, V: Simd<T>>(
     constants: Cells<N>,

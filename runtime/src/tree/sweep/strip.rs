@@ -11,7 +11,7 @@ use crate::tree::strips::Strip;
 /// children are leaves, or their responses are in memory.
 ///
 /// The functions take the place of a vector among the neighbours, a multiple of its
-/// lanes or the last place, and the number of a copy of the children. They are sound
+/// lanes or the last place, and the number of a copy of the children. All are sound
 /// for equations of the sizes that [`strips`](super::view::View::strips) has been asked for.
 // A copy of its own: compilers keep it in registers, and read what is behind a
 // reference again after everything that is written.
@@ -105,7 +105,7 @@ impl<T: Scalar> StripView<T> {
         unsafe { out.write(self.whole + at * self.step::<V>(), alpha, count) }
     }
 
-    /// Those of children that are leaves.
+    /// Writes the accelerations of children that are leaves.
     ///
     /// # Safety
     /// A place of the strip, and a copy that it has.

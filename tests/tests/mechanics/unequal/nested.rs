@@ -32,7 +32,7 @@ const NESTED: &str = "gravity = 9.80665,
         ] * 2
     ]";
 
-/// Those formulas in numbers.
+/// The tree of [`NESTED`] in numbers.
 fn nested() -> Tree {
     let arm = |mass, spring, rest| Link {
         spring,

@@ -41,7 +41,7 @@ pub(super) fn stop_of_both(index: usize, lane: &End<f64>, plain: &End<f64>) -> O
     }
 }
 
-/// Those of trajectories that have failed.
+/// Stops of trajectories that have failed.
 struct StopsOfBoth(Vec<State<f64>>, Vec<StopReason>);
 
 impl Each<f64> for StopsOfBoth {
