@@ -1,6 +1,6 @@
 //! Shapes by name, and links that were meant to have one.
 
-use super::bodies::{BodyShape, PLAIN, SHAPES};
+use super::bodies::{BodyShape, SHAPES};
 use crate::description::Node;
 use crate::report::{TreeMessage, nearest};
 
@@ -36,10 +36,10 @@ pub(super) fn find_shape(name: &str) -> Result<&'static BodyShape, TreeMessage> 
 }
 
 /// The message about a link without a shape that is called as one, or has the properties of
-/// one. A link that has all that one without a shape must have may be called anything.
+/// one. A link with a centre of mass and an inertia may be called anything: a shape has neither.
 pub(super) fn forgotten_shape(node: &Node) -> Option<TreeMessage> {
     let is_given = |name: &str| node.properties.iter().any(|own| own.name == name);
-    let is_plain = PLAIN.iter().all(|needed| is_given(needed.name));
+    let is_plain = ["com", "inertia"].into_iter().all(is_given);
     if node.shape.is_some() || node.damaged || is_plain {
         return None;
     }

@@ -73,6 +73,10 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     fn momenta_of(&self, bodies: &Bodies<Dual<T, WIDTH>>, theta: &[T], omega: &[T]) -> Vec<T> {
+        // A value that is no number has derivatives of zero.
+        if theta.len() != self.links() {
+            return vec![T::from_f64(f64::NAN); self.links()];
+        }
         let theta: Vec<Dual<T, WIDTH>> = theta.iter().copied().map(Dual::constant).collect();
         gradient(self.links(), omega, |omega, workspace| {
             bodies.kinetic_energy(workspace, &theta, omega)
@@ -99,6 +103,9 @@ impl<T: Scalar> PendulumTree<T> {
     #[must_use]
     pub fn stiffness_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
         type Twice<T> = Dual<Dual<T, 1>, WIDTH>;
+        if theta.len() != self.links() {
+            return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
+        }
         let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
         let bodies = self.bodies.cast(lift);
         let row = |link: usize| {

@@ -60,7 +60,7 @@ pub enum Standing {
     Determined,
     /// The data, and the values at which these others are held: as wrong as they are.
     GoesWith(Vec<String>),
-    /// The start, at which the value is held since the data leave it open.
+    /// The value that the search had when the data turned out to leave it open, mostly the start.
     Held,
     /// A bound, beyond which the data would have it.
     AtBound,

@@ -89,6 +89,10 @@ impl<F: Family> Search<'_, F> {
                 name: name.clone(),
                 value: stage.globals[index],
                 standing: match () {
+                    // What came to its bound before it was held did so by the data.
+                    () if is_bound(&index) && stage.globals[index] != task.start(index) => {
+                        Standing::AtBound
+                    }
                     () if open.held.contains(&index) => Standing::Held,
                     () if is_bound(&index) => Standing::AtBound,
                     () if with.is_empty() => Standing::Determined,

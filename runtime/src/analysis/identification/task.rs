@@ -81,6 +81,12 @@ impl FitTask<'_> {
         values
     }
 
+    /// The value from which a global is searched: offsets from 0.
+    pub(super) fn start(&self, global: usize) -> f64 {
+        let parameter = self.unknown.get(global);
+        parameter.map_or(0.0, |&parameter| self.values[parameter])
+    }
+
     /// Whether a global with this value lies at its bound.
     pub(super) fn is_at_bound(&self, global: usize, value: f64) -> bool {
         self.bounds[global].contains(&value)

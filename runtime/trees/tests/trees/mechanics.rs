@@ -265,6 +265,18 @@ fn slices_of_another_length_give_nan() {
     );
     assert!(tree.kinetic_energy(&THETA, &[0.0]).is_nan());
     assert!(tree.momenta(&THETA, &[]).iter().all(|p| p.is_nan()));
+    assert!(tree.momenta(&[], &OMEGA).iter().all(|p| p.is_nan()));
+    let matrices = [
+        tree.mass_matrix(&[0.0; 6]),
+        tree.stiffness_matrix(&[0.0; 3]),
+    ];
+    assert!(
+        matrices
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|entry| entry.is_nan())
+    );
     assert!(tree.modes(&[0.0; 2]).is_err());
     let mut rates = [0.0; 3];
     tree.rates(0.0, &[0.0; 10], &mut rates);

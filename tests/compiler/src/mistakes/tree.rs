@@ -369,8 +369,8 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "two_meanings",
         "#[branched_pendulum(gravity = 9.8,
     a: rod(mass = 1, length = 1, friction = gravity) [
-        b: rod(mass = kinetic_energy, length = 2 * theta_b, spring = omega_d) * 2,
-        c: rod(mass = potential_energy, length = omega_q),
+        b: rod(mass = kinetic_energy, length = 2 * p_a, spring = p_d) * 2,
+        c: rod(mass = 2 * potential_energy, length = p_q),
     ],
     drive(torque = theta_a * cos(omega * t + omega_a)),
 )] struct Pendulum;",
