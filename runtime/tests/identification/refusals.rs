@@ -152,7 +152,13 @@ fn friction_stays_above_its_bound() {
                 "{own:?}"
             );
         }
-        assert_eq!(fit.impossible, None, "{:?}", fit.estimates);
+        // A search that is refused may have left an inertia behind that nothing has.
+        let impossible = fit.impossible.as_ref();
+        assert!(
+            impossible.is_none_or(|own| !stands && !own.what.contains("friction")),
+            "{impossible:?} {:?}",
+            fit.estimates
+        );
         assert!(
             fit.rms() >= 0.999 * free.rms(),
             "{} {}",
