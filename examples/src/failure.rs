@@ -14,7 +14,7 @@ use branched_pendulum::analysis::{
 };
 use branched_pendulum::approximate::LinearError;
 use branched_pendulum_charts::ChartError;
-use branched_pendulum_data::{CsvError, ReadError};
+use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
 
 use crate::program::sealed::SealError;
 use crate::program::sweep::SweepError;
@@ -70,7 +70,7 @@ pub enum Failure {
     #[error("there is no advice")]
     Advice(#[from] AdviceError),
     /// A file of measurements could not be read.
-    #[error("the measurements could not be read")]
+    #[error("the measurements could not be read{}", options(&.0.kind))]
     Reading(#[from] ReadError),
     /// A file holds another number of links than the pendulum.
     #[error("{} holds angles of {found} links where the pendulum has {needed}; name them by `--columns` or `--dots`, or the place of a pivot without a dot by `--pivot`", path.display())]
@@ -166,6 +166,23 @@ impl Failure {
     }
 }
 
+/// The options of a program that say what a table leaves open.
+fn options(kind: &ReadErrorKind) -> &'static str {
+    match kind {
+        ReadErrorKind::NoTime => "; `--time` or `--frame-rate` helps",
+        ReadErrorKind::FrameNumbers { .. } | ReadErrorKind::WholeTimes { .. } => {
+            "; `--frame-rate` helps"
+        }
+        ReadErrorKind::TimeOrder { previous, time } if previous == time => {
+            "; `--drop-repeated` helps"
+        }
+        ReadErrorKind::AngleUnit { .. } => "; `--unit` helps",
+        ReadErrorKind::NotAngle { .. } => "; `--columns` or `--dots` helps",
+        ReadErrorKind::Nothing { .. } => "; `--columns`, `--dots` or `--pivot` helps",
+        _ => "",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Failure;
@@ -179,7 +196,7 @@ mod tests {
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
     use branched_pendulum_charts::ChartError;
-    use branched_pendulum_data::CsvError;
+    use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
     use std::error::Error;
     use std::io;
     use std::path::PathBuf;
@@ -289,6 +306,47 @@ mod tests {
             for (index, cause) in messages.iter().enumerate().skip(1) {
                 let told = messages[..index].iter().any(|above| above.contains(cause));
                 assert!(!told, "twice: {messages:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_table_leaves_open_has_an_option() {
+        let repeated = ReadErrorKind::TimeOrder {
+            previous: 0.5,
+            time: 0.5,
+        };
+        let backwards = ReadErrorKind::TimeOrder {
+            previous: 0.5,
+            time: 0.4,
+        };
+        let name = || "a".to_owned();
+        for (kind, option) in [
+            (ReadErrorKind::NoTime, Some("`--time` or `--frame-rate`")),
+            (
+                ReadErrorKind::FrameNumbers { name: name() },
+                Some("`--frame-rate`"),
+            ),
+            (repeated, Some("`--drop-repeated`")),
+            (backwards, None),
+            (
+                ReadErrorKind::AngleUnit {
+                    name: name(),
+                    largest: 10.0,
+                },
+                Some("`--unit`"),
+            ),
+            (ReadErrorKind::Empty, None),
+        ] {
+            let failure = Failure::Reading(ReadError {
+                path: folder(),
+                place: None,
+                kind: Box::new(kind),
+            });
+            let text = failure.to_string();
+            match option {
+                Some(option) => assert!(text.contains(option), "{text}"),
+                None => assert!(!text.contains("--"), "{text}"),
             }
         }
     }
