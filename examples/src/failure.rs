@@ -339,7 +339,7 @@ mod tests {
             (ReadErrorKind::Empty, None),
         ] {
             let failure = Failure::Reading(ReadError {
-                path: folder(),
+                path: PathBuf::from("swing.csv"),
                 place: None,
                 kind: Box::new(kind),
             });

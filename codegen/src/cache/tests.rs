@@ -147,7 +147,7 @@ fn damaged_files_are_no_answer_and_are_written_anew() {
         assert_eq!(fs::read_to_string(path).unwrap(), whole);
     }
     // Without the head it may be anybody's.
-    for foreign in [&b"\xff\xfe"[..], b"", whole[10..].as_bytes()] {
+    for foreign in [&b"\xff\xfe"[..], b"", &whole.as_bytes()[10..]] {
         fs::write(path, foreign).unwrap();
         assert_eq!(own.cache().expand(attribute(), item()).to_string(), plain);
         assert_eq!(fs::read(path).unwrap(), foreign);

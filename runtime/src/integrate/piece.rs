@@ -48,7 +48,7 @@ impl Form {
         };
         let whole = |numbers: usize, terms: core::ops::RangeInclusive<usize>| match n {
             0 => numbers == 0,
-            n => numbers % n == 0 && terms.contains(&(numbers / n)),
+            n => numbers.is_multiple_of(n) && terms.contains(&(numbers / n)),
         };
         whole(terms, terms_of) && whole(apart, apart_of)
     }

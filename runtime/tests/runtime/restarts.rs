@@ -58,7 +58,8 @@ fn all_events_at_the_time_of_the_last_are_told_there() {
     let shifted = |_: f64, y: &[f64]| (y[0] + 3.0) - 3.0;
     let turned = |_: f64, y: &[f64]| (3.0 * y[0]).sin() + 0.1 * y[0];
     let squared = |_: f64, y: &[f64]| 1.0 - y[1].powi(2) - y[0] * (y[0] - 1.0);
-    let functions: [&dyn Fn(f64, &[f64]) -> f64; 4] = [&plain, &scaled, &shifted, &turned];
+    type Zero = dyn Fn(f64, &[f64]) -> f64;
+    let functions: [&Zero; 4] = [&plain, &scaled, &shifted, &turned];
     let events = functions.map(|function| Event::new(Crossing::Either, function));
     fn check(method: &impl Integrator<f64, dyn Ode<f64>>, events: &[Event<'_, f64>], error: f64) {
         for direction in [1.0, -1.0] {

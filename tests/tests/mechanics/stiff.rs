@@ -69,7 +69,7 @@ impl Case {
         DVector::from_fn(rests.len(), |link, _| {
             let mut sum = Double::from_f64(-rests[link]);
             for (&weight, &value) in joints.row(link).iter().zip(values) {
-                sum = sum + Double::from_f64(weight) * Double::from_f64(value);
+                sum += Double::from_f64(weight) * Double::from_f64(value);
             }
             sum.to_f64()
         })

@@ -156,7 +156,7 @@ impl<F: Family> Identification<F> {
     /// data do not determine is no error: the fit tells it ([`Fit::identifiability`]).
     pub fn fit(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
         let (search, globals) = self.search(record, self.shooting)?;
-        search.from_globals(globals)
+        search.try_starts(globals)
     }
 
     /// Finds the unknowns as [`fit`](Self::fit) does, in the longest segments that keep the
@@ -169,7 +169,7 @@ impl<F: Family> Identification<F> {
         let mut shooting = self.shooting;
         loop {
             let (search, globals) = self.search(record, shooting)?;
-            match search.from_globals(globals) {
+            match search.try_starts(globals) {
                 Err(IdentificationError::NotFound(unfound)) => match unfound.failure {
                     SearchFailure::Lost { followed } if followed < shooting.longest => {
                         shooting.longest = followed;
@@ -216,9 +216,9 @@ impl<F: Family> Identification<F> {
             (Some(segments), Some(last)) => {
                 self.check_unknowns(task, &globals, &segments)?;
                 let stage = self.stage(task, segments, fit.start_states(), globals);
-                search.from_stage(stage, last.length, &fit.convergence)
+                search.continue_from(stage, last.length, &fit.convergence)
             }
-            _ => search.from_globals(globals),
+            _ => search.try_starts(globals),
         }
     }
 

@@ -52,7 +52,7 @@ pub(super) struct Search<'a, F> {
 
 impl<F: Family> Search<'_, F> {
     /// Tries starts, and makes the segments of the best longer.
-    pub(super) fn from_globals(mut self, globals: Vec<f64>) -> Result<Fit, IdentificationError> {
+    pub(super) fn try_starts(mut self, globals: Vec<f64>) -> Result<Fit, IdentificationError> {
         let first = self.shooting.first;
         let segments = split(self.record.times(), first);
         self.identification
@@ -77,11 +77,11 @@ impl<F: Family> Search<'_, F> {
         let best = best(&rungs).ok_or_else(|| no_motion(self.record))?;
         let mut rung = best.clone();
         rung.convergence = with_starts(best, &rungs, rungs.len());
-        self.to_the_end(rung)
+        self.finish(rung)
     }
 
     /// Goes on from a stage that another search has solved.
-    pub(super) fn from_stage(
+    pub(super) fn continue_from(
         mut self,
         stage: FitStage,
         length: f64,
@@ -89,7 +89,7 @@ impl<F: Family> Search<'_, F> {
     ) -> Result<Fit, IdentificationError> {
         let rung = self.solve(stage, length, Vec::new(), before);
         let rung = rung.ok_or_else(|| no_motion(self.record))?;
-        self.to_the_end(rung)
+        self.finish(rung)
     }
 
     /// Solves the first segments from a start: the one that was given, in segments of the first
@@ -209,7 +209,7 @@ impl<F: Family> Search<'_, F> {
     }
 
     /// Makes segments as long as they may be, and judges what is found.
-    fn to_the_end(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
+    fn finish(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
         let rung = match rung.convergence.is_followed() {
             true => self.lengthen(rung, f64::INFINITY),
             false => rung,

@@ -124,17 +124,16 @@ impl Copies {
         !self.groups.iter().any(pairs)
     }
 
-    /// Writes what copies have in common: their mean in each of them, all else as it is.
+    /// Keeps what copies have in common: their mean in each of them, all else as it is.
     /// Copies that are equal are left as they are, to the last bit.
-    pub(in crate::analysis) fn write_common(&self, of: &[f64], common: &mut [f64]) {
-        common.copy_from_slice(of);
+    pub(in crate::analysis) fn keep_common(&self, values: &mut [f64]) {
         for group in &self.groups {
             let mean = group.first().map(|&one| {
-                let apart = apart(of, group, one);
-                of.get(one).map_or(f64::NAN, |own| own - apart)
+                let apart = apart(values, group, one);
+                values.get(one).map_or(f64::NAN, |own| own - apart)
             });
             for &one in group {
-                write(common, one, mean.unwrap_or(f64::NAN));
+                write(values, one, mean.unwrap_or(f64::NAN));
             }
         }
     }

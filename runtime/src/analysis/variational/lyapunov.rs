@@ -177,11 +177,13 @@ impl Deviations<'_> {
     /// Takes from vectors of length `n` that follow each other what is no such deviation.
     fn keep(self, vectors: &mut [f64], n: usize) {
         for vector in vectors.chunks_mut(n) {
-            let all = vector.to_vec();
             match self {
                 Self::All => {}
-                Self::Within(copies) => copies.write_common(&all, vector),
-                Self::Transverse(copies) => copies.write_differences(&all, vector),
+                Self::Within(copies) => copies.keep_common(vector),
+                Self::Transverse(copies) => {
+                    let all = vector.to_vec();
+                    copies.write_differences(&all, vector);
+                }
             }
         }
     }
@@ -189,7 +191,7 @@ impl Deviations<'_> {
     /// Takes from the motion the difference that rounding has made between copies in phase.
     fn keep_motion(self, motion: &mut [f64]) {
         if let Self::Within(copies) | Self::Transverse(copies) = self {
-            copies.write_common(&motion.to_vec(), motion);
+            copies.keep_common(motion);
         }
     }
 }

@@ -183,7 +183,7 @@ fn is_not_believed_where_others_may_write() {
         fs::set_permissions(&path, Permissions::from_mode(mode)).unwrap();
         assert_eq!(folder.read(&name), None, "{mode:o}");
         folder.write(&own(1).0, &own(1).1);
-        assert_eq!(names(&path), [name.clone()], "{mode:o}");
+        assert_eq!(names(&path), std::slice::from_ref(&name), "{mode:o}");
     }
     fs::set_permissions(&path, Permissions::from_mode(0o755)).unwrap();
     assert_eq!(folder.read(&name).as_ref(), Some(&text));
