@@ -53,7 +53,7 @@ impl<const N: usize> AtRest<N> {
 
 /// Finds the equilibrium near `start`, at which the tree stays at rest, by Newton's
 /// method: K δ = M α, since the torques at rest are M α = −∂U/∂θ. No angle changes by
-/// more than half a radian at once. It may be unstable: [`Modes`](super::Modes) says so.
+/// more than half a radian at once. It may be unstable: [`Modes`] says so.
 ///
 /// # Errors
 ///
