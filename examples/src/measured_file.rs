@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use branched_pendulum_data::{
-    AngleColumns, AngleUnit, AngleZero, Clock, LinkMarkers, Markers, Recording, Repeated, Table,
-    TableOptions, read_angles,
+    AngleColumns, AngleUnit, AngleZero, Basis, Clock, Finding, LinkMarkers, Markers, Recording,
+    Repeated, Sample, Table, TableOptions, read_angles,
 };
 use clap::{Args, ValueEnum};
 
@@ -39,6 +39,19 @@ pub struct MeasuredFile {
     /// y of dots grows downwards, as rows of a picture
     #[arg(long)]
     pub y_down: bool,
+    /// y of dots grows upwards
+    #[arg(long, conflicts_with = "y_down")]
+    pub y_up: bool,
+    /// angles of all links but the first are counted from the first, on which they hang
+    #[arg(long)]
+    pub relative: bool,
+    /// the angle that a link shows which hangs at rest, degrees from -180 to 180: camera or
+    /// encoder are not plumb
+    #[arg(verbatim_doc_comment, long, value_name = "DEG", value_parser = number(-180.0..=180.0, "°"), allow_hyphen_values = true)]
+    pub tilt: Option<f64>,
+    /// stretches of time that are left out, s
+    #[arg(long, value_name = "FROM:TO,...", value_parser = stretches, default_value = "", allow_hyphen_values = true)]
+    pub leave_out: ::std::vec::Vec<[f64; 2]>,
     /// column of the times; found by its name without it
     #[arg(long, value_name = "COLUMN", conflicts_with = "frame_rate")]
     pub time: Option<String>,
@@ -91,6 +104,12 @@ impl MeasuredFile {
             };
             table = Cow::Owned(table.into_owned().without_repeated_times(&clock, counts)?);
         }
+        if !self.leave_out.is_empty() {
+            table = Cow::Owned(table.into_owned().leaving_out(&clock, &self.leave_out)?);
+        }
+        // Links of both pendulums hang on the first.
+        let parents = || (0..links).map(|link| (link > 0).then_some(0));
+        let relative_to = self.relative.then(|| parents().collect());
         let columns = AngleColumns {
             clock: clock.clone(),
             columns: self.columns.clone(),
@@ -99,6 +118,7 @@ impl MeasuredFile {
                 Zero::Down => AngleZero::Down,
                 Zero::Up => AngleZero::Up,
             }),
+            relative_to: relative_to.unwrap_or_default(),
             ..AngleColumns::default()
         };
         let dots = self.dots.iter().cloned();
@@ -108,17 +128,54 @@ impl MeasuredFile {
                 .map(|(upper, lower)| LinkMarkers { upper, lower })
                 .collect(),
             pivot: self.pivot,
-            y_down: self.y_down.then_some(true),
+            y_down: (self.y_down || self.y_up).then_some(self.y_down),
             ..Markers::default()
         };
-        let recording = read_angles(&table, &columns, &markers)?;
-        match recording.links.len() {
-            found if found == links => Ok(recording),
-            found => Err(Failure::Links {
+        let mut recording = read_angles(&table, &columns, &markers)?;
+        let found = recording.links.len();
+        if found != links {
+            return Err(Failure::Links {
                 path: table.path().to_path_buf(),
                 found,
                 needed: links,
-            }),
+            });
+        }
+        if let Some(tilt) = self.tilt {
+            turn_back(&mut recording, tilt);
+        }
+        if !self.leave_out.is_empty() {
+            trim(&mut recording);
+        }
+        Ok(recording)
+    }
+
+    /// Returns true where angles follow from the dots of a table.
+    pub fn is_of_dots(&self, table: &Table) -> bool {
+        let of_columns =
+            !self.columns.is_empty() || self.unit.is_some() || self.zero.is_some() || self.relative;
+        !of_columns && !table.tracks().is_empty()
+    }
+
+    /// The dots of the links, UPPER and LOWER, named or as they stand in a table.
+    pub fn dots_of(&self, table: &Table) -> Vec<(String, String)> {
+        if !self.dots.is_empty() {
+            return self.dots.clone();
+        }
+        let tracks: Vec<&String> = table.tracks().iter().map(|track| &track.name).collect();
+        match self.pivot {
+            Some([x, y]) => {
+                let pivot = format!("{x},{y}");
+                let uppers = std::iter::once(&pivot).chain(tracks.iter().copied());
+                let pairs = uppers.zip(&tracks);
+                pairs.map(|(a, b)| (a.clone(), (*b).clone())).collect()
+            }
+            None => {
+                let (pairs, _) = tracks.as_chunks::<2>();
+                pairs
+                    .iter()
+                    .map(|[a, b]| ((*a).clone(), (*b).clone()))
+                    .collect()
+            }
         }
     }
 
@@ -139,13 +196,17 @@ impl MeasuredFile {
             ("--columns", !self.columns.is_empty()),
             ("--unit", self.unit.is_some()),
             ("--zero", self.zero.is_some()),
+            ("--relative", self.relative),
         ];
         let of_dots = [
             ("--dots", !self.dots.is_empty()),
             ("--pivot", self.pivot.is_some()),
             ("--y-down", self.y_down),
+            ("--y-up", self.y_up),
         ];
-        let of_rows = [
+        let of_all = [
+            ("--tilt", self.tilt.is_some()),
+            ("--leave-out", !self.leave_out.is_empty()),
             ("--time", self.time.is_some()),
             ("--frame-rate", self.frame_rate.is_some()),
             ("--drop-repeated", self.drop_repeated.is_some()),
@@ -165,12 +226,52 @@ impl MeasuredFile {
                 "--pivot beside --dots: name its place among them, as in `0,0:a,a:b`".into(),
             );
         }
-        match columns.or(dots).or(given(&of_rows)) {
+        match columns.or(dots).or(given(&of_all)) {
             Some(option) if self.file.is_none() => Err(format!(
                 "{option} is of a file of measurements, and none is given"
             )),
             _ => Ok(()),
         }
+    }
+}
+
+/// Counts angles from the direction that gravity has at `tilt` (degrees).
+fn turn_back(recording: &mut Recording, tilt: f64) {
+    let offset = tilt.to_radians();
+    for sample in recording
+        .links
+        .iter_mut()
+        .flat_map(|link| &mut link.samples)
+    {
+        match sample {
+            Sample::Measured(angle) | Sample::Outlier(angle) | Sample::Unlikely(angle) => {
+                *angle -= offset;
+            }
+            _ => {}
+        }
+    }
+    recording.findings.push(Finding {
+        basis: Basis::Given,
+        text: format!("angles less {tilt}°, at which a link hangs at rest"),
+    });
+}
+
+/// Begins and ends a recording with a time at which something was measured.
+fn trim(recording: &mut Recording) {
+    let is_measured = |row: &usize| {
+        recording
+            .links
+            .iter()
+            .any(|link| link.angle(*row).is_some())
+    };
+    let count = recording.times.len();
+    let first = (0..count).find(is_measured).unwrap_or(count);
+    let last = (0..count).rfind(is_measured).map_or(count, |last| last + 1);
+    recording.times.truncate(last);
+    recording.times.drain(..first);
+    for link in &mut recording.links {
+        link.samples.truncate(last);
+        link.samples.drain(..first);
     }
 }
 
@@ -196,6 +297,18 @@ fn place(text: &str) -> Result<[f64; 2], String> {
         None => (text == "origin").then_some([0.0; 2]),
     };
     place.ok_or_else(|| "two numbers with a comma between, X,Y, or `origin`".to_owned())
+}
+
+/// Reads stretches of time.
+fn stretches(text: &str) -> Result<Vec<[f64; 2]>, String> {
+    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    let stretch = |part: &str| {
+        let (from, to) = part.split_once(':')?;
+        let [from, to] = [number(from)?, number(to)?];
+        (from <= to).then_some([from, to])
+    };
+    let all = parts(text).map(stretch).collect::<Option<_>>();
+    all.ok_or_else(|| "two times with a colon between, the earlier first: FROM:TO".to_owned())
 }
 
 /// Reads pairs of dots; the comma of a place X,Y parts no pairs.
@@ -263,6 +376,10 @@ mod tests {
             Some([-1.5, 2.0])
         );
         assert_eq!(read("a.csv --pivot origin").unwrap().pivot, Some([0.0; 2]));
+        let read = read("a.csv --tilt -1.5 --leave-out 0:1.25,3:3.5 --relative").unwrap();
+        assert_eq!(read.tilt, Some(-1.5));
+        assert_eq!(read.leave_out, [[0.0, 1.25], [3.0, 3.5]]);
+        assert!(read.relative);
     }
 
     /// An option that cannot apply is refused, never dropped.
@@ -286,6 +403,19 @@ mod tests {
             ),
             ("a.csv --unit deg --y-down", "angles come from one of them"),
             ("a.csv --pivot 0,0 --dots a:b", "name its place among them"),
+            (
+                "a.csv --relative --dots a:b",
+                "angles come from one of them",
+            ),
+            ("a.csv --y-up --y-down", "cannot be used with"),
+            ("a.csv --leave-out 1", "the earlier first: FROM:TO"),
+            ("a.csv --leave-out 0:1,3:2", "the earlier first: FROM:TO"),
+            ("a.csv --leave-out 1:inf", "the earlier first: FROM:TO"),
+            ("a.csv --tilt 181", "must be from -180 to 180"),
+            ("--tilt 1", "--tilt is of a file"),
+            ("--leave-out 1:2", "--leave-out is of a file"),
+            ("--y-up", "--y-up is of a file"),
+            ("--relative", "--relative is of a file"),
             ("--columns a", "--columns is of a file"),
             ("--unit deg", "--unit is of a file"),
             ("--pivot 0,0", "--pivot is of a file"),

@@ -79,6 +79,16 @@ pub enum Tree {
     Chain,
 }
 
+impl Tree {
+    /// Options of the constants that are assumed.
+    pub fn constants(self) -> &'static str {
+        match self {
+            Self::Branched => "--friction-root, --friction-children",
+            Self::Chain => "--parameters",
+        }
+    }
+}
+
 impl Arguments {
     /// Friction of the simulated apparatus.
     pub fn real_friction(&self) -> Friction {

@@ -192,6 +192,16 @@ impl<const N: usize> Measured<'_, N> {
         .collect()
     }
 
+    /// The closure of a motion whose angles of links are all counted from `tilt`, J.
+    pub fn closure_turned(&self, motion: &[Motion<N>], tilt: f64) -> Vec<f64> {
+        let turned = motion.iter().map(|[coordinates, rates]| {
+            let links = self.subject.links(coordinates).map(|angle| angle - tilt);
+            [self.subject.coordinates(&links), *rates]
+        });
+        let rows = self.energies(&turned.collect::<Vec<_>>(), &[]);
+        rows.iter().map(|row| row[quantity::CLOSURE]).collect()
+    }
+
     /// The closure by changes of a motion beside its equations: along these the energy changes
     /// by its power, so that all else is in the changes. To first order, about the middle of the
     /// likeliest ones.

@@ -4,11 +4,14 @@
 //! - [`subject`]: the pendulums, [`scenes`] and [`parameters`]: their descriptions,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
 //! - [`motion`]: motions that the angles allow, [`estimate`]: what follows from them,
-//! - [`spectrogram`]: its lines,
+//! - [`verdict`]: whether the energy budget closes, [`causes`]: readings of the table by which it
+//!   does, [`tilt`] and [`wrong_pictures`]: two of them by the data,
+//! - [`spectrogram`]: lines of the motion,
 //! - [`report`]: words and tables, [`charts`]: charts.
 
 pub mod arguments;
 pub mod camera;
+pub mod causes;
 pub mod charts;
 pub mod estimate;
 pub mod motion;
@@ -20,6 +23,9 @@ pub mod spectrogram;
 pub mod subject;
 #[cfg(test)]
 mod tests;
+pub mod tilt;
+pub mod verdict;
+pub mod wrong_pictures;
 
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
@@ -27,28 +33,34 @@ pub use source::Source;
 pub use subject::{Subject, TwoLinks};
 
 use branched_pendulum::Parametric;
+use branched_pendulum_data::{Table, TableOptions};
 
 use crate::branched_double::Apparatus;
 use crate::failure::Failure;
 use crate::identify::scene::Chain;
 use crate::program::Job;
 use arguments::Tree;
+use causes::Unclosed;
 use spectrogram::Spectrogram;
+use verdict::Verdict;
 
-/// Reads or simulates the angles, estimates the motion, prints the report and writes tables
-/// and charts.
+/// Reads or simulates the angles, estimates the motion, prints verdict and report and writes
+/// tables and charts.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let file = arguments.measured.file.as_deref();
+    let table = file.map(|file| Table::read(file, &TableOptions::default()));
+    let table = table.transpose()?;
     match arguments.pendulum {
         Tree::Branched => {
             let apparatus = Apparatus::new(arguments.friction)?;
-            let source = match &arguments.measured.file {
-                Some(file) => Source::open(file, arguments)?,
+            let source = match &table {
+                Some(table) => Source::read(table, arguments)?,
                 None => Source::simulate(arguments)?,
             };
-            analyse(arguments, job, &apparatus, &source)
+            analyse(arguments, job, &apparatus, table.as_ref(), &source)
         }
         Tree::Chain => {
             let read = arguments.parameters.as_deref().map(parameters::read);
@@ -59,8 +71,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 ))?;
             }
             let chain = TwoLinks::new(&values);
-            let file = arguments.measured.file.as_deref().unwrap_or("".as_ref());
-            analyse(arguments, job, &chain, &Source::open(file, arguments)?)
+            // A chain without a file is refused with the options.
+            let Some(table) = &table else { return Ok(()) };
+            let source = Source::read(table, arguments)?;
+            analyse(arguments, job, &chain, Some(table), &source)
         }
     }
 }
@@ -69,6 +83,7 @@ fn analyse<const N: usize>(
     arguments: &Arguments,
     job: &Job,
     subject: &dyn Subject<N>,
+    table: Option<&Table>,
     source: &Source<N>,
 ) -> Result<(), Failure> {
     let draws = Draws {
@@ -90,13 +105,25 @@ fn analyse<const N: usize>(
         estimate = measured.by_model(&estimate, draws)?;
     }
     let names = subject.names();
+    let verdict = Verdict::of(&source.times, &estimate, draws.count);
+    let unclosed = table.filter(|_| !verdict.closes()).map(|table| Unclosed {
+        arguments,
+        subject,
+        table,
+        source,
+        verdict,
+    });
+    let search = unclosed.map(|unclosed| unclosed.search(&progress));
+    let search = search.transpose()?;
     report::write(job, &names, source, &estimate)?;
+    job.print(&verdict.words(arguments, &names, search.as_ref()))?;
     job.print(&report::report(arguments, &names, source, &estimate))?;
     job.chart("estimate", &charts::chart(subject, source, &estimate))?;
     if let Some(spectrogram) = Spectrogram::of(&names, source, &estimate)? {
         spectrogram.write(job)?;
     }
     let findings = source.findings.iter().map(ToString::to_string);
+    job.report("verdict", verdict.values(search.as_ref()));
     job.report("findings", findings.collect::<Vec<_>>());
     job.report("noise", estimate.noise);
     Ok(())

@@ -92,6 +92,14 @@ impl Trust {
     }
 }
 
+/// A part of a whole, in per cent.
+pub fn percent(part: f64) -> String {
+    match 100.0 * part {
+        small @ ..0.01 => format!("{small:.1e} %"),
+        usual => format!("{usual:.2} %"),
+    }
+}
+
 /// The report in words.
 pub fn report<const N: usize>(
     arguments: &Arguments,
@@ -116,10 +124,6 @@ pub fn report<const N: usize>(
         line(format!("  {finding}"));
     }
     let trust = Trust::of(estimate);
-    let percent = |part: f64| match 100.0 * part {
-        small @ ..0.01 => format!("{small:.1e} %"),
-        usual => format!("{usual:.2} %"),
-    };
     let (energy, power) = (names.energy, names.power);
     line(
         match (arguments.model, arguments.polynomials) {
@@ -141,9 +145,9 @@ pub fn report<const N: usize>(
         percent(trust.power)
     ));
     // By the equations the integral is not taken from picture to picture.
-    let (cause, or_few) = match arguments.model {
-        true => (" of noise alone", ""),
-        false => ("", ", or the pictures are too few"),
+    let cause = match arguments.model {
+        true => " of noise alone",
+        false => "",
     };
     line(format!(
         "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, \
@@ -151,11 +155,6 @@ pub fn report<const N: usize>(
         percent(trust.closure),
         percent(trust.closure_deviation)
     ));
-    if trust.closure > 3.0 * trust.closure_deviation {
-        line(format!(
-            "  that is too much: the pendulum is not the assumed one with this friction{or_few}"
-        ));
-    }
     let white = estimate.whiteness;
     line(match white.abs() {
         ..3.0 => format!("  what is left over is white ({white:.1} deviations)"),

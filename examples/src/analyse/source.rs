@@ -1,6 +1,6 @@
 //! The angles to be analysed: out of a file, or of a simulated camera.
 
-use branched_pendulum_data::{Finding, Table, TableOptions};
+use branched_pendulum_data::{Finding, Table};
 
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
@@ -17,6 +17,8 @@ pub struct Source<const N: usize> {
     pub times: Vec<f64>,
     /// Angles of the links, rad.
     pub angles: Vec<[Option<f64>; N]>,
+    /// Columns or dots of the links, of a file.
+    pub links: Vec<String>,
     /// How a file was read.
     pub findings: Vec<Finding>,
     /// The motion as it is, of a simulated camera.
@@ -24,7 +26,7 @@ pub struct Source<const N: usize> {
 }
 
 impl<const N: usize> Source<N> {
-    /// Reads the file of the arguments.
+    /// Takes the angles out of the table of the arguments' file.
     ///
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
@@ -36,17 +38,10 @@ impl<const N: usize> Source<N> {
         Ok(Self {
             angles: rows.clone().map(row).collect(),
             times: rows.map(|index| recording.times[index]).collect(),
+            links: recording.links.into_iter().map(|link| link.name).collect(),
             findings: recording.findings,
             truth: Vec::new(),
         })
-    }
-
-    /// Opens the file of the arguments.
-    ///
-    /// # Errors
-    /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn open(file: &std::path::Path, arguments: &Arguments) -> Result<Self, Failure> {
-        Self::read(&Table::read(file, &TableOptions::default())?, arguments)
     }
 
     /// The angles with their times.
@@ -84,6 +79,7 @@ impl Source<3> {
         Ok(Self {
             times: truth.iter().map(|sample| sample.time).collect(),
             angles: camera.angles(&truth),
+            links: Vec::new(),
             findings: Vec::new(),
             truth,
         })

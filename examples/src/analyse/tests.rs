@@ -2,6 +2,7 @@
 
 use branched_pendulum::Parametric;
 use branched_pendulum::prelude::Ensemble;
+use branched_pendulum_data::{Table, TableOptions};
 use clap::Parser;
 
 use super::arguments::Arguments;
@@ -250,7 +251,8 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     );
     let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain"]);
     let chain = TwoLinks::new(&fitted());
-    let mut source: Source<2> = Source::open(file.as_ref(), &arguments).unwrap();
+    let table = Table::read(file, &TableOptions::default()).unwrap();
+    let mut source: Source<2> = Source::read(&table, &arguments).unwrap();
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
     source.angles.truncate(count);
@@ -277,7 +279,7 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let model = measured.by_model(&estimate, DRAWS).unwrap();
     assert!(model.noise < 2e-4 && model.whiteness > 3.0);
     assert!(Trust::of(&model).closure > 3.0 * Trust::of(&model).closure_deviation);
-    let refused = Source::<3>::open(file.as_ref(), &arguments).unwrap_err();
+    let refused = Source::<3>::read(&table, &arguments).unwrap_err();
     assert!(
         refused
             .to_string()

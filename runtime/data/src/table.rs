@@ -300,6 +300,17 @@ impl Table {
         self
     }
 
+    /// Takes the values of rows away, but for one column.
+    pub(crate) fn empty(&mut self, rows: &[bool], but: Option<usize>) {
+        let columns = self.values.iter_mut().enumerate();
+        for (_, values) in columns.filter(|(column, _)| Some(*column) != but) {
+            let of_rows = values.iter_mut().zip(rows);
+            of_rows
+                .filter(|(_, row)| **row)
+                .for_each(|(value, _)| *value = None);
+        }
+    }
+
     /// Adds a statement about the table.
     pub(crate) fn tell(&mut self, finding: Finding) {
         self.findings.push(finding);

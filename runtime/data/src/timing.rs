@@ -253,6 +253,39 @@ impl Table {
     }
 }
 
+impl Table {
+    /// Returns the table with nothing measured in stretches of time, from and to (s), ends
+    /// included; the times of their rows stay.
+    ///
+    /// # Errors
+    /// Those of a time that cannot be made out; [`ReadErrorKind::Option`] of a stretch without rows.
+    pub fn leaving_out(mut self, clock: &Clock, stretches: &[[f64; 2]]) -> Result<Self, ReadError> {
+        let (column, scale) = source(&self, clock, &mut Vec::new())?;
+        let times = raw(&self, column)?;
+        let times: Vec<f64> = times
+            .iter()
+            .map(|time| time.map_or(f64::NAN, |time| scale * time))
+            .collect();
+        for [from, to] in stretches {
+            let is_left_out: Vec<bool> = times.iter().map(|t| (from..=to).contains(&t)).collect();
+            let count = is_left_out.iter().filter(|left_out| **left_out).count();
+            if count == 0 {
+                let [first, last] =
+                    [times.first(), times.last()].map(|t| t.copied().unwrap_or(f64::NAN));
+                let what = format!(
+                    "no row from {from} s to {to} s, to be left out, in a record from {first} s to {last} s"
+                );
+                return Err(self.refused(ReadErrorKind::Option { what }));
+            }
+            let rows = counted(count, "row");
+            let text = format!("{rows} left out, from {from} s to {to} s");
+            self.tell(Finding::new(Basis::Given, text));
+            self.empty(&is_left_out, column);
+        }
+        Ok(self)
+    }
+}
+
 /// The column that numbers frames, if there is one, and the time of a frame.
 fn frames(
     table: &Table,

@@ -1,6 +1,6 @@
 //! Names above the numbers, as programs and people write them.
 
-use branched_pendulum_data::{AngleColumns, Clock, FileKind, Repeated};
+use branched_pendulum_data::{AngleColumns, Clock, FileKind, Recording, Repeated};
 
 use super::{assert_read, by_columns, by_points, parse, table};
 
@@ -258,6 +258,60 @@ fn repeated_times_leave_the_row_that_counts() {
         .unwrap();
     let error = AngleColumns::default().read(&table).unwrap_err();
     assert_eq!(error.place.unwrap().line, 6);
+}
+
+/// Stretches of time are left out, wherever they lie and whatever gives the times.
+#[test]
+fn stretches_are_left_out() {
+    let rows = "0,0.81,0.4\n0.25,0.71,0.3\n0.5,0.61,0.2\n0.75,0.51,0.1\n1,0.41,0\n";
+    let by_time = format!("t,a [rad],b [rad]\n{rows}");
+    let rate = Clock::FrameRate(4.0);
+    let read = |text: &str, clock: &Clock, stretches: &[[f64; 2]]| {
+        let table = table(text).leaving_out(clock, stretches)?;
+        let columns = AngleColumns {
+            clock: clock.clone(),
+            columns: vec!["a".into(), "b".into()],
+            ..AngleColumns::default()
+        };
+        columns.read(&table)
+    };
+    let left = |recording: &Recording| -> Vec<bool> {
+        let rows = 0..recording.times.len();
+        rows.map(|row| recording.links.iter().all(|link| link.angle(row).is_some()))
+            .collect()
+    };
+    for (clock, stretches, expected) in [
+        (
+            &Clock::Detect,
+            &[[0.2, 0.6]][..],
+            [true, false, false, true, true],
+        ),
+        (
+            &Clock::Detect,
+            &[[0.0, 0.0], [0.75, 9.0]],
+            [false, true, true, false, false],
+        ),
+        (&rate, &[[-1.0, 0.25]], [false, false, true, true, true]),
+        (&rate, &[[1.0, 1.0]], [true, true, true, true, false]),
+    ] {
+        let recording = read(&by_time, clock, stretches).unwrap();
+        assert_eq!(recording.times, [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(left(&recording), expected, "{stretches:?}");
+        let told = recording
+            .findings
+            .iter()
+            .filter(|f| f.text.contains("left out, from"));
+        assert_eq!(told.count(), stretches.len());
+    }
+    for empty in [[1.5, 2.0], [0.3, 0.4], [0.6, 0.4]] {
+        let error = read(&by_time, &Clock::Detect, &[empty])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("to be left out, in a record from 0 s to 1 s"),
+            "{error}"
+        );
+    }
 }
 
 /// Labels of DeepLabCut, whose rows are named by their pictures.

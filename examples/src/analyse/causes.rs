@@ -1,0 +1,294 @@
+//! Usual causes of a budget that does not close: a table that is to be read in another way.
+
+use std::fmt;
+
+use branched_pendulum_data::{AngleUnit, FileKind, Table};
+
+use super::arguments::Arguments;
+use super::estimate::{Draws, Estimate, Measured};
+use super::source::Source;
+use super::subject::Subject;
+use super::tilt;
+use super::verdict::Verdict;
+use super::wrong_pictures;
+use crate::failure::Failure;
+use crate::measured_file::{MeasuredFile, Zero};
+use crate::program::Progress;
+
+/// Draws from which the closure of another reading follows.
+const DRAWS: usize = 40;
+
+/// Another reading of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cause {
+    /// Its kind, as it stands among those that were tried.
+    kind: &'static str,
+    /// What is so, in words.
+    pub words: String,
+    /// The option that reads the file so.
+    pub option: String,
+    reading: MeasuredFile,
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.words, self.option)
+    }
+}
+
+/// What became of a search for causes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Search {
+    /// The causes that close the budget, the one that does it best first.
+    pub closing: Vec<Cause>,
+    /// Kinds that were tried.
+    pub tried: Vec<&'static str>,
+}
+
+/// A record whose budget does not close.
+pub struct Unclosed<'a, const N: usize> {
+    /// The options by which it was read and estimated.
+    pub arguments: &'a Arguments,
+    /// The pendulum.
+    pub subject: &'a dyn Subject<N>,
+    /// The table.
+    pub table: &'a Table,
+    /// What was read of it.
+    pub source: &'a Source<N>,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+impl<const N: usize> Unclosed<'_, N> {
+    /// Tries the usual causes.
+    ///
+    /// # Errors
+    /// [`Failure::Smoothing`] of the record as it was read.
+    pub fn search(&self, progress: &Progress) -> Result<Search, Failure> {
+        progress.begin("usual causes");
+        let measured = Measured {
+            subject: self.subject,
+            record: self.source.record(),
+        };
+        let few = Draws { count: 2, seed: 1 };
+        let smooth = measured.by_smoothness(few)?;
+        let mut causes = match self.arguments.measured.is_of_dots(self.table) {
+            true => self.of_dots(),
+            false => self.of_columns(),
+        };
+        causes.extend(self.tilt(&measured, &smooth));
+        causes.extend(self.wrong_pictures(&measured, &smooth));
+        let mut search = Search::default();
+        let mut closing = Vec::new();
+        for (index, cause) in causes.iter().enumerate() {
+            progress.tell(&format!(
+                "{} ({} of {})",
+                cause.kind,
+                index + 1,
+                causes.len()
+            ));
+            let Some(closes) = self.closes(cause) else {
+                continue;
+            };
+            if !search.tried.contains(&cause.kind) {
+                search.tried.push(cause.kind);
+            }
+            closing.extend(closes.map(|bars| (bars, cause.clone())));
+        }
+        closing.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        search.closing = closing.into_iter().map(|(_, cause)| cause).collect();
+        Ok(search)
+    }
+
+    /// Reads and estimates the table in another way: none where it cannot be read so or that is
+    /// no other way, else whether the budget closes, by the largest closure in its deviations.
+    fn closes(&self, cause: &Cause) -> Option<Option<f64>> {
+        let arguments = Arguments {
+            measured: cause.reading.clone(),
+            ..self.arguments.clone()
+        };
+        let source = Source::read(self.table, &arguments).ok()?;
+        if source.angles == self.source.angles {
+            return None;
+        }
+        let measured = Measured {
+            subject: self.subject,
+            record: source.record(),
+        };
+        let draws = Draws {
+            count: DRAWS,
+            seed: arguments.seed,
+        };
+        let verdict = |estimate: &Estimate<N>| Verdict::of(&source.times, estimate, DRAWS);
+        let Ok(smooth) = measured.by_smoothness(draws) else {
+            return Some(None);
+        };
+        let mut found = verdict(&smooth);
+        if arguments.model && found.closes() {
+            let Ok(model) = measured.by_model(&smooth, draws) else {
+                return Some(None);
+            };
+            found = verdict(&model);
+        }
+        Some((found.closes() && self.would_be_told(&found)).then_some(found.bars))
+    }
+
+    /// Returns true if a gap as large as that of the record would not be hidden by the deviations
+    /// of another reading.
+    fn would_be_told(&self, other: &Verdict) -> bool {
+        let gap = self.verdict.trust.closure;
+        3.0 * other.trust.closure_deviation < gap && 2.0 * other.trust.closure < gap
+    }
+
+    fn cause(
+        &self,
+        kind: &'static str,
+        words: impl Into<String>,
+        option: impl Into<String>,
+        read: impl FnOnce(&mut MeasuredFile),
+    ) -> Cause {
+        let mut reading = self.arguments.measured.clone();
+        read(&mut reading);
+        Cause {
+            kind,
+            words: words.into(),
+            option: option.into(),
+            reading,
+        }
+    }
+
+    fn of_columns(&self) -> Vec<Cause> {
+        let mut causes = Vec::new();
+        for (unit, words, option) in [
+            (AngleUnit::Degrees, "angles are degrees", "--unit deg"),
+            (AngleUnit::Radians, "angles are radians", "--unit rad"),
+        ] {
+            causes.push(self.cause("unit", words, option, |file| file.unit = Some(unit)));
+        }
+        for (zero, words, option) in [
+            (
+                Zero::Up,
+                "angles count from the upward vertical",
+                "--zero up",
+            ),
+            (
+                Zero::Down,
+                "angles count from the downward vertical",
+                "--zero down",
+            ),
+        ] {
+            causes.push(self.cause("vertical", words, option, |file| file.zero = Some(zero)));
+        }
+        let names = &self.source.links;
+        // A list cannot name what has a comma in it.
+        let is_listed = names.iter().all(|name| !name.contains(','));
+        for first in (1..N).filter(|_| is_listed) {
+            let mut columns = names.clone();
+            let name = columns.remove(first);
+            columns.insert(0, name);
+            let words = format!(
+                "`{}` is the first link, on which the rest hangs",
+                columns[0]
+            );
+            let option = format!("--columns {}", shell(&columns.join(",")));
+            causes.push(self.cause("order of links", words, option, |file| {
+                file.columns = columns
+            }));
+        }
+        let (words, option) = match self.arguments.measured.relative {
+            false => ("later angles are counted from the first link", "--relative"),
+            true => ("all angles are counted from the vertical", "no --relative"),
+        };
+        let toggle = |file: &mut MeasuredFile| file.relative = !file.relative;
+        causes.push(self.cause("relative angles", words, option, toggle));
+        causes
+    }
+
+    fn of_dots(&self) -> Vec<Cause> {
+        let measured = &self.arguments.measured;
+        let y_down = measured.y_down || !measured.y_up && self.table.kind() == FileKind::DeepLabCut;
+        let (words, option) = match y_down {
+            true => ("y points upwards", "--y-up"),
+            false => ("y points downwards", "--y-down"),
+        };
+        let mut causes = vec![self.cause("direction of y", words, option, |file| {
+            (file.y_down, file.y_up) = (!y_down, y_down);
+        })];
+        let dots = measured.dots_of(self.table);
+        let mut add = |kind, words: String, dots: Vec<(String, String)>| {
+            let list = dots.iter().map(|(upper, lower)| format!("{upper}:{lower}"));
+            let option = format!("--dots {}", shell(&list.collect::<Vec<_>>().join(",")));
+            causes.push(self.cause(kind, words, option, |file| {
+                (file.dots, file.pivot) = (dots, None);
+            }));
+        };
+        for first in 1..dots.len() {
+            let mut dots = dots.clone();
+            let link = dots.remove(first);
+            let (upper, lower) = &link;
+            let words =
+                format!("`{upper}` to `{lower}` is the first link, on which the rest hangs");
+            dots.insert(0, link);
+            add("order of links", words, dots);
+        }
+        for (index, (upper, lower)) in dots.iter().enumerate() {
+            let words = format!("`{lower}` is the upper end of the link to `{upper}`");
+            let mut dots = dots.clone();
+            dots[index] = (lower.clone(), upper.clone());
+            add("ends of links", words, dots);
+        }
+        let turned = || {
+            dots.iter()
+                .map(|(upper, lower)| (lower.clone(), upper.clone()))
+        };
+        let words = "the dots are listed from the free end to the pivot".to_owned();
+        add("order of dots", words, turned().rev().collect());
+        if let [(top, first), (middle, second)] = &dots[..]
+            && first == middle
+        {
+            let words = format!("`{first}` is the free end, on `{second}`");
+            let dots = [[top, second], [second, first]];
+            let dots = dots.map(|[upper, lower]| (upper.clone(), lower.clone()));
+            add("order of dots", words, dots.to_vec());
+        }
+        causes
+    }
+
+    /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.
+    fn tilt(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Option<Cause> {
+        let found = tilt::by_closure(measured, smooth)?.to_degrees();
+        let tilt = self.arguments.measured.tilt.unwrap_or(0.0) + found;
+        // Hundredths of a degree are less than measurements tell.
+        let tilt = (100.0 * tilt).round() / 100.0;
+        let words = format!("links at rest show {tilt}°: the camera, or the encoder, is tilted");
+        let option = format!("--tilt {tilt}");
+        Some(self.cause("tilt", words, option, |file| file.tilt = Some(tilt)))
+    }
+
+    fn wrong_pictures(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Vec<Cause> {
+        let found = wrong_pictures::stretches(measured, smooth);
+        let causes = found.into_iter().map(|stretches| {
+            let told = stretches
+                .iter()
+                .map(|[from, to]| format!("from {from} s to {to} s"));
+            let words = format!(
+                "pictures with wrong or swapped markers are left out {}",
+                told.collect::<Vec<_>>().join(", ")
+            );
+            let all = [&self.arguments.measured.leave_out[..], &stretches].concat();
+            let list = all.iter().map(|[from, to]| format!("{from}:{to}"));
+            let option = format!("--leave-out {}", list.collect::<Vec<_>>().join(","));
+            self.cause("wrong pictures", words, option, |file| file.leave_out = all)
+        });
+        causes.collect()
+    }
+}
+
+/// A value of an option as a shell takes it.
+fn shell(value: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-.,:/".contains(c);
+    match value.chars().all(is_plain) {
+        true => value.to_owned(),
+        false => format!("'{}'", value.replace('\'', r"'\''")),
+    }
+}

@@ -1,0 +1,144 @@
+//! Whether the energy budget closes.
+
+use std::fmt::Write;
+
+use serde_json::{Value, json};
+
+use super::arguments::Arguments;
+use super::causes::Search;
+use super::estimate::{Estimate, quantity};
+use super::report::{Trust, percent};
+use super::subject::Names;
+
+/// Chance that a closure which is nothing but noise is called a gap, in all of a record.
+const CHANCE: f64 = 1e-3;
+
+/// Whether the integral of the power is the change of the energy, as far as can be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verdict {
+    /// The first time at which the closure is not zero, s; none where the budget closes.
+    pub fails_from: Option<f64>,
+    /// Largest closure in its deviations at the same time.
+    pub bars: f64,
+    /// Deviations beyond which a closure is not zero.
+    pub allowed: f64,
+    /// How far the estimate is to be trusted.
+    pub trust: Trust,
+}
+
+impl Verdict {
+    /// Judges an estimate whose deviations are those of so many draws.
+    pub fn of<const N: usize>(times: &[f64], estimate: &Estimate<N>, draws: usize) -> Self {
+        let bands = &estimate.energies;
+        let rows = times.iter().zip(bands.means.iter().zip(&bands.deviations));
+        // The closure begins with zero, and zero for its deviation.
+        let bars = rows.skip(1).map(|(time, (mean, deviation))| {
+            let [mean, deviation] = [mean, deviation].map(|row| row[quantity::CLOSURE]);
+            (*time, mean.abs() / deviation)
+        });
+        let allowed = allowed(times.len(), draws);
+        Self {
+            fails_from: bars
+                .clone()
+                .find(|(_, bars)| *bars > allowed)
+                .map(|(time, _)| time),
+            bars: bars.map(|(_, bars)| bars).fold(0.0, f64::max),
+            allowed,
+            trust: Trust::of(estimate),
+        }
+    }
+
+    /// Returns true where the budget closes.
+    pub fn closes(&self) -> bool {
+        self.fails_from.is_none()
+    }
+
+    /// The verdict in words, with what a search for causes found where the budget fails.
+    pub fn words<const N: usize>(
+        &self,
+        arguments: &Arguments,
+        names: &Names<N>,
+        search: Option<&Search>,
+    ) -> String {
+        let energy = names.energy;
+        let (bars, allowed) = (self.bars, self.allowed);
+        let Some(time) = self.fails_from else {
+            return format!(
+                "The energy budget closes: ∫ d{energy}/dt dt is the change of {energy} at all times, \
+                 to {bars:.1} deviations ({allowed:.1} would be too many).\n"
+            );
+        };
+        let mut text = format!(
+            "The energy budget does not close: from {time:.4} s on ∫ d{energy}/dt dt is not the change \
+             of {energy}, by up to {bars:.1} deviations ({allowed:.1} are too many) and {} of the \
+             largest {energy}.\n",
+            percent(self.trust.closure)
+        );
+        let search = search.cloned().unwrap_or_default();
+        for (index, cause) in search.closing.iter().enumerate() {
+            let also = if index == 0 { "" } else { " as well" };
+            let _ = writeln!(text, "  It closes{also} where {cause}");
+        }
+        if search.closing.is_empty() {
+            let tried = match search.tried.is_empty() {
+                true => String::new(),
+                false => format!(
+                    "None of the usual causes closes it ({}): ",
+                    search.tried.join(", ")
+                ),
+            };
+            // By the equations the integral is not taken from picture to picture.
+            let few = match arguments.model {
+                true => "",
+                false => ", or the pictures are too few",
+            };
+            let _ = writeln!(
+                text,
+                "  {tried}the pendulum is not the assumed one with this friction ({}){few}.",
+                arguments.pendulum.constants()
+            );
+        }
+        text
+    }
+
+    /// The verdict in numbers.
+    pub fn values(&self, search: Option<&Search>) -> Value {
+        json!({
+            "closes": self.closes(),
+            "fails_from": self.fails_from,
+            "bars": self.bars,
+            "allowed_bars": self.allowed,
+            "closure": self.trust.closure,
+            "causes": search.map(|search| search.closing.iter().map(|cause| {
+                json!({ "cause": cause.words, "option": cause.option })
+            }).collect::<Vec<_>>()),
+            "tried": search.map(|search| &search.tried),
+        })
+    }
+}
+
+/// Deviations that noise alone exceeds anywhere in a record with a chance of at most [`CHANCE`]: of
+/// a normal distribution, looked at so many times (the tail of one side is below exp(−z²/2)/2), and
+/// from there of Student's t, since deviations are known from draws (Wallace's approximation).
+fn allowed(times: usize, draws: usize) -> f64 {
+    let normal = (2.0 * (times.max(1) as f64 / CHANCE).ln()).sqrt();
+    let freedom = draws.max(2) as f64 - 1.0;
+    let scaled = normal * (8.0 * freedom + 3.0) / (8.0 * freedom + 1.0);
+    (freedom * (scaled * scaled / freedom).exp_m1()).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::allowed;
+
+    /// Quantiles of Student's t at a level of 1e-6 for either side, by tables: the bound of the
+    /// normal tail lies some per cent above.
+    #[test]
+    fn few_draws_allow_more() {
+        for (draws, exact) in [(21, 6.927), (41, 5.768), (201, 5.044), (10_001, 4.756)] {
+            let found = allowed(500, draws);
+            assert!((1.0..1.25).contains(&(found / exact)), "{draws}: {found}");
+        }
+        assert!(allowed(100_000, 200) > allowed(1000, 200));
+    }
+}
