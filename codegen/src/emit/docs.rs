@@ -141,7 +141,7 @@ impl Emission<'_> {
             Purpose::OutsidePower => vec![
                 "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
             ],
-            Purpose::AntiphaseOutsidePower(n) => vec![
+            Purpose::AntiphaseOutsidePower(n, _) => vec![
                 format!("Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.", difference(n)),
             ],
             Purpose::Accelerations => vec![
@@ -270,8 +270,11 @@ impl Emission<'_> {
                 vec![what]
             }
             Purpose::Observable(n, form) => self.observable_meaning(n, form),
-            Purpose::FrictionPower(n) => vec![
-                format!("Power (in W) of friction and drag on H_d of `{}`.", difference(n)),
+            Purpose::AntiphaseFrictionPower(n, state) => vec![
+                format!("Power (in W) of friction and drag on H_d of `{}`{}.", difference(n), match state {
+                    EntryState::Momenta(_) => ", from coordinates and momenta: the velocities are solved for",
+                    EntryState::Absolute | EntryState::Rates => "",
+                }),
             ],
             Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
             Purpose::BudgetUnder(definition) => {
@@ -282,7 +285,7 @@ impl Emission<'_> {
                 self.sector_transfers_meaning(Some((counting, order)))
             }
             Purpose::TransferMatrix(_) => self.matrix_meaning(),
-            Purpose::AntiphaseDrivePower(n) => vec![
+            Purpose::AntiphaseDrivePower(n, _) => vec![
                 format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
             ],
             Purpose::Drive => vec![

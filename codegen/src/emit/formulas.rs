@@ -75,7 +75,9 @@ impl Emission<'_> {
                     .collect(),
                 None => Vec::new(),
             },
-            Purpose::AntiphaseDrivePower(n) => self.power_formulas(&mechanics.transfers[n].drive),
+            Purpose::AntiphaseDrivePower(n, _) => {
+                self.power_formulas(&mechanics.transfers[n].drive)
+            }
             Purpose::Drive | Purpose::RootDrive => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
@@ -89,7 +91,7 @@ impl Emission<'_> {
                 }
                 None => Vec::new(),
             },
-            Purpose::FrictionPower(n) => simple("P", &mechanics.transfers[n].friction),
+            Purpose::AntiphaseFrictionPower(n, _) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Scale(function) => self.scale_formulas(function),
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
@@ -105,7 +107,7 @@ impl Emission<'_> {
             | Purpose::TransverseMotion(_)
             | Purpose::Prescribed(_)
             | Purpose::OutsidePower
-            | Purpose::AntiphaseOutsidePower(_)
+            | Purpose::AntiphaseOutsidePower(..)
             | Purpose::BudgetUnder(_)
             | Purpose::TaylorCoefficients
             | Purpose::MassMatrix

@@ -36,7 +36,7 @@ impl EntryState {
         }
     }
 
-    /// End of the names of transfers, which are canonical by themselves.
+    /// End of the names of functions of H_d and W, which are canonical by themselves.
     pub(super) fn source(self) -> &'static str {
         match self {
             Self::Momenta(_) => "",

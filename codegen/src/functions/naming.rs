@@ -74,18 +74,17 @@ impl Naming {
             .into_iter()
             .flat_map(|counting| ORDERS.map(move |order| (counting, order)));
         for transfer in 0..self.places.len() {
-            all.extend([
-                P::SubHamiltonian(transfer),
-                P::QuadraticForm(transfer),
-                P::FrictionPower(transfer),
-                P::AntiphaseDrivePower(transfer),
-                P::AntiphaseOutsidePower(transfer),
-            ]);
+            all.extend([P::SubHamiltonian(transfer), P::QuadraticForm(transfer)]);
             let truncated = orders.clone();
             all.extend(truncated.map(|(of, order)| P::TruncatedTransfer(transfer, of, order)));
             for state in [CANONICAL, EntryState::Rates] {
                 all.push(P::ExactTransfer(transfer, state));
                 all.extend(Cause::ALL.map(|cause| P::SplitTransfer(transfer, cause, state)));
+                all.extend([
+                    P::AntiphaseFrictionPower(transfer, state),
+                    P::AntiphaseDrivePower(transfer, state),
+                    P::AntiphaseOutsidePower(transfer, state),
+                ]);
             }
         }
         all.extend(orders.map(|(of, order)| P::TruncatedSectorTransfers(of, order)));

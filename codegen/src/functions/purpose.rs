@@ -118,8 +118,8 @@ purposes! { naming:
         naming.transfer(cause.name(), transfer, state)
     };
     /// Power of friction on H_d.
-    FrictionPower(transfer: usize) => {
-        plain(naming.about("antiphase_friction_power", transfer), &[Coordinates, Rates], Scalar)
+    AntiphaseFrictionPower(transfer: usize, state: EntryState) => {
+        naming.antiphase_power("friction", transfer, &state.arguments(), state)
     };
     /// Energies of all sectors, the transfers into them and the power of other
     /// forces.
@@ -144,17 +144,18 @@ purposes! { naming:
     };
     /// {E_s, E_r} of the sectors by Parseval.
     TransferMatrix(state: EntryState) => {
-        let name = format!("{}transfer_matrix", state.prefix());
+        let name = format!("{}sector_transfer_matrix", state.prefix());
         plain(name, &state.arguments(), Rows(naming.sectors, naming.sectors))
     };
     /// Power of the drive on H_d.
-    AntiphaseDrivePower(transfer: usize) => {
-        plain(naming.about("antiphase_drive_power", transfer), &[Time, Coordinates, Rates], Scalar)
+    AntiphaseDrivePower(transfer: usize, state: EntryState) => {
+        let [coordinates, motion] = state.arguments();
+        naming.antiphase_power("drive", transfer, &[Time, coordinates, motion], state)
     };
     /// Power of torques from outside on H_d.
-    AntiphaseOutsidePower(transfer: usize) => {
-        let name = naming.about("antiphase_outside_power", transfer);
-        plain(name, &[Coordinates, Rates, Torques], Scalar)
+    AntiphaseOutsidePower(transfer: usize, state: EntryState) => {
+        let [coordinates, motion] = state.arguments();
+        naming.antiphase_power("outside", transfer, &[coordinates, motion, Torques], state)
     };
     /// The drive itself: acceleration of the root's pivot, torque on the root.
     Drive => plain("drive", &[Time], Vector);
@@ -284,5 +285,17 @@ impl Naming {
     fn transfer(&self, form: &str, transfer: usize, state: EntryState) -> Signature {
         let stem = format!("transfer_{form}{}", state.source());
         plain(self.about(&stem, transfer), &state.arguments(), Transfer)
+    }
+
+    /// A power on H_d.
+    fn antiphase_power(
+        &self,
+        of: &str,
+        transfer: usize,
+        arguments: &[Argument],
+        state: EntryState,
+    ) -> Signature {
+        let stem = format!("antiphase_{of}_power{}", state.source());
+        plain(self.about(&stem, transfer), arguments, Scalar)
     }
 }

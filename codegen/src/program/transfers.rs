@@ -47,19 +47,33 @@ impl EntryList<'_, '_> {
             self.split(number, CANONICAL, split, &mut phase);
             self.split(number, EntryState::Rates, split, &mut motion);
         }
+        self.antiphase_powers(scene, number, transfer, CANONICAL, &mut phase);
+        self.antiphase_powers(scene, number, transfer, EntryState::Rates, &mut motion);
+    }
+
+    /// The powers on H_d of what is not conservative.
+    fn antiphase_powers(
+        &mut self,
+        scene: &Scene,
+        number: usize,
+        transfer: &TransferFormulas,
+        state: EntryState,
+        environment: &mut Environment<'_>,
+    ) {
         if !transfer.friction.is_zero() {
-            let power = self.lowering.expr(&mut motion, &transfer.friction);
-            self.push(Purpose::FrictionPower(number), vec![power]);
+            let power = self.lowering.expr(environment, &transfer.friction);
+            self.push(Purpose::AntiphaseFrictionPower(number, state), vec![power]);
         }
         if !transfer.drive.is_zero() {
-            let power = self.lowering.expr(&mut motion, &transfer.drive);
-            self.push(Purpose::AntiphaseDrivePower(number), vec![power]);
+            let power = self.lowering.expr(environment, &transfer.drive);
+            self.push(Purpose::AntiphaseDrivePower(number, state), vec![power]);
         }
         if scene.requests.forces {
-            let velocity = self.lowering.expr(&mut motion, &transfer.velocity);
+            let velocity = self.lowering.expr(environment, &transfer.velocity);
+            let coordinate = &self.lowering.mechanics.coordinates[transfer.coordinate];
             let builder = &mut self.lowering.builder;
             let mut torque = builder.integer(0);
-            for &(LinkId(link), weight) in &mechanics.coordinates[transfer.coordinate].weights {
+            for &(LinkId(link), weight) in &coordinate.weights {
                 let (weight, own) = (
                     builder.integer(weight),
                     builder.input(Argument::Torques, link),
@@ -68,7 +82,7 @@ impl EntryList<'_, '_> {
                 torque = builder.add(torque, part);
             }
             let power = builder.mul(velocity, torque);
-            self.push(Purpose::AntiphaseOutsidePower(number), vec![power]);
+            self.push(Purpose::AntiphaseOutsidePower(number, state), vec![power]);
         }
     }
 

@@ -47,7 +47,7 @@ impl Friction {
     /// Power of this friction, which may be of any sign, on H_d at a state.
     pub fn antiphase_power(self, coordinates: &[f64; 3], rates: &[f64; 3]) -> f64 {
         let damped = DampedBranchedDouble::from_parameters_unchecked(self.parameters());
-        damped.antiphase_friction_power(coordinates, rates)
+        damped.antiphase_friction_power_from_rates(coordinates, rates)
     }
 
     /// As parameters of the scene with friction.
@@ -203,7 +203,7 @@ impl Apparatus {
                 self.ideal.transfer_exact_from_rates(coordinates, rates),
             ],
             antiphase_friction: self.damped.map_or(0.0, |damped| {
-                damped.antiphase_friction_power(coordinates, rates)
+                damped.antiphase_friction_power_from_rates(coordinates, rates)
             }),
             // A difference, because minus zero would show in tables.
             friction: 0.0

@@ -179,7 +179,8 @@ fn triplet() {
               transfer_amplitude_2_d1, transfer_amplitude_2_d2, transfer_quadratic_form_d1,
               transfer_quadratic_form_d2, transfer_exact_d1, transfer_exact_d2,
               transfer_exact_from_rates_d1, transfer_exact_from_rates_d2,
-              antiphase_friction_power_d1, antiphase_friction_power_d2],
+              antiphase_friction_power_d1, antiphase_friction_power_d2,
+              antiphase_friction_power_from_rates_d1, antiphase_friction_power_from_rates_d2],
         one: [to_symmetric, from_symmetric]);
 }
 
@@ -190,7 +191,7 @@ fn unequal() {
               symmetric_momenta, symmetric_velocities, hamiltonian, antiphase_energy,
               transfer_exact, transfer_exact_from_rates, transfer_growth,
               transfer_growth_from_rates, transfer_forcing, transfer_forcing_from_rates,
-              antiphase_friction_power],
+              antiphase_friction_power, antiphase_friction_power_from_rates],
         one: [potential_energy, mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
 
@@ -240,11 +241,12 @@ fn driven() {
     };
     let model = Driven::new(parameters).expect("possible parameters");
     agree!("driven", model, [0.3, 7.1, -0.4, 0.05], 3,
-        timed: [accelerations, canonical_rates, symmetric_accelerations, drive_power, antiphase_drive_power],
+        timed: [accelerations, canonical_rates, symmetric_accelerations, drive_power,
+                antiphase_drive_power, antiphase_drive_power_from_rates],
         rates: [friction_power],
         two: [kinetic_energy, momenta, velocities, symmetric_momenta, symmetric_velocities,
               hamiltonian, antiphase_energy, transfer_exact, transfer_exact_from_rates,
-              antiphase_friction_power],
+              antiphase_friction_power, antiphase_friction_power_from_rates],
         one: [potential_energy, to_symmetric, from_symmetric]);
 }
 
@@ -257,7 +259,7 @@ fn nested() {
                 symmetric_budget_parseval],
         rates: [],
         two: [momenta, velocities, symmetric_momenta, symmetric_velocities, sector_transfers,
-              transfer_matrix, symmetric_sector_transfers, symmetric_transfer_matrix,
+              sector_transfer_matrix, symmetric_sector_transfers, symmetric_sector_transfer_matrix,
               sector_transfers_amplitude_2, sector_transfers_amplitude_4],
         one: [mass_matrix, stiffness_matrix, to_symmetric, from_symmetric]);
 }
@@ -282,7 +284,7 @@ fn functions_in_parts() {
     assert!(given > size, "{given} values in {size} places");
     agree!("generations", Generations::new(), [], 15,
         two: [accelerations, budget_rest, budget_canonical, budget_velocity, budget_parseval,
-              sector_transfers, transfer_matrix], one: []);
+              sector_transfers, sector_transfer_matrix], one: []);
 }
 
 /// The functions of one link in loops, on rows of any numbers.

@@ -228,7 +228,7 @@ fn the_transfer_is_the_rate_of_the_sub_hamiltonian() {
         let q = random.around_zero(3, 3.0);
         let v = random.around_zero(3, 10.0);
         let p = compiled.evaluate("symmetric_momenta", &[&q, &v]);
-        let friction = compiled.evaluate("antiphase_friction_power", &[&q, &v])[0];
+        let friction = compiled.evaluate("antiphase_friction_power_from_rates", &[&q, &v])[0];
         let transfer = compiled.evaluate("transfer_exact_from_rates", &[&q, &v]);
         let size = transfer[0].abs() + transfer[1].abs() + friction.abs();
         let found = compiled.evaluate("hd_friction_rate", &[&q, &v])[0];

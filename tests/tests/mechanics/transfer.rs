@@ -70,7 +70,7 @@ macro_rules! assert_rate {
             let by_rates = model.$from_rates(&q, &v).total();
             #[allow(unused_mut)]
             let mut friction = 0.0;
-            $( friction += model.$friction(&q, &v); )?
+            $( friction += model.$friction(&q, &p); )?
             let measured = rate(&model, &theta, &omega, |theta, omega| {
                 let q = model.to_symmetric(&array(theta));
                 let v = model.to_symmetric(&array(omega));

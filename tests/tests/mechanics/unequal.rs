@@ -189,7 +189,8 @@ fn transfer_is_the_rate_of_the_energy() {
         transfer_growth_from_rates,
         transfer_forcing_from_rates,
         |model: &AllDiffer, q: &[f64; 3], v: &[f64; 3]| {
-            model.antiphase_friction_power(q, v) + model.antiphase_drive_power(0.0, q, v)
+            model.antiphase_friction_power_from_rates(q, v)
+                + model.antiphase_drive_power_from_rates(0.0, q, v)
         }
     );
 }

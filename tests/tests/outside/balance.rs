@@ -284,39 +284,3 @@ fn of_sectors() {
         );
     }
 }
-
-/// H_d of the paper's pendulum, whose power is that of the half difference.
-#[branched_pendulum(
-    gravity = 9.80665,
-    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-    ],
-    emit(forces, transfer(exact)),
-)]
-struct Paper;
-
-#[test]
-fn of_the_antiphase_mode() {
-    let model = Paper::new();
-    let mut random = Random::new(6);
-    for _ in 0..50 {
-        let coordinates: [f64; 3] = random.array(-3.0, 3.0);
-        let rates: [f64; 3] = random.array(-9.0, 9.0);
-        let torques: [f64; 3] = random.array(-1.0, 1.0);
-        let power = model.antiphase_outside_power(&coordinates, &rates, &torques);
-        let momenta = model.symmetric_momenta(&coordinates, &rates);
-        // ∂H_d/∂p_d: H_d is quadratic in p_d.
-        let at = |shift: f64| {
-            let mut moved = momenta;
-            moved[2] += shift;
-            model.antiphase_energy(&coordinates, &moved)
-        };
-        let velocity = (at(0.5) - at(-0.5)) / 1.0;
-        let expected = velocity * (torques[1] - torques[2]);
-        let size = at(1.0).abs().max(1.0);
-        assert!(
-            (power - expected).abs() < 1e-12 * size,
-            "{power} {expected}"
-        );
-    }
-}

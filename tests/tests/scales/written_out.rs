@@ -80,7 +80,7 @@ impl Written {
         let scales = self.scales.iter().max().unwrap() + 1;
         let count = self.scales.len();
         let shares = self.evaluate("budget_parseval_under", sample);
-        let matrix = self.evaluate("transfer_matrix", sample);
+        let matrix = self.evaluate("sector_transfer_matrix", sample);
         let mut sums = vec![[0.0; 3]; scales];
         let mut transfers = vec![vec![0.0; scales]; scales];
         for (sector, &scale) in self.scales.iter().enumerate() {

@@ -162,7 +162,7 @@ impl<'a> Recorder<'a> {
         let (q, v) = halves(values);
         Flow {
             budgets: self.budgets(time, values),
-            matrix: self.tree.symmetric_transfer_matrix(&q, &v),
+            matrix: self.tree.symmetric_sector_transfer_matrix(&q, &v),
         }
     }
 

@@ -59,7 +59,7 @@ fn operations(name: &str) {
         .iter()
         .map(|entry| {
             let operations = program.operations(&entry.outputs);
-            format!("{:<32}{operations}\n", entry.name)
+            format!("{:<31} {operations}\n", entry.name)
         })
         .collect();
     insta::assert_snapshot!(format!("{name}_operations"), table);

@@ -79,11 +79,12 @@ fn antiphase_energy_is_balanced_by_transfer_friction_and_drive() {
     };
     let conservative = |model: &Driven, theta: &[f64; 3], omega: &[f64; 3]| {
         let (q, v) = symmetric(model, theta, omega);
-        model.transfer_exact_from_rates(&q, &v).total() + model.antiphase_friction_power(&q, &v)
+        model.transfer_exact_from_rates(&q, &v).total()
+            + model.antiphase_friction_power_from_rates(&q, &v)
     };
     let (error, size) = balance(energy, |model, time, theta, omega| {
         let (q, v) = symmetric(model, theta, omega);
-        conservative(model, theta, omega) + model.antiphase_drive_power(time, &q, &v)
+        conservative(model, theta, omega) + model.antiphase_drive_power_from_rates(time, &q, &v)
     });
     println!("balance of the antiphase: {error:.2e} J of {size:.2e} J");
     assert!(error <= 1e-10 * size, "{error} {size}");

@@ -120,7 +120,7 @@ fn the_transfer_matrix_is_antisymmetric_and_sums_to_the_transfers() {
         let count = sample.basis.sectors.len();
         for [theta, omega] in states(sample.tree.links.len(), 10, 400 + number as u64) {
             let inputs: [&[f64]; 2] = [&theta, &omega];
-            let matrix = sample.compiled.evaluate("transfer_matrix", &inputs);
+            let matrix = sample.compiled.evaluate("sector_transfer_matrix", &inputs);
             let budget = sample.compiled.evaluate("budget_parseval", &inputs);
             let scale = matrix
                 .iter()
@@ -150,7 +150,7 @@ fn entries_of_the_transfer_matrix_are_poisson_brackets() {
         for [theta, omega] in states(n, 2, 500 + number as u64) {
             let matrix = sample
                 .compiled
-                .evaluate("transfer_matrix", &[&theta, &omega]);
+                .evaluate("sector_transfer_matrix", &[&theta, &omega]);
             let mass = Motion::new(tree, &theta, &omega).mass;
             let momenta = &mass * nalgebra::DVector::from_row_slice(&omega);
             let energies_at = |theta: &[f64], momenta: &nalgebra::DVector<f64>| {
