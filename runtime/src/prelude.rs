@@ -14,7 +14,7 @@ pub use crate::branched_pendulum;
 pub use crate::ensemble::Ensemble;
 pub use crate::integrate::{
     DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Method, Options,
-    Report, Rk4, Solution, StoermerVerlet, StopReason, Taylor, Verner98,
+    Report, Rk4, Solution, StopReason, Taylor, Verner98,
 };
 pub use crate::model::{ParameterError, Transfer};
 pub use crate::scalar::{Real, Scalar};

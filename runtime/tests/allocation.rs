@@ -11,7 +11,7 @@ use std::num::NonZeroUsize;
 
 use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear};
 use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
-use branched_pendulum::integrate::{LaneMethod, Projected, StoermerVerlet};
+use branched_pendulum::integrate::{LaneMethod, Projected};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, TaylorOde};
 use branched_pendulum::taylor::Quad;
@@ -139,26 +139,6 @@ fn projection_onto_the_energy() {
     assert_eq!(in_steps(&ode, &Projected::new(Rk4::new(STEP), &energy)), 0);
     let gauss = Gauss::new(GaussOrder::Two, STEP);
     assert_eq!(in_steps(&ode, &Projected::new(gauss, &energy)), 0);
-}
-
-/// The oscillator in canonical variables.
-struct Mass;
-
-impl Canonical<f64> for Mass {
-    fn degrees_of_freedom(&self) -> usize {
-        1
-    }
-
-    fn canonical_rates(&self, _: f64, q: &[f64], p: &[f64], v: &mut [f64], f: &mut [f64]) {
-        v[0] = p[0];
-        f[0] = -q[0];
-    }
-}
-
-#[test]
-fn splitting() {
-    let ode = CanonicalVariables(&Mass);
-    assert_eq!(in_steps(&ode, &StoermerVerlet::new(STEP)), 0);
 }
 
 /// The oscillator by its Taylor coefficients.

@@ -11,7 +11,7 @@ use super::report::Report;
 use crate::scalar::Real;
 use crate::system::State;
 
-pub use input::{InputError, Inseparable};
+pub use input::InputError;
 
 /// Why an integration ended before its goal.
 ///

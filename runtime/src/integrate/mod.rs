@@ -11,7 +11,6 @@
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
 //! | [`Rk4`] | 4 | 3 | fixed | comparison |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
-//! | [`StoermerVerlet`] | 2 | 1 | fixed | H = T(p) + U(q) alone: a single link |
 //!
 //! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
 //!
@@ -47,11 +46,11 @@ mod trajectory;
 
 pub use checkpoint::Checkpoint;
 pub use dense::{DenseError, DenseStep};
-pub use error::{InputError, Inseparable, IntegrationError, RunError};
+pub use error::{InputError, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};
 pub use explicit::*;
 pub(crate) use fixed::Factored;
-pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver, StoermerVerlet};
+pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver};
 pub use frames::{Frames, longest_sub_step};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]

@@ -36,5 +36,4 @@ mod stepper;
 mod taylor;
 mod trajectory;
 mod variational;
-mod verlet;
 mod workspace;

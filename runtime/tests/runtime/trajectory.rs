@@ -69,25 +69,6 @@ fn of_every_method() {
 }
 
 #[test]
-fn a_splitting_is_a_broken_line() {
-    struct Mass;
-    impl Canonical<f64> for Mass {
-        fn degrees_of_freedom(&self) -> usize {
-            1
-        }
-        fn canonical_rates(&self, _: f64, q: &[f64], p: &[f64], v: &mut [f64], f: &mut [f64]) {
-            (v[0], f[0]) = (p[0], -q[0]);
-        }
-    }
-    kept(
-        &CanonicalVariables(&Mass),
-        &StoermerVerlet::new(0.001),
-        2.0,
-        1e-2,
-    );
-}
-
-#[test]
 fn steps_that_do_not_follow_are_refused() {
     let ode = harmonic::<f64>();
     let start = State::at_rest(0.0, &[1.0]);

@@ -83,16 +83,6 @@ pub enum InputError<T> {
     },
     /// Taylor series are asked for where the equations give no coefficients.
     NoSeries,
-    /// A splitting is asked for where H is not T(p) + U(q).
-    NotSeparable {
-        /// Index of the coordinate whose rate, or whose momentum's rate, depends
-        /// on what it must not.
-        coordinate: usize,
-        /// The one of the two.
-        rate: Inseparable,
-        /// By how much it does, relative to its size.
-        change: T,
-    },
     /// The state has no components.
     EmptyState,
     /// The state does not fit the equations.
@@ -153,17 +143,6 @@ pub enum InputError<T> {
         /// The offending time.
         value: T,
     },
-}
-
-/// The rates that keep a Hamiltonian from being T(p) + U(q).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inseparable {
-    /// Velocities depend on the coordinates, as those of links that hang from
-    /// other links do.
-    Velocity,
-    /// Rates of momenta depend on momenta: by a kinetic energy that depends on
-    /// the coordinates, or by friction.
-    Force,
 }
 
 impl<T: Real> fmt::Display for InputError<T> {
@@ -252,23 +231,6 @@ impl<T: Real> fmt::Display for InputError<T> {
                 "these equations give no Taylor coefficients: a model does so where its \
                  description says `emit(taylor)`; all other methods need rates alone"
             ),
-            Self::NotSeparable {
-                coordinate,
-                rate,
-                change,
-            } => {
-                let (rate, cause) = match rate {
-                    Inseparable::Velocity => ("velocity of coordinate", "coordinates"),
-                    Inseparable::Force => ("rate of momentum", "momenta"),
-                };
-                write!(
-                    f,
-                    "the {rate} {coordinate} depends on the {cause}, by {change} of its size: \
-                     H is not T(p) + U(q), \
-                     so that a splitting would not be symplectic and hardly consistent; \
-                     Gauss methods need no such form"
-                )
-            }
             Self::EmptyState => {
                 write!(f, "the state has no components: it must have at least one")
             }

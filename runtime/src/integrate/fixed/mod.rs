@@ -1,15 +1,12 @@
 //! Methods with steps of a given length.
 
-mod explicit;
 mod gauss;
 mod grid;
 mod linear;
 mod projected;
 mod rk4;
-mod verlet;
 
 pub use self::gauss::{Gauss, GaussOrder, Solver};
 pub(crate) use self::linear::Factored;
 pub use self::projected::Projected;
 pub use self::rk4::Rk4;
-pub use self::verlet::StoermerVerlet;

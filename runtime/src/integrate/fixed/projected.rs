@@ -3,10 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::explicit::ExplicitStep;
 use super::gauss::GaussStep;
 use super::grid::{FixedStep, Grid, GridSteps};
-use super::rk4::Rk4Formula;
+use super::rk4::Rk4Step;
 use super::{Gauss, Rk4};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
@@ -143,10 +142,10 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
 impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Rk4<T>, I, T>
 {
-    type Steps = ProjectedSteps<ExplicitStep<Rk4Formula, T>, I, T>;
+    type Steps = ProjectedSteps<Rk4Step<T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        let steps = ExplicitStep::new(&start.values);
+        let steps = Rk4Step::new(&start.values);
         self.projected(self.method.grid(), start, steps)
     }
 }

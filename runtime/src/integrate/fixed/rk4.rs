@@ -1,11 +1,18 @@
 //! The classical Runge–Kutta method.
 
-use super::explicit::{ExplicitFormula, ExplicitStep};
-use super::grid::{Grid, GridSteps};
+// A sealed trait names the types.
+#![allow(unreachable_pub)]
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::grid::{FixedStep, Grid, GridSteps};
+use super::projected::Corrected;
+use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
-use crate::integrate::piece::Form;
+use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::Failure;
 use crate::scalar::Real;
@@ -64,53 +71,117 @@ impl<T: Real> Rk4<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
-    type Steps = GridSteps<ExplicitStep<Rk4Formula, T>, T>;
+    type Steps = GridSteps<Rk4Step<T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        self.grid().steps(ExplicitStep::new(&start.values))
+        self.grid().steps(Rk4Step::new(&start.values))
     }
 }
 
-/// The formula of [`Rk4`].
-#[derive(Clone, Copy, Debug)]
-#[allow(unreachable_pub)]
-pub struct Rk4Formula;
+/// The vectors that a step of [`Rk4`] works on.
+#[derive(Clone, Debug)]
+pub struct Rk4Step<T> {
+    start: Vec<T>,
+    end: Vec<T>,
+    /// State at which rates are evaluated, and these.
+    stage: Vec<T>,
+    rates: Vec<T>,
+    start_rates: Vec<T>,
+    end_rates: Vec<T>,
+    /// Length of the step, with its sign.
+    step: T,
+}
 
-impl<T: Real, O: Ode<T> + ?Sized> ExplicitFormula<T, O> for Rk4Formula {
-    const FORM: Form = Form::Hermite;
+impl<T: Real> Rk4Step<T> {
+    pub(super) fn new(start: &[T]) -> Self {
+        let zeros = || vec![T::ZERO; start.len()];
+        Self {
+            start: start.to_vec(),
+            end: zeros(),
+            stage: zeros(),
+            rates: zeros(),
+            start_rates: zeros(),
+            end_rates: zeros(),
+            step: T::ZERO,
+        }
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
+    fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
+        system.evaluate(time, &self.start, &mut self.start_rates)
+    }
 
     fn make(
-        own: &mut ExplicitStep<Self, T>,
+        &mut self,
         system: &mut Evaluator<'_, T, O>,
         time: T,
+        step: T,
     ) -> Result<(), Failure<T>> {
-        let step = own.step;
+        self.step = step;
         let half = T::from_f64(0.5) * step;
         let two = T::from_f64(2.0);
         let (middle, end_time) = (time + half, time + step);
-        // The end holds the sum of the rates until it is known.
-        own.end.copy_from_slice(&own.start_rates);
-        own.rates.copy_from_slice(&own.start_rates);
+        // The end holds the sum of the rates until it is knself.
+        self.end.copy_from_slice(&self.start_rates);
+        self.rates.copy_from_slice(&self.start_rates);
         for (at, length, weight) in [
             (middle, half, two),
             (middle, half, two),
             (end_time, step, T::ONE),
         ] {
-            for (i, value) in own.stage.iter_mut().enumerate() {
-                *value = own.start[i] + length * own.rates[i];
+            for (i, value) in self.stage.iter_mut().enumerate() {
+                *value = self.start[i] + length * self.rates[i];
             }
-            system.evaluate(at, &own.stage, &mut own.rates)?;
-            for (sum, &rate) in own.end.iter_mut().zip(&own.rates) {
+            system.evaluate(at, &self.stage, &mut self.rates)?;
+            for (sum, &rate) in self.end.iter_mut().zip(&self.rates) {
                 *sum += weight * rate;
             }
         }
         let sixth = step / T::from_f64(6.0);
-        for (end, &start) in own.end.iter_mut().zip(&own.start) {
+        for (end, &start) in self.end.iter_mut().zip(&self.start) {
             *end = start + sixth * *end;
         }
-        if !all_finite(&own.end) {
-            return Err(NonFinite::new(end_time, &own.end).into());
+        if !all_finite(&self.end) {
+            return Err(NonFinite::new(end_time, &self.end).into());
         }
-        Ok(system.evaluate(end_time, &own.end, &mut own.end_rates)?)
+        Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
+    }
+
+    fn piece(&self) -> Piece<'_, T> {
+        Piece {
+            form: Form::Hermite,
+            start: &self.start,
+            end: &self.end,
+            terms: [&self.start_rates, &self.end_rates],
+            length: self.step,
+        }
+    }
+
+    fn advance(&mut self) {
+        core::mem::swap(&mut self.start, &mut self.end);
+        core::mem::swap(&mut self.start_rates, &mut self.end_rates);
+    }
+
+    fn set_start(&mut self, values: &[T]) {
+        self.start.copy_from_slice(values);
+    }
+
+    fn remember(&mut self, memory: &mut Memory<T>) {
+        memory.numbers(&mut self.start_rates);
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for Rk4Step<T> {
+    fn correct(
+        &mut self,
+        system: &mut Evaluator<'_, T, O>,
+        time: T,
+        correction: &[T],
+    ) -> Result<(), Failure<T>> {
+        for (end, &correction) in self.end.iter_mut().zip(correction) {
+            *end += correction;
+        }
+        Ok(system.evaluate(time, &self.end, &mut self.end_rates)?)
     }
 }

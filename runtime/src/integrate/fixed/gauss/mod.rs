@@ -75,9 +75,9 @@ pub enum Solver {
 /// motion does nearly as well.
 ///
 /// Kick-drift splittings (leapfrog, Störmer–Verlet, Yoshida) would be explicit,
-/// but need a kinetic energy of the momenta alone, and that of a pendulum tree
-/// depends on its angles, H ≠ T(p) + U(q): see [`StoermerVerlet`], which refuses
-/// it.
+/// but need a kinetic energy of the momenta alone, and that of links that hang from
+/// other links depends on the angles, H ≠ T(p) + U(q). A splitting would be neither
+/// symplectic nor of its order then, and there is none here.
 ///
 /// [`Projected`] keeps the energy to rounding at every step, at the price of
 /// both properties.
@@ -102,7 +102,6 @@ pub enum Solver {
 /// [`Canonical`]: crate::system::Canonical
 /// [`IntegrationError::NotSolved`]: crate::integrate::IntegrationError::NotSolved
 /// [`Projected`]: crate::integrate::Projected
-/// [`StoermerVerlet`]: crate::integrate::StoermerVerlet
 /// [`Report::rejected`]: crate::integrate::Report::rejected
 ///
 /// # Examples
