@@ -2,9 +2,10 @@
 //! from version to version: expand a scene with the version that runs it. `Simd` is
 //! sealed, and the registers that implement it cannot be named: see `simd`.
 
+pub use crate::model::shown;
 pub use crate::requirements::{
-    LinkBody, free_link, require_downward, require_finite, require_non_negative, require_positive,
-    require_regular, require_upward,
+    LinkBody, free_link, require_downward, require_finite, require_magnitude, require_non_negative,
+    require_positive, require_regular, require_upward,
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, Simd, outlined};

@@ -1,5 +1,7 @@
 //! Types that emitted functions return.
 
+use alloc::format;
+use alloc::string::String;
 use core::fmt;
 use core::ops::Add;
 
@@ -40,8 +42,16 @@ impl fmt::Display for ParameterError {
             value,
             requirement,
         } = self;
-        write!(f, "{what} is {value}, must be {requirement}")
+        write!(f, "{what} is {}, must be {requirement}", shown(*value))
     }
 }
 
 impl core::error::Error for ParameterError {}
+
+/// Returns a value as messages show it: with an exponent where it is far from 1.
+pub fn shown(value: f64) -> String {
+    match value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {
+        true => format!("{value}"),
+        false => format!("{value:e}"),
+    }
+}

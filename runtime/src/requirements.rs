@@ -50,6 +50,20 @@ pub fn require_positive(what: &'static str, value: f64) -> Result<(), ParameterE
     require(what, value, "finite and positive", value > 0.0)
 }
 
+/// Passes 0 and a value of a magnitude between two, which the requirement states in words.
+///
+/// # Errors
+/// The error that `what` has another one.
+pub fn require_magnitude(
+    what: &'static str,
+    value: f64,
+    [least, largest]: [f64; 2],
+    requirement: &'static str,
+) -> Result<(), ParameterError> {
+    let met = value == 0.0 || (least..=largest).contains(&value.abs());
+    require(what, value, requirement, met)
+}
+
 fn require(
     what: &'static str,
     value: f64,
@@ -88,8 +102,8 @@ pub struct LinkBody {
 ///
 /// # Errors
 /// The error that the moment of inertia of a [free link](free_link) is zero.
-pub fn require_regular(links: &[LinkBody]) -> Result<(), ParameterError> {
-    match free_link(links).and_then(|index| links.get(index)) {
+pub fn require_regular(links: &[LinkBody], negligible: [f64; 3]) -> Result<(), ParameterError> {
+    match free_link(links, negligible).and_then(|index| links.get(index)) {
         None => Ok(()),
         Some(link) => Err(ParameterError {
             what: link.what,
@@ -104,24 +118,32 @@ pub fn require_regular(links: &[LinkBody]) -> Result<(), ParameterError> {
 ///
 /// Such a link has no inertia, no mass off its pivot, and every child hangs from the
 /// pivot or yields: lets its own pivot move without energy in some configuration.
+/// A mass, a length and a moment of inertia below the `negligible` ones count as zero.
 /// O(links).
-pub fn free_link(links: &[LinkBody]) -> Option<usize> {
+pub fn free_link(links: &[LinkBody], negligible: [f64; 3]) -> Option<usize> {
+    let [least_mass, least_length, least_inertia] = negligible;
+    let near = |place: [f64; 2], other: [f64; 2]| {
+        let [x, y] = place;
+        let [to_x, to_y] = other;
+        (x - to_x).abs() < least_length && (y - to_y).abs() < least_length
+    };
     let origin = [0.0, 0.0];
     // Pivots of the children that do not yield.
     let mut firm = alloc::vec![Vec::new(); links.len()];
     for (index, link) in links.iter().enumerate().rev() {
         let pivots: Vec<[f64; 2]> = firm.get_mut(index).map(core::mem::take)?;
-        let free = link.inertia == 0.0;
-        let at = |place: [f64; 2]| pivots.iter().all(|pivot| *pivot == place);
-        if free && (link.mass == 0.0 || link.com == origin) && at(origin) {
+        let free = link.inertia < least_inertia;
+        let massless = link.mass < least_mass;
+        let at = |place: [f64; 2]| pivots.iter().all(|pivot| near(*pivot, place));
+        if free && (massless || near(link.com, origin)) && at(origin) {
             return Some(index);
         }
-        let centre = match link.mass == 0.0 {
+        let centre = match massless {
             true => pivots.last().copied(),
             false => Some(link.com),
         };
-        let about = centre.is_some_and(|centre| centre != origin && at(centre));
-        let unburdened = link.mass == 0.0 && pivots.is_empty();
+        let about = centre.is_some_and(|centre| !near(centre, origin) && at(centre));
+        let unburdened = massless && pivots.is_empty();
         if let (false, Some(parent)) = (unburdened || (free && about), link.parent) {
             firm.get_mut(parent)?.push(link.pivot);
         }
@@ -144,13 +166,27 @@ mod tests {
         }
     }
 
+    fn check(links: &[LinkBody]) -> Result<(), ParameterError> {
+        require_regular(links, [1e-60, 1e-30, 1e-120])
+    }
+
     #[test]
     fn massless_leaves_are_refused() {
         let root = body(None, 1.0, 0.1, 0.5, 0.0);
-        assert!(require_regular(&[root, body(Some(0), 0.0, 0.0, 0.1, 1.0)]).is_err());
-        assert!(require_regular(&[root, body(Some(0), 1.0, 0.0, 0.0, 1.0)]).is_err());
-        assert!(require_regular(&[root, body(Some(0), 1.0, 0.0, 0.1, 1.0)]).is_ok());
-        assert!(require_regular(&[root, body(Some(0), 0.0, 1e-9, 0.1, 1.0)]).is_ok());
+        assert!(check(&[root, body(Some(0), 0.0, 0.0, 0.1, 1.0)]).is_err());
+        assert!(check(&[root, body(Some(0), 1.0, 0.0, 0.0, 1.0)]).is_err());
+        assert!(check(&[root, body(Some(0), 1.0, 0.0, 0.1, 1.0)]).is_ok());
+        assert!(check(&[root, body(Some(0), 0.0, 1e-9, 0.1, 1.0)]).is_ok());
+    }
+
+    #[test]
+    fn negligible_values_count_as_zero() {
+        let root = body(None, 1.0, 0.1, 0.5, 0.0);
+        assert!(check(&[root, body(Some(0), 1e-61, 0.0, 0.1, 1.0)]).is_err());
+        assert!(check(&[root, body(Some(0), 1.0, 0.0, 1e-31, 1.0)]).is_err());
+        assert!(check(&[root, body(Some(0), 0.0, 1e-121, 0.1, 1.0)]).is_err());
+        assert!(check(&[root, body(Some(0), 1e-59, 0.0, 1e-29, 1.0)]).is_ok());
+        assert!(check(&[root, body(Some(0), 0.0, 1e-119, 0.1, 1.0)]).is_ok());
     }
 
     /// Two rods without mass and one bob: in line, one velocity has no energy.
@@ -160,8 +196,8 @@ mod tests {
             body(None, 0.0, 0.0, 0.0, 0.0),
             body(Some(0), 1.0, 0.0, 0.3, 1.0),
         ];
-        assert!(require_regular(&rods).is_err());
+        assert!(check(&rods).is_err());
         let heavy = [body(None, 1.0, 0.0, 0.2, 0.0), rods[1]];
-        assert!(require_regular(&heavy).is_ok());
+        assert!(check(&heavy).is_ok());
     }
 }

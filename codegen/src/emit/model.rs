@@ -2,8 +2,11 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
+use super::tokens::float;
 use crate::program::ConstantOp;
-use crate::scene::{LinkId, Offset, ParameterId, Quantity, Sign};
+use crate::scene::{
+    LinkId, Magnitudes, NEGLIGIBLE, Offset, ParameterId, Quantity, Requirement, Sign,
+};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -122,28 +125,24 @@ impl Emission<'_> {
             quote!(#field: #runtime::scalar::Real::to_f64(given.#field))
         });
         let docs = format!(" Parameters of [`{name}`]. SI units.");
-        let signed = |index: usize| {
-            self.scene
-                .requirements
-                .iter()
-                .filter(|r| r.sign >= Sign::NonNegative)
-                .any(|r| r.quantity == Quantity::parameter(ParameterId(index)))
+        let required = |index: usize| {
+            let own = Quantity::parameter(ParameterId(index));
+            let mut requirements = self.scene.requirements.iter();
+            requirements.any(|requirement| requirement.quantity == own)
         };
         let finite = self
             .scene
             .parameters
             .iter()
             .enumerate()
-            .filter(|(index, _)| !signed(*index))
+            .filter(|(index, _)| !required(*index))
             .map(|(_, parameter)| {
                 let field = format_ident!("{}", parameter.name);
                 let what = format!("parameter `{}`", parameter.name);
-                self.requirement(&what, &quote!(parameters.#field), Sign::Any)
+                quote!(#runtime::emitted::require_finite(#what, parameters.#field)?;)
             });
-        let signs = self.scene.requirements.iter().map(|requirement| {
-            let value = self.quantity(&requirement.quantity);
-            self.requirement(&requirement.what, &value, requirement.sign)
-        });
+        let requirements = self.scene.requirements.iter();
+        let requirements = requirements.map(|requirement| self.requirement(requirement));
         let regular = self.regularity();
         let parametric = self.parametric();
         quote! {
@@ -160,9 +159,10 @@ impl Emission<'_> {
                 /// double precision.
                 ///
                 /// # Errors
-                /// A parameter that is not finite, one that makes a mass, an
-                /// inertia or a friction coefficient impossible or turns gravity
-                /// round, or ones that make the mass matrix singular.
+                /// A parameter that is not finite or of a magnitude that no pendulum
+                /// has, one that makes a mass, an inertia or a friction coefficient
+                /// impossible or turns gravity round, or ones that make the mass matrix
+                /// singular.
                 pub fn new(
                     parameters: #parameters<T>,
                 ) -> ::core::result::Result<Self, #runtime::ParameterError> {
@@ -171,7 +171,7 @@ impl Emission<'_> {
                         #(#doubles),*
                     };
                     #(#finite)*
-                    #(#signs)*
+                    #(#requirements)*
                     #regular
                     ::core::result::Result::Ok(Self::from_parameters_unchecked(given))
                 }
@@ -221,17 +221,30 @@ impl Emission<'_> {
         }
     }
 
-    /// Returns an error unless the value meets the condition; a NaN never does.
-    fn requirement(&self, what: &str, value: &TokenStream, sign: Sign) -> TokenStream {
+    /// Returns an error unless the value meets the conditions; a NaN never does.
+    fn requirement(&self, requirement: &Requirement) -> TokenStream {
         let runtime = self.runtime();
-        let check = match sign {
+        let value = self.quantity(&requirement.quantity);
+        let check = match requirement.sign {
             Sign::Any => quote!(require_finite),
             Sign::Hanging => quote!(require_downward),
             Sign::Standing => quote!(require_upward),
             Sign::NonNegative => quote!(require_non_negative),
             Sign::Positive => quote!(require_positive),
         };
-        quote!(#runtime::emitted::#check(#what, #value)?;)
+        let what = &requirement.what;
+        let Magnitudes {
+            least,
+            largest,
+            text,
+        } = requirement.magnitudes;
+        let [least, largest] = [least, largest].map(float);
+        let named = requirement.what_of(&self.scene.parameters);
+        quote! {
+            let value = #value;
+            #runtime::emitted::#check(#what, value)?;
+            #runtime::emitted::require_magnitude(#named, value, [#least, #largest], #text)?;
+        }
     }
 
     /// Refuses parameters that make the mass matrix singular.
@@ -267,7 +280,8 @@ impl Emission<'_> {
                 }
             }
         });
-        quote!(#runtime::emitted::require_regular(&[#(#bodies),*])?;)
+        let negligible = NEGLIGIBLE.map(float);
+        quote!(#runtime::emitted::require_regular(&[#(#bodies),*], [#(#negligible),*])?;)
     }
 
     /// One reading function for each named constant.

@@ -118,6 +118,15 @@ fn signal(
     part(expression, usage, values, report)
 }
 
+/// The use of a part of a function of time.
+fn part_of(usage: &Usage<'_>) -> Usage<'static> {
+    Usage {
+        what: format!("part of the {}", usage.what),
+        unit: "",
+        sign: Sign::Any,
+    }
+}
+
 /// Returns true for an expression that a property could have: no time, no
 /// function.
 fn is_plain(expression: &Expression) -> bool {
@@ -144,7 +153,7 @@ fn part(
     Some(match &expression.kind {
         _ if is_plain(expression) => {
             let value = values.operand(expression, usage, report)?;
-            let value = values.accept(value, usage, expression.span, report)?;
+            let value = values.accept(value, &part_of(usage), expression.span, report)?;
             Signal::Atom(SignalAtom::Constant(value))
         }
         ExpressionKind::Number(_) | ExpressionKind::Name(_) => Signal::Atom(SignalAtom::Time),
@@ -202,12 +211,11 @@ fn divisor(
             return None;
         }
         let value = values.operand(divisor, usage, report)?;
-        let value = values.accept(value, usage, divisor.span, report)?;
         let Ok(quotient) = product.divided_by(value) else {
             report.error(divisor.span, ValueMessage::DivisionByZero);
             return None;
         };
-        product = quotient;
+        product = values.accept(quotient, &part_of(usage), divisor.span, report)?;
     }
     Some((!divisors.is_empty()).then_some(Signal::Atom(SignalAtom::Constant(product))))
 }

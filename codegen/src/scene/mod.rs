@@ -18,6 +18,7 @@ mod drive;
 mod expand;
 mod layout;
 mod link_properties;
+mod magnitude;
 mod names;
 mod notation;
 mod observables;
@@ -49,6 +50,7 @@ pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
 pub use link_properties::LINK_PROPERTIES;
+pub use magnitude::{Magnitudes, NEGLIGIBLE};
 pub use names::is_keyword;
 pub use observables::{
     CoordinateIndex, Function, Observable, ObservableForm, Observed, ObservedAtom, Variable,
@@ -315,6 +317,28 @@ pub struct Requirement {
     pub what: String,
     /// The value.
     pub quantity: Quantity,
-    /// The condition, never [`Sign::Any`].
+    /// The condition on its sign.
     pub sign: Sign,
+    /// The condition on its magnitude.
+    pub magnitudes: Magnitudes,
+}
+
+impl Requirement {
+    /// The value in words with the parameters that it is formed of.
+    pub fn what_of(&self, parameters: &[Parameter]) -> String {
+        let mut names: Vec<String> = Vec::new();
+        for atom in self.quantity.atoms() {
+            if let QuantityAtom::Parameter(ParameterId(index)) = atom
+                && let Some(Parameter { name, .. }) = parameters.get(*index)
+                && !names.contains(&format!("`{name}`"))
+            {
+                names.push(format!("`{name}`"));
+            }
+        }
+        let word = match names.as_slice() {
+            [_] => "parameter",
+            _ => "parameters",
+        };
+        format!("{} ({word} {})", self.what, names.join(", "))
+    }
 }

@@ -100,9 +100,17 @@ impl Properties {
                 return None;
             }
         };
+        let last = self
+            .rule
+            .as_ref()
+            .is_some_and(|rule| rule.count == generation + 1);
+        if last && generation > 0 {
+            self.kind
+                .accept(&given, (node, generation), values, report)?;
+        }
         let body = match changes_shape(&self.given) {
             true => self.kind.checked_body(&given, node, values, report),
-            false => self.kind.body(&given, node, values, report),
+            false => self.kind.body(&given, node, report),
         };
         Some((body?, given))
     }
@@ -236,6 +244,35 @@ impl LinkKind {
         }
     }
 
+    /// Checks the properties of the last generation of a rule: what becomes smaller or
+    /// larger from one to the next is smallest or largest there.
+    fn accept(
+        &self,
+        given: &GivenProperties,
+        (node, generation): (&Node, usize),
+        values: &mut Values,
+        report: &mut Faults,
+    ) -> Option<()> {
+        for (name, Offset { along, lateral }) in &given.0 {
+            let dimension = self.dimensions().find(|known| known.name == *name)?;
+            let lateral = POINTS.contains(name).then_some((lateral, "lateral "));
+            for (value, part) in [(along, "")].into_iter().chain(lateral) {
+                let usage = Usage {
+                    what: format!(
+                        "{part}{} of `{}_{}`",
+                        in_words(name),
+                        node.name,
+                        generation + 1
+                    ),
+                    unit: dimension.unit,
+                    sign: dimension.sign,
+                };
+                values.accept(value.clone(), &usage, node.name.span(), report)?;
+            }
+        }
+        Some(())
+    }
+
     /// The body, and its shape possible.
     fn checked_body(
         &self,
@@ -252,17 +289,11 @@ impl LinkKind {
             };
             values.accept(value(given), &usage, node.name.span(), report)?;
         }
-        self.body(given, node, values, report)
+        self.body(given, node, report)
     }
 
     /// The body: that of the shape, unless the link says otherwise.
-    fn body(
-        &self,
-        given: &GivenProperties,
-        node: &Node,
-        values: &mut Values,
-        report: &mut Faults,
-    ) -> Option<Body> {
+    fn body(&self, given: &GivenProperties, node: &Node, report: &mut Faults) -> Option<Body> {
         let mut body = match self
             .shape
             .map_or_else(|| Ok(stand_in()), |shape| (shape.body)(given))
@@ -286,7 +317,7 @@ impl LinkKind {
         if let Some(joint) = given.point("joint") {
             body.joint = Some(joint.clone());
         }
-        accept_body(&body, node, values, report).then_some(body)
+        accept_body(&body, node, report).then_some(body)
     }
 }
 

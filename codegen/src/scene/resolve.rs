@@ -161,7 +161,7 @@ fn gravity(
             ..
         }) => {
             let gravity = values.evaluate(value, &usage, report)?;
-            values.require_direction(&gravity, usage.what);
+            values.require_direction(&gravity, &usage.what);
             Some(gravity)
         }
         Some(Property {

@@ -18,11 +18,13 @@
 //!   - I = 0, m > 0, d ≠ 0 and every child yields or has p = d: the link turns
 //!     about its centre of mass.
 //!
-//! Values that depend on parameters count as different from zero and from each
-//! other unless they are written alike; the model checks them when it is built.
+//! Values that are [negligible](NEGLIGIBLE) count as zero. Values that depend on parameters
+//! count as different from zero and from each other unless they are written alike; the model
+//! checks them when it is built.
 
+use super::bodies::Body;
 use super::template::Template;
-use super::{Offset, Quantity};
+use super::{NEGLIGIBLE, Offset, Quantity};
 use crate::report::{Faults, TreeMessage};
 
 /// Reports links that can turn without kinetic energy, the lowest of each
@@ -79,20 +81,20 @@ pub(super) fn singular(templates: &[Template]) -> Vec<usize> {
 /// Returns true if the link can turn about its resting pivot; `firm` holds the
 /// pivots of the children that do not yield.
 fn turns(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
-    body.inertia.is_zero()
-        && (body.mass.is_zero() || is_origin(&body.com))
+    is_without_inertia(body)
+        && (is_massless(body) || is_origin(&body.com))
         && firm.iter().all(|pivot| is_origin(pivot))
 }
 
 /// Returns true if the link's own pivot can move.
 fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
-    if body.mass.is_zero() && firm.is_empty() {
+    if is_massless(body) && firm.is_empty() {
         return true;
     }
-    if !body.inertia.is_zero() {
+    if !is_without_inertia(body) {
         return false;
     }
-    let centre = if body.mass.is_zero() {
+    let centre = if is_massless(body) {
         firm.first().copied()
     } else {
         Some(&body.com)
@@ -102,5 +104,25 @@ fn yields(Template { body, .. }: &Template, firm: &[&Offset]) -> bool {
 
 /// Returns true if a point is known to be the pivot.
 fn is_origin(Offset { along, lateral }: &Offset) -> bool {
-    [along, lateral].into_iter().all(Quantity::is_zero)
+    let [_, length, _] = NEGLIGIBLE;
+    [along, lateral]
+        .into_iter()
+        .all(|part| is_below(part, length))
+}
+
+fn is_massless(body: &Body) -> bool {
+    let [mass, _, _] = NEGLIGIBLE;
+    is_below(&body.mass, mass)
+}
+
+fn is_without_inertia(body: &Body) -> bool {
+    let [_, _, inertia] = NEGLIGIBLE;
+    is_below(&body.inertia, inertia)
+}
+
+/// Returns true if a value is known to be smaller.
+fn is_below(value: &Quantity, least: f64) -> bool {
+    value
+        .exact()
+        .is_some_and(|number| number.to_f64().abs() < least)
 }

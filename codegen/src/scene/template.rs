@@ -8,8 +8,8 @@ use super::passive::{PassiveTorques, check_idle};
 use super::properties::Properties;
 use super::rule::{Code, GenerationRule};
 use super::unequal::unequal_copies;
-use super::values::{Usage, Values};
-use super::{Offset, Quantity, Sign};
+use super::values::{Values, unrepresentable};
+use super::{Offset, Quantity};
 use crate::description::Node;
 use crate::report::{Faults, SizeMessage, TreeMessage};
 
@@ -265,12 +265,7 @@ impl TreeBuilder {
 }
 
 /// Checks that the numbers of a body can be rounded to `f64`.
-pub(super) fn accept_body(
-    body: &Body,
-    node: &Node,
-    values: &mut Values,
-    report: &mut Faults,
-) -> bool {
+pub(super) fn accept_body(body: &Body, node: &Node, report: &mut Faults) -> bool {
     let Body {
         mass,
         inertia,
@@ -279,15 +274,14 @@ pub(super) fn accept_body(
     } = body;
     let points = [Some(com), joint.as_ref()].into_iter().flatten();
     let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
-    let usage = Usage {
-        what: String::new(),
-        unit: "",
-        sign: Sign::Any,
-    };
     // One message for a body is enough.
     [mass, inertia].into_iter().chain(parts).all(|part| {
-        let span = node.name.span();
-        values.accept(part.clone(), &usage, span, report).is_some()
+        let fault = unrepresentable(part);
+        let fits = fault.is_none();
+        if let Some(message) = fault {
+            report.error(node.name.span(), message);
+        }
+        fits
     })
 }
 

@@ -35,9 +35,11 @@ impl Display for Scene {
             what,
             quantity,
             sign,
+            magnitudes,
         } in requirements
         {
-            writeln!(f, "require {} {sign}: {what}", quantity.display(parameters))?;
+            let (quantity, range) = (quantity.display(parameters), magnitudes.text);
+            writeln!(f, "require {quantity} {sign}, {range}: {what}")?;
         }
         match layout {
             Layout::Unrolled => {}

@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, Span};
 
 use super::names::check_parameter;
-use super::{Parameter, ParameterId, Quantity, QuantityAtom, Requirement, Sign};
+use super::{Magnitudes, Parameter, ParameterId, Quantity, QuantityAtom, Requirement, Sign};
 use crate::description::{Expression, ExpressionKind, ParameterClause};
 use crate::exact::{ExactError, Rational};
 use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
@@ -12,7 +12,7 @@ use crate::report::{Faults, SyntaxMessage, ValueMessage, nearest};
 pub(super) struct Usage<'a> {
     /// Name of the value, as in "mass of `child`".
     pub(super) what: String,
-    /// Unit of the value; empty for a pure number.
+    /// Unit of the value; empty for a pure number, and for a part of a function of time.
     pub(super) unit: &'a str,
     /// The condition on its sign.
     pub(super) sign: Sign,
@@ -92,24 +92,27 @@ impl Values {
             report.error(span, message);
             return None;
         }
-        let Usage { what, sign, .. } = usage;
+        let Usage { what, unit, sign } = usage;
+        let magnitudes = Magnitudes::of(unit, *sign);
         match value.exact() {
             Some(number) => {
-                if let Some(message) = violation(number, what, *sign) {
+                if let Some(message) = violation(number, what, *sign, &magnitudes) {
                     report.error(span, message);
                     return None;
                 }
             }
             None => {
-                let known = self
-                    .requirements
-                    .iter()
-                    .any(|known| known.quantity == value && known.sign >= *sign);
-                if *sign != Sign::Any && !known {
+                let known = self.requirements.iter().any(|known| {
+                    known.quantity == value
+                        && known.sign >= *sign
+                        && known.magnitudes.are_within(&magnitudes)
+                });
+                if !known {
                     self.requirements.push(Requirement {
                         what: what.clone(),
                         quantity: value.clone(),
                         sign: *sign,
+                        magnitudes,
                     });
                 }
             }
@@ -118,17 +121,14 @@ impl Values {
     }
 
     /// Requires that gravity points where it is written to point: all directions depend on it.
-    pub(super) fn require_direction(&mut self, gravity: &Quantity, what: String) {
+    pub(super) fn require_direction(&mut self, gravity: &Quantity, what: &str) {
         let sign = match gravity.is_written_negative() {
             true => Sign::Standing,
             false => Sign::Hanging,
         };
-        if gravity.exact().is_none() {
-            self.requirements.push(Requirement {
-                what,
-                quantity: gravity.clone(),
-                sign,
-            });
+        let own = |known: &&mut Requirement| known.what == what && known.quantity == *gravity;
+        if let Some(requirement) = self.requirements.iter_mut().find(own) {
+            requirement.sign = sign;
         }
     }
 
@@ -246,8 +246,13 @@ pub(super) fn message_for(error: ExactError) -> ValueMessage {
 /// Numbers of more characters are shown rounded.
 const LONGEST_NUMBER: usize = 30;
 
-/// The message about a number of the wrong sign.
-fn violation(number: &Rational, what: &str, sign: Sign) -> Option<ValueMessage> {
+/// The message about a number of the wrong sign or magnitude.
+fn violation(
+    number: &Rational,
+    what: &str,
+    sign: Sign,
+    magnitudes: &Magnitudes,
+) -> Option<ValueMessage> {
     let (what, mut value) = (what.to_owned(), number.to_string());
     if value.len() > LONGEST_NUMBER {
         value = format!("{:e}", number.to_f64());
@@ -257,6 +262,11 @@ fn violation(number: &Rational, what: &str, sign: Sign) -> Option<ValueMessage> 
         Sign::Positive if number.is_negative() || number.is_zero() => {
             Some(ValueMessage::NotPositive { what, value })
         }
+        _ if !magnitudes.hold(number.to_f64()) => Some(ValueMessage::Magnitude {
+            what,
+            value,
+            range: magnitudes.text,
+        }),
         _ => None,
     }
 }

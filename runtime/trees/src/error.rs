@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use branched_pendulum::emitted::shown;
 use branched_pendulum_codegen::report::{Faults, Problem};
 use thiserror::Error;
 
@@ -29,7 +30,7 @@ pub enum TreeError {
         parameters: Vec<String>,
     },
     /// A value that no pendulum can have.
-    #[error("{what} is {value}, must be {requirement}")]
+    #[error("{what} is {}, must be {requirement}", shown(*.value))]
     Value {
         /// The quantity, as in "mass of `child`".
         what: String,

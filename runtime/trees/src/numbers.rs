@@ -1,14 +1,15 @@
 //! Links in numbers: the quantities of a description at values of its parameters, in some
 //! 106 bits, so that what is formed of them is rounded once.
 
+use branched_pendulum::ParameterError;
 use branched_pendulum::emitted::{
-    LinkBody, free_link, require_downward, require_finite, require_non_negative, require_positive,
-    require_upward,
+    LinkBody, free_link, require_downward, require_finite, require_magnitude, require_non_negative,
+    require_positive, require_upward,
 };
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum_codegen::scene::{
-    Layout, Link, LinkId, Offset, PassiveTorques, Quantity, QuantityAtom, RationalExpression,
-    Scene, Sign,
+    Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, PassiveTorques, Quantity, QuantityAtom,
+    RationalExpression, Scene, Sign,
 };
 
 use crate::error::TreeError;
@@ -87,12 +88,16 @@ pub(crate) fn check(scene: &Scene, parameters: &[Double]) -> Result<(), TreeErro
     for requirement in &scene.requirements {
         let value = value(&requirement.quantity, parameters).high();
         require(|| requirement.what.clone(), value, requirement.sign)?;
+        let Magnitudes {
+            least,
+            largest,
+            text,
+        } = requirement.magnitudes;
+        let checked = require_magnitude("", value, [least, largest], text);
+        let what = || requirement.what_of(&scene.parameters);
+        checked.map_err(|error| refusal(what(), &error))?;
     }
-    require(
-        || "gravity".to_owned(),
-        value(&scene.gravity, parameters).high(),
-        Sign::Any,
-    )
+    Ok(())
 }
 
 fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), TreeError> {
@@ -103,11 +108,15 @@ fn require(what: impl Fn() -> String, value: f64, sign: Sign) -> Result<(), Tree
         Sign::NonNegative => require_non_negative,
         Sign::Positive => require_positive,
     };
-    check("", value).map_err(|error| TreeError::Value {
-        what: what(),
-        value,
+    check("", value).map_err(|error| refusal(what(), &error))
+}
+
+fn refusal(what: String, error: &ParameterError) -> TreeError {
+    TreeError::Value {
+        what,
+        value: error.value,
         requirement: error.requirement,
-    })
+    }
 }
 
 /// The links of a scene, parents before children; in generations those of the whole tree.
@@ -126,7 +135,7 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
         }
     }
     let bodies: Vec<LinkBody> = own.iter().map(body).collect();
-    if let Some(link) = free_link(&bodies).and_then(|index| scene.links.get(index)) {
+    if let Some(link) = free_link(&bodies, NEGLIGIBLE).and_then(|index| scene.links.get(index)) {
         return Err(TreeError::Value {
             what: format!(
                 "moment of inertia of `{}` about its pivot, in some configuration,",

@@ -42,6 +42,12 @@ messages! {
         format!("this is {value}"),
         "write a value above zero",
     ),
+    /// A value of a magnitude that no pendulum has.
+    Magnitude { what: String, value: String, range: &'static str } => (
+        format!("{what} is too large or too small"),
+        format!("this is {value}"),
+        format!("write a value that is {range}; units are SI"),
+    ),
     /// A divisor that is zero.
     DivisionByZero => (
         "division by zero",

@@ -346,6 +346,30 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "#[branched_pendulum(gravity = 1e309, a: rod(mass = 1e-330, length = 1e999999999))] struct Pendulum;",
     ),
     (
+        "magnitudes",
+        "#[branched_pendulum(gravity = 1e77,
+    a(mass = 1e300, com = (0.1, -1e200), inertia = 2e100, joint = 0.3) [
+        b: rod(mass = 0.1, length = 1e31, friction(coulomb = 1e150, width = 1e-40)) * 2,
+        c: rod(mass = 0.1, length = 0.2, spring = 1e101, rest = 1e31),
+        d(mass = 1e-200, com = 0.1, inertia = 1e-150),
+    ],
+    drive(torque = 1e200, x = 0.1 * cos(1e60 * t)),
+)] struct Pendulum;",
+    ),
+    (
+        "negligible_values",
+        "#[branched_pendulum(gravity = 9.8, a: rod(mass = 1, length = 1) [
+    b(mass = 0.1, com = 1e-170, inertia = 0),
+    c(mass = 0.1, com = (1e-35, -1e-31), inertia = 0),
+    d(mass = 1e-59, com = 1e-29, inertia = 0),
+])] struct Pendulum;",
+    ),
+    (
+        "growing_generations",
+        "#[branched_pendulum(gravity = 9.8, tree: generations(count = 60, branching = 1,
+    shape = rod, mass = 1, length = 1, length_ratio = 10))] struct Pendulum;",
+    ),
+    (
         "number_length",
         "#[branched_pendulum(gravity = 9.8^5000, a: rod(mass = 1, length = 2^8000 * 3^5000))] struct Pendulum;",
     ),

@@ -130,8 +130,8 @@ fn limits_of_the_derivation() {
     insta::assert_snapshot!("limits", report.render(source));
 }
 
-/// Values that a product of literals takes out of range are refused, and do
-/// not end the compiler.
+/// Literals out of range, and what a product of literals takes out of range, are refused
+/// and do not end the compiler.
 #[test]
 fn constants_out_of_range() {
     for (name, values) in [
