@@ -15,8 +15,9 @@ use crate::failure::Failure;
 use crate::measured_file::{MeasuredFile, Zero};
 use crate::program::Progress;
 
-/// Draws from which the closure of another reading follows.
+/// Draws from which the closure of another reading follows; so many less where that is hopeless.
 const DRAWS: usize = 40;
+const FEW: usize = 6;
 
 /// The kind of cause whose evidence are leaps in the record: without these pictures deviations may
 /// be far larger.
@@ -79,7 +80,7 @@ impl<const N: usize> Unclosed<'_, N> {
             subject: self.subject,
             record: self.source.record(),
         };
-        let smooth = measured.by_smoothness(self.draws())?;
+        let smooth = measured.by_smoothness(self.draws(DRAWS))?;
         let mut causes = match self.arguments.measured.is_of_dots(self.table) {
             true => self.of_dots(),
             false => self.of_columns(),
@@ -117,9 +118,9 @@ impl<const N: usize> Unclosed<'_, N> {
         Ok(search)
     }
 
-    fn draws(&self) -> Draws {
+    fn draws(&self, count: usize) -> Draws {
         Draws {
-            count: DRAWS,
+            count,
             seed: self.arguments.seed,
         }
     }
@@ -133,18 +134,25 @@ impl<const N: usize> Unclosed<'_, N> {
         Source::read(self.table, &arguments).ok()
     }
 
-    /// Estimates the motion as the record's own was; by smoothness alone where this shows already
-    /// that the budget does not close.
-    fn estimate(&self, source: &Source<N>) -> Option<Estimate<N>> {
+    /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,
+    /// and few draws, where these show already that the budget does not close.
+    fn estimate(&self, source: &Source<N>) -> Option<(Estimate<N>, usize)> {
         let measured = Measured {
             subject: self.subject,
             record: source.record(),
         };
-        let smooth = measured.by_smoothness(self.draws()).ok()?;
-        match self.arguments.model && Verdict::of(&source.times, &smooth, DRAWS).closes() {
-            true => measured.by_model(&smooth, self.draws()).ok(),
-            false => Some(smooth),
+        let smooth = |draws| measured.by_smoothness(self.draws(draws)).ok();
+        let closes = |found: &Estimate<N>, draws| Verdict::of(&source.times, found, draws).closes();
+        let few = smooth(FEW)?;
+        if !closes(&few, FEW) {
+            return Some((few, FEW));
         }
+        let smooth = smooth(DRAWS)?;
+        let found = match self.arguments.model && closes(&smooth, DRAWS) {
+            true => measured.by_model(&smooth, self.draws(DRAWS)).ok()?,
+            false => smooth,
+        };
+        Some((found, DRAWS))
     }
 
     /// Reads and estimates the table in another way: none where it cannot be read so or that is
@@ -154,10 +162,10 @@ impl<const N: usize> Unclosed<'_, N> {
         if source.angles == self.source.angles {
             return None;
         }
-        let Some(estimate) = self.estimate(&source) else {
+        let Some((estimate, draws)) = self.estimate(&source) else {
             return Some(None);
         };
-        let found = Verdict::of(&source.times, &estimate, DRAWS);
+        let found = Verdict::of(&source.times, &estimate, draws);
         let is_better = match cause.kind {
             WRONG_PICTURES => 2.0 * found.trust.closure < self.verdict.trust.closure,
             _ => self.would_be_told(&found),
@@ -166,12 +174,15 @@ impl<const N: usize> Unclosed<'_, N> {
     }
 
     /// Returns true if a gap as large as that of the record would be told by the deviations of
-    /// another reading.
+    /// another reading, at most of the times at which it is told by its own.
     fn would_be_told(&self, other: &Verdict) -> bool {
-        let pairs = self.verdict.closure.iter().zip(&other.closure);
-        pairs
-            .skip(1)
-            .any(|([gap, _], [_, deviation])| gap.abs() > other.allowed * deviation)
+        let own = &self.verdict;
+        let pairs = own.closure.iter().zip(&other.closure).skip(1);
+        let told = pairs.filter(|([gap, deviation], _)| gap.abs() > own.allowed * deviation);
+        let by_other = told
+            .clone()
+            .filter(|([gap, _], [_, deviation])| gap.abs() > other.allowed * deviation);
+        2 * by_other.count() > told.count()
     }
 
     fn cause(
@@ -328,7 +339,7 @@ impl<const N: usize> Unclosed<'_, N> {
                 tilt,
                 ..own.clone()
             };
-            self.estimate(&self.read(&reading)?)
+            self.estimate(&self.read(&reading)?).map(|(found, _)| found)
         };
         let Some((here, beside)) = estimate(tilt).zip(estimate(tilt + BESIDE)) else {
             return tilt;

@@ -100,9 +100,9 @@ impl Verdict {
                 let _ = writeln!(text, "  The motion leaps {leaps}: look at these pictures.");
             }
             let tried = match search.tried.is_empty() {
-                true => String::new(),
+                true => "The".to_owned(),
                 false => format!(
-                    "None of the usual causes closes it ({}): ",
+                    "None of the usual causes closes it ({}): the",
                     search.tried.join(", ")
                 ),
             };
@@ -113,7 +113,7 @@ impl Verdict {
             };
             let _ = writeln!(
                 text,
-                "  {tried}the pendulum is not the assumed one with this friction ({}{few}.",
+                "  {tried} pendulum is not the assumed one with this friction ({}{few}.",
                 arguments.pendulum.constants()
             );
         }
