@@ -5,18 +5,26 @@ use std::fmt;
 use branched_pendulum_data::{AngleUnit, FileKind, Table};
 
 use super::arguments::Arguments;
-use super::estimate::{Draws, Estimate, Measured};
+use super::estimate::{Draws, Estimate, Measured, quantity};
+use super::least::{self, Unknown};
 use super::source::Source;
 use super::subject::Subject;
-use super::tilt;
 use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::failure::Failure;
 use crate::measured_file::{MeasuredFile, Zero};
 use crate::program::Progress;
 
-/// Draws from which the closure of another reading follows.
+/// Draws from which the closure of another reading follows; so many less where that is hopeless.
 const DRAWS: usize = 40;
+const FEW: usize = 6;
+
+/// The kind of cause whose evidence are leaps in the record: without these pictures deviations may
+/// be far larger.
+const WRONG_PICTURES: &str = "wrong pictures";
+
+/// The kind of cause that is no reading.
+const FRICTION: &str = "friction";
 
 /// Another reading of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +51,8 @@ pub struct Search {
     pub closing: Vec<Cause>,
     /// Kinds that were tried.
     pub tried: Vec<&'static str>,
+    /// Stretches of pictures that leap out of the motion, s.
+    pub leaps: Vec<[f64; 2]>,
 }
 
 /// A record whose budget does not close.
@@ -70,15 +80,18 @@ impl<const N: usize> Unclosed<'_, N> {
             subject: self.subject,
             record: self.source.record(),
         };
-        let few = Draws { count: 2, seed: 1 };
-        let smooth = measured.by_smoothness(few)?;
+        let smooth = measured.by_smoothness(self.draws(DRAWS))?;
         let mut causes = match self.arguments.measured.is_of_dots(self.table) {
             true => self.of_dots(),
             false => self.of_columns(),
         };
         causes.extend(self.tilt(&measured, &smooth));
-        causes.extend(self.wrong_pictures(&measured, &smooth));
-        let mut search = Search::default();
+        let wrong = wrong_pictures::stretches(&measured);
+        let mut search = Search {
+            leaps: wrong.first().cloned().unwrap_or_default(),
+            ..Search::default()
+        };
+        causes.extend(self.wrong_pictures(wrong));
         let mut closing = Vec::new();
         for (index, cause) in causes.iter().enumerate() {
             progress.tell(&format!(
@@ -95,49 +108,81 @@ impl<const N: usize> Unclosed<'_, N> {
             }
             closing.extend(closes.map(|bars| (bars, cause.clone())));
         }
+        if !self.arguments.model {
+            // The equations of motion find friction with the motion.
+            search.tried.push(FRICTION);
+            closing.extend(self.friction(&measured, &smooth));
+        }
         closing.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         search.closing = closing.into_iter().map(|(_, cause)| cause).collect();
         Ok(search)
     }
 
-    /// Reads and estimates the table in another way: none where it cannot be read so or that is
-    /// no other way, else whether the budget closes, by the largest closure in its deviations.
-    fn closes(&self, cause: &Cause) -> Option<Option<f64>> {
+    fn draws(&self, count: usize) -> Draws {
+        Draws {
+            count,
+            seed: self.arguments.seed,
+        }
+    }
+
+    /// Reads the table in another way.
+    fn read(&self, reading: &MeasuredFile) -> Option<Source<N>> {
         let arguments = Arguments {
-            measured: cause.reading.clone(),
+            measured: reading.clone(),
             ..self.arguments.clone()
         };
-        let source = Source::read(self.table, &arguments).ok()?;
-        if source.angles == self.source.angles {
-            return None;
-        }
+        Source::read(self.table, &arguments).ok()
+    }
+
+    /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,
+    /// and few draws, where these show already that the budget does not close.
+    fn estimate(&self, source: &Source<N>) -> Option<(Estimate<N>, usize)> {
         let measured = Measured {
             subject: self.subject,
             record: source.record(),
         };
-        let draws = Draws {
-            count: DRAWS,
-            seed: arguments.seed,
-        };
-        let verdict = |estimate: &Estimate<N>| Verdict::of(&source.times, estimate, DRAWS);
-        let Ok(smooth) = measured.by_smoothness(draws) else {
-            return Some(None);
-        };
-        let mut found = verdict(&smooth);
-        if arguments.model && found.closes() {
-            let Ok(model) = measured.by_model(&smooth, draws) else {
-                return Some(None);
-            };
-            found = verdict(&model);
+        let smooth = |draws| measured.by_smoothness(self.draws(draws)).ok();
+        let closes = |found: &Estimate<N>, draws| Verdict::of(&source.times, found, draws).closes();
+        let few = smooth(FEW)?;
+        if !closes(&few, FEW) {
+            return Some((few, FEW));
         }
-        Some((found.closes() && self.would_be_told(&found)).then_some(found.bars))
+        let smooth = smooth(DRAWS)?;
+        let found = match self.arguments.model && closes(&smooth, DRAWS) {
+            true => measured.by_model(&smooth, self.draws(DRAWS)).ok()?,
+            false => smooth,
+        };
+        Some((found, DRAWS))
     }
 
-    /// Returns true if a gap as large as that of the record would not be hidden by the deviations
-    /// of another reading.
+    /// Reads and estimates the table in another way: none where it cannot be read so or that is
+    /// no other way, else whether the budget closes, by the largest closure in its deviations.
+    fn closes(&self, cause: &Cause) -> Option<Option<f64>> {
+        let source = self.read(&cause.reading)?;
+        if source.angles == self.source.angles {
+            return None;
+        }
+        let Some((estimate, draws)) = self.estimate(&source) else {
+            return Some(None);
+        };
+        let found = Verdict::of(&source.times, &estimate, draws);
+        let is_better = match cause.kind {
+            WRONG_PICTURES => 2.0 * found.trust.closure < self.verdict.trust.closure,
+            _ => self.would_be_told(&found),
+        };
+        Some((found.closes() && is_better).then_some(found.bars))
+    }
+
+    /// Returns true if a gap as large as that of the record would be told by the deviations of
+    /// another reading, at most of the times at which it is told by its own.
     fn would_be_told(&self, other: &Verdict) -> bool {
-        let gap = self.verdict.trust.closure;
-        3.0 * other.trust.closure_deviation < gap && 2.0 * other.trust.closure < gap
+        let own = &self.verdict;
+        let pairs = own.closure.iter().zip(&other.closure).skip(1);
+        let told = pairs.filter(|([gap, deviation], _)| gap.abs() > own.allowed * deviation);
+        let by_other = told
+            .clone()
+            .filter(|([gap, _], [_, deviation])| gap.abs() > other.allowed * deviation);
+        2 * by_other.count() > told.count()
     }
 
     fn cause(
@@ -208,8 +253,14 @@ impl<const N: usize> Unclosed<'_, N> {
         let measured = &self.arguments.measured;
         let y_down = measured.y_down || !measured.y_up && self.table.kind() == FileKind::DeepLabCut;
         let (words, option) = match y_down {
-            true => ("y points upwards", "--y-up"),
-            false => ("y points downwards", "--y-down"),
+            true => (
+                "y points upwards, or all links' dots are the other way round",
+                "--y-up",
+            ),
+            false => (
+                "y points downwards, or all links' dots are the other way round",
+                "--y-down",
+            ),
         };
         let mut causes = vec![self.cause("direction of y", words, option, |file| {
             (file.y_down, file.y_up) = (!y_down, y_down);
@@ -256,18 +307,75 @@ impl<const N: usize> Unclosed<'_, N> {
 
     /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.
     fn tilt(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Option<Cause> {
-        let found = tilt::by_closure(measured, smooth)?.to_degrees();
+        let unknown = Unknown {
+            largest: 0.8,
+            step: 0.2,
+            small: 1e-4,
+        };
+        // Smooth motions are turned with their data: nothing is to be estimated again.
+        let closure = |tilt| measured.closure_if(&smooth.motion, tilt, &[]);
+        let found = least::value(unknown, &least::weights(deviations(smooth)), closure)?;
+        let found = match self.arguments.model {
+            true => self.refined(found.to_degrees()),
+            false => found.to_degrees(),
+        };
         let tilt = self.arguments.measured.tilt.unwrap_or(0.0) + found;
         // Hundredths of a degree are less than measurements tell.
         let tilt = (100.0 * tilt).round() / 100.0;
-        let words = format!("links at rest show {tilt}°: the camera, or the encoder, is tilted");
+        let words = format!(
+            "links at rest show about {tilt}°, as before a tilted camera or by encoders that are not at zero there"
+        );
         let option = format!("--tilt {tilt}");
         Some(self.cause("tilt", words, option, |file| file.tilt = Some(tilt)))
     }
 
-    fn wrong_pictures(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Vec<Cause> {
-        let found = wrong_pictures::stretches(measured, smooth);
-        let causes = found.into_iter().map(|stretches| {
+    /// A tilt (degrees) by the closure of the equations of motion, which tell it better.
+    fn refined(&self, tilt: f64) -> f64 {
+        const BESIDE: f64 = 0.1;
+        let own = &self.arguments.measured;
+        let estimate = |tilt: f64| {
+            let tilt = Some(own.tilt.unwrap_or(0.0) + tilt);
+            let reading = MeasuredFile {
+                tilt,
+                ..own.clone()
+            };
+            self.estimate(&self.read(&reading)?).map(|(found, _)| found)
+        };
+        let Some((here, beside)) = estimate(tilt).zip(estimate(tilt + BESIDE)) else {
+            return tilt;
+        };
+        let weights = least::weights(deviations(&here));
+        let step = least::step(&weights, &closure(&here), &closure(&beside));
+        tilt + BESIDE * step.clamp(-10.0, 10.0)
+    }
+
+    /// Friction in one of the pivots that is not among the constants, with the largest closure in its
+    /// deviations.
+    fn friction(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Vec<(f64, Cause)> {
+        let names = self.subject.names();
+        let weights = least::weights(deviations(smooth));
+        let pivots = names.pivots.iter().zip(names.frictions).enumerate();
+        let causes = pivots.filter_map(|(pivot, (place, option))| {
+            let closure = |friction: f64| {
+                let mut all = vec![0.0; names.pivots.len()];
+                all[pivot] = friction;
+                measured.closure_if(&smooth.motion, 0.0, &all)
+            };
+            // The closure is linear in it.
+            let friction = least::step(&weights, &closure(0.0), &closure(1.0));
+            let closure = closure(friction);
+            let bars = closure.iter().zip(deviations(smooth)).skip(1);
+            let bars = bars.map(|(closure, deviation)| closure.abs() / deviation);
+            let bars = bars.fold(0.0, f64::max);
+            let closes = friction > 0.0 && bars <= self.verdict.allowed;
+            let words = format!("{place} have about {friction:.2e} N m s of friction more");
+            closes.then(|| (bars, self.cause(FRICTION, words, *option, |_| {})))
+        });
+        causes.collect()
+    }
+
+    fn wrong_pictures(&self, ways: Vec<Vec<[f64; 2]>>) -> Vec<Cause> {
+        let causes = ways.into_iter().map(|stretches| {
             let told = stretches
                 .iter()
                 .map(|[from, to]| format!("from {from} s to {to} s"));
@@ -278,10 +386,28 @@ impl<const N: usize> Unclosed<'_, N> {
             let all = [&self.arguments.measured.leave_out[..], &stretches].concat();
             let list = all.iter().map(|[from, to]| format!("{from}:{to}"));
             let option = format!("--leave-out {}", list.collect::<Vec<_>>().join(","));
-            self.cause("wrong pictures", words, option, |file| file.leave_out = all)
+            self.cause(WRONG_PICTURES, words, option, |file| file.leave_out = all)
         });
         causes.collect()
     }
+}
+
+fn deviations<const N: usize>(estimate: &Estimate<N>) -> impl Iterator<Item = f64> {
+    let rows = estimate.energies.deviations.iter();
+    rows.map(|row| row[quantity::CLOSURE])
+}
+
+fn closure<const N: usize>(estimate: &Estimate<N>) -> Vec<f64> {
+    let rows = estimate.energies.means.iter();
+    rows.map(|row| row[quantity::CLOSURE]).collect()
+}
+
+/// Stretches of time in words.
+pub fn told(stretches: &[[f64; 2]]) -> String {
+    let each = stretches
+        .iter()
+        .map(|[from, to]| format!("from {from} s to {to} s"));
+    each.collect::<Vec<_>>().join(", ")
 }
 
 /// A value of an option as a shell takes it.

@@ -192,13 +192,14 @@ impl<const N: usize> Measured<'_, N> {
         .collect()
     }
 
-    /// The closure of a motion whose angles of links are all counted from `tilt`, J.
-    pub fn closure_turned(&self, motion: &[Motion<N>], tilt: f64) -> Vec<f64> {
+    /// The closure of a motion if its angles of links are all counted from `tilt`, with that
+    /// friction beside the pendulum's own, J.
+    pub fn closure_if(&self, motion: &[Motion<N>], tilt: f64, friction: &[f64]) -> Vec<f64> {
         let turned = motion.iter().map(|[coordinates, rates]| {
             let links = self.subject.links(coordinates).map(|angle| angle - tilt);
             [self.subject.coordinates(&links), *rates]
         });
-        let rows = self.energies(&turned.collect::<Vec<_>>(), &[]);
+        let rows = self.energies(&turned.collect::<Vec<_>>(), friction);
         rows.iter().map(|row| row[quantity::CLOSURE]).collect()
     }
 

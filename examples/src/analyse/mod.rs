@@ -5,7 +5,7 @@
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
 //! - [`motion`]: motions that the angles allow, [`estimate`]: what follows from them,
 //! - [`verdict`]: whether the energy budget closes, [`causes`]: readings of the table by which it
-//!   does, [`tilt`] and [`wrong_pictures`]: two of them by the data,
+//!   does, [`least`] and [`wrong_pictures`]: what they take from the data,
 //! - [`spectrogram`]: lines of the motion,
 //! - [`report`]: words and tables, [`charts`]: charts.
 
@@ -14,6 +14,7 @@ pub mod camera;
 pub mod causes;
 pub mod charts;
 pub mod estimate;
+pub mod least;
 pub mod motion;
 pub mod parameters;
 pub mod report;
@@ -23,7 +24,6 @@ pub mod spectrogram;
 pub mod subject;
 #[cfg(test)]
 mod tests;
-pub mod tilt;
 pub mod verdict;
 pub mod wrong_pictures;
 
@@ -38,9 +38,9 @@ use branched_pendulum_data::{Table, TableOptions};
 use crate::branched_double::Apparatus;
 use crate::failure::Failure;
 use crate::identify::scene::Chain;
-use crate::program::Job;
+use crate::program::{Job, Progress};
 use arguments::Tree;
-use causes::Unclosed;
+use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
 
@@ -86,35 +86,9 @@ fn analyse<const N: usize>(
     table: Option<&Table>,
     source: &Source<N>,
 ) -> Result<(), Failure> {
-    let draws = Draws {
-        count: arguments.draws as usize,
-        seed: arguments.seed,
-    };
-    let record = source.record();
-    let measured = Measured { subject, record };
     let progress = job.progress(1 + usize::from(arguments.model));
-    let mut estimate = if arguments.polynomials {
-        progress.begin("by polynomials");
-        measured.by_polynomials(draws)?
-    } else {
-        progress.begin("by smoothness");
-        measured.by_smoothness(draws)?
-    };
-    if arguments.model {
-        progress.begin("by the equations of motion");
-        estimate = measured.by_model(&estimate, draws)?;
-    }
+    let (estimate, verdict, search) = judged(arguments, subject, table, source, &progress)?;
     let names = subject.names();
-    let verdict = Verdict::of(&source.times, &estimate, draws.count);
-    let unclosed = table.filter(|_| !verdict.closes()).map(|table| Unclosed {
-        arguments,
-        subject,
-        table,
-        source,
-        verdict,
-    });
-    let search = unclosed.map(|unclosed| unclosed.search(&progress));
-    let search = search.transpose()?;
     report::write(job, &names, source, &estimate)?;
     job.print(&verdict.words(arguments, &names, search.as_ref()))?;
     job.print(&report::report(arguments, &names, source, &estimate))?;
@@ -127,4 +101,42 @@ fn analyse<const N: usize>(
     job.report("findings", findings.collect::<Vec<_>>());
     job.report("noise", estimate.noise);
     Ok(())
+}
+
+/// Estimates the motion and judges it; where its energy budget fails, causes are sought in the
+/// table.
+fn judged<const N: usize>(
+    arguments: &Arguments,
+    subject: &dyn Subject<N>,
+    table: Option<&Table>,
+    source: &Source<N>,
+    progress: &Progress,
+) -> Result<(Estimate<N>, Verdict, Option<Search>), Failure> {
+    let draws = Draws {
+        count: arguments.draws as usize,
+        seed: arguments.seed,
+    };
+    let record = source.record();
+    let measured = Measured { subject, record };
+    let mut estimate = if arguments.polynomials {
+        progress.begin("by polynomials");
+        measured.by_polynomials(draws)?
+    } else {
+        progress.begin("by smoothness");
+        measured.by_smoothness(draws)?
+    };
+    if arguments.model {
+        progress.begin("by the equations of motion");
+        estimate = measured.by_model(&estimate, draws)?;
+    }
+    let verdict = Verdict::of(&source.times, &estimate, draws.count);
+    let unclosed = table.filter(|_| !verdict.closes()).map(|table| Unclosed {
+        arguments,
+        subject,
+        table,
+        source,
+        verdict: verdict.clone(),
+    });
+    let search = unclosed.map(|unclosed| unclosed.search(progress));
+    Ok((estimate, verdict, search.transpose()?))
 }

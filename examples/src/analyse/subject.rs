@@ -30,6 +30,8 @@ pub struct Names<const N: usize> {
     pub power: &'static str,
     /// Pivots whose friction the equations may lack.
     pub pivots: &'static [&'static str],
+    /// Options that give it.
+    pub frictions: &'static [&'static str],
 }
 
 /// Power at a state, W.
@@ -95,6 +97,7 @@ impl Subject<3> for Apparatus {
             energy: "H_d",
             power: "W",
             pivots: &["the root's pivot", "the children's pivots"],
+            frictions: &["--friction-root", "--friction-children"],
         }
     }
 
@@ -191,6 +194,7 @@ impl Subject<2> for TwoLinks {
             energy: "H",
             power: "P",
             pivots: &["the upper pivot", "the lower pivot"],
+            frictions: &["viscous_1 of --parameters", "viscous_2 of --parameters"],
         }
     }
 

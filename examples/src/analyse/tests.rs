@@ -1,5 +1,7 @@
 //! Estimates from a simulated camera against the truth.
 
+mod causes;
+
 use branched_pendulum::Parametric;
 use branched_pendulum::prelude::Ensemble;
 use branched_pendulum_data::{Table, TableOptions};

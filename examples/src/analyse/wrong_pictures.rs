@@ -1,72 +1,90 @@
 //! Pictures whose angles are not those of the motion before and behind.
 
-use super::estimate::{Estimate, Measured};
+use super::estimate::Measured;
 
-/// Distance of an angle from the motion, in usual ones, that is too far.
-const FAR: f64 = 6.0;
-/// Median of |x| of a normal distribution of deviation 1, inverted.
-const NORMAL: f64 = 1.4826;
-/// Pictures beside a wrong one that are left out with it; wrong ones so near are one stretch.
+/// Distance of an angle from where its neighbours lead, in usual ones, that is too far.
+const FAR: f64 = 8.0;
+/// Pictures beside a wrong one that are left out with it; those no farther apart are one stretch.
 const BESIDE: usize = 3;
 /// Most stretches, and the largest part of a record that they may take.
-const STRETCHES: usize = 5;
+const STRETCHES: usize = 6;
 const PART: f64 = 0.15;
 
-/// Stretches of time (s) in which pictures are wrong as likely as not, in up to two ways: each that is
-/// far from the motion, and all that lies between the first and the last.
-pub fn stretches<const N: usize>(
-    measured: &Measured<'_, N>,
-    estimate: &Estimate<N>,
-) -> Vec<Vec<[f64; 2]>> {
+/// Stretches of time (s) in which pictures may be wrong, in up to three ways. A stretch of them shows
+/// at its ends, where the motion leaps: each leap may be all that is wrong, or what lies between
+/// two of them, or between the first and the last.
+pub fn stretches<const N: usize>(measured: &Measured<'_, N>) -> Vec<Vec<[f64; 2]>> {
+    let leaps = leaps(measured);
+    let pairs = |leaps: &[[usize; 2]]| match leaps.as_chunks::<2>() {
+        (pairs, []) => pairs.iter().map(|[a, b]| [a[0], b[1]]).collect(),
+        _ => Vec::new(),
+    };
+    let whole = |leaps: &[[usize; 2]]| match leaps {
+        [first, .., last] => vec![[first[0], last[1]]],
+        _ => Vec::new(),
+    };
+    let mut ways = vec![leaps.clone(), pairs(&leaps), whole(&leaps)];
+    ways.dedup();
     let times = measured.record.times;
-    let apart = |row: usize| {
-        let links = measured.record.angles[row];
-        if links.iter().any(Option::is_none) {
-            return None;
-        }
-        let seen = measured
-            .subject
-            .coordinates(&links.map(|angle| angle.unwrap_or_default()));
-        let [motion, _] = estimate.motion[row];
-        Some(std::array::from_fn(|of| (seen[of] - motion[of]).abs()))
-    };
-    let apart: Vec<Option<[f64; N]>> = (0..times.len()).map(apart).collect();
-    let usual: [f64; N] = std::array::from_fn(|of| {
-        let mut all: Vec<f64> = apart.iter().flatten().map(|row| row[of]).collect();
-        all.sort_unstable_by(f64::total_cmp);
-        NORMAL * all.get(all.len() / 2).copied().unwrap_or_default()
+    let count = |rows: &[[usize; 2]]| -> usize { rows.iter().map(|[a, b]| b - a + 1).sum() };
+    ways.retain(|rows| {
+        let part = count(rows) as f64 / times.len() as f64;
+        (1..=STRETCHES).contains(&rows.len()) && part <= PART
     });
-    let is_far =
-        |row: &usize| apart[*row].is_some_and(|row| (0..N).any(|of| row[of] > FAR * usual[of]));
-    let mut rows: Vec<[usize; 2]> = Vec::new();
-    for row in (0..times.len()).filter(is_far) {
-        match rows.last_mut() {
-            Some([_, last]) if row - *last <= 2 * BESIDE => *last = row,
-            _ => rows.push([row, row]),
+    // Rounded outwards, that an option names them in few digits.
+    let ends = |[first, last]: [usize; 2]| {
+        let (from, to) = (1e4 * times[first], 1e4 * times[last]);
+        [from.floor() / 1e4, to.ceil() / 1e4]
+    };
+    let of_rows = |rows: Vec<[usize; 2]>| rows.into_iter().map(ends).collect();
+    ways.into_iter().map(of_rows).collect()
+}
+
+/// First and last rows of the surroundings of leaps.
+fn leaps<const N: usize>(measured: &Measured<'_, N>) -> Vec<[usize; 2]> {
+    let times = measured.record.times;
+    let rows = 0..times.len();
+    let whole = rows.filter_map(|row| {
+        let links = measured.record.angles[row];
+        let is_whole = links.iter().all(Option::is_some);
+        let links = links.map(Option::unwrap_or_default);
+        is_whole.then(|| (row, measured.subject.coordinates(&links)))
+    });
+    let whole: Vec<(usize, [f64; N])> = whole.collect();
+    // Distances from the cubics through four neighbours.
+    let distances = whole.windows(5).map(|window| {
+        let (row, mut distance) = window[2];
+        let neighbours = [0, 1, 3, 4].map(|index: usize| window[index]);
+        for (own, place) in neighbours {
+            let others = neighbours.iter().filter(|(other, _)| *other != own);
+            let weight: f64 = others
+                .map(|&(other, _)| (times[row] - times[other]) / (times[own] - times[other]))
+                .product();
+            for (distance, place) in distance.iter_mut().zip(place) {
+                *distance -= weight * place;
+            }
+        }
+        (row, distance.map(f64::abs))
+    });
+    let distances: Vec<(usize, [f64; N])> = distances.collect();
+    let usual: [f64; N] = std::array::from_fn(|of| {
+        let mut all: Vec<f64> = distances.iter().map(|(_, row)| row[of]).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        all.get(all.len() / 2).copied().unwrap_or_default()
+    });
+    let mut leaps: Vec<[usize; 2]> = Vec::new();
+    for (row, distance) in distances {
+        if (0..N).all(|of| distance[of] <= FAR * usual[of]) {
+            continue;
+        }
+        let [first, last] = [
+            row.saturating_sub(BESIDE),
+            (row + BESIDE).min(times.len() - 1),
+        ];
+        match leaps.last_mut() {
+            Some([_, end]) if first <= *end => *end = last,
+            _ => leaps.push([first, last]),
         }
     }
-    let (Some([first, _]), Some([_, last])) = (rows.first(), rows.last()) else {
-        return Vec::new();
-    };
-    let whole = vec![[*first, *last]];
-    let mut ways = vec![rows];
-    if ways[0] != whole {
-        ways.push(whole);
-    }
-    let of_rows = |rows: Vec<[usize; 2]>| {
-        let rows = rows.into_iter().map(|[first, last]| {
-            [
-                first.saturating_sub(BESIDE),
-                (last + BESIDE).min(times.len() - 1),
-            ]
-        });
-        let rows: Vec<[usize; 2]> = rows.collect();
-        let count = rows
-            .iter()
-            .map(|[first, last]| last - first + 1)
-            .sum::<usize>();
-        let is_small = rows.len() <= STRETCHES && count as f64 <= PART * times.len() as f64;
-        is_small.then(|| rows.iter().map(|row| row.map(|row| times[row])).collect())
-    };
-    ways.into_iter().filter_map(of_rows).collect()
+    leaps
 }
