@@ -93,7 +93,7 @@ impl MeasuredFile {
     /// Takes the angles of so many links out of a table.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read).
+    /// Errors of [`read`](Self::read).
     pub fn angles(&self, table: &Table, links: usize) -> Result<Recording, Failure> {
         let clock = self.clock();
         let mut table = Cow::Borrowed(table);

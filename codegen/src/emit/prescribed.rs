@@ -85,7 +85,7 @@ impl Emission<'_> {
         })
     }
 
-    /// That of a tree in loops.
+    /// The function of a tree in loops.
     fn prescribed_in_loops(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
         let (constants, other) = (self.prescribed_sets(), super::other_scalar(name));

@@ -43,7 +43,7 @@ pub enum Argument {
     Symmetric,
     /// Constants of one link of a tree in loops.
     Constants,
-    /// Its motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
+    /// The link's motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
     /// outside.
     Motion,
     /// Response of a subtree: deficit xx, xy, yy of the articulated inertia, bias
@@ -69,7 +69,7 @@ pub enum ResultShape {
     Scalar,
     /// An array.
     Vector,
-    /// That many arrays of the other length.
+    /// So many arrays of the other length.
     Rows(usize, usize),
     /// A `Transfer`: kinetic part, potential part.
     Transfer,
@@ -77,7 +77,7 @@ pub enum ResultShape {
     Transfers(usize),
     /// Two arrays of these lengths.
     Arrays(usize, usize),
-    /// That many numbers (one alone is no array), and an array of the others.
+    /// So many numbers (one alone is no array), and an array of the others.
     Split(usize),
     /// A `Budget` of that many sectors: energies, transfers, powers.
     Budget(usize),

@@ -13,7 +13,7 @@ const ORDERS: RangeInclusive<u32> = 1..=8;
 /// Name, arguments and result of a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
-    /// Its name.
+    /// Name of the function.
     pub name: String,
     /// Arguments in order.
     pub arguments: Vec<Argument>,

@@ -23,7 +23,7 @@ named_members! {
 }
 
 impl LinkFunction {
-    /// Its arguments beside constants and motion.
+    /// Arguments beside constants and motion.
     pub(super) fn given(self) -> &'static [Argument] {
         match self {
             Self::Leaf => &[],

@@ -24,7 +24,7 @@ macro_rules! purposes {
         }
 
         impl Purpose {
-            /// Those that are of one function each.
+            /// Purposes of one function each.
             pub(super) fn singles() -> Vec<Self> {
                 let all = [$(single!($purpose $(($($field),+))?)),+];
                 all.into_iter().flatten().collect()
@@ -127,7 +127,7 @@ purposes! { naming:
         let name = format!("{}budget_{}", state.prefix(), definition.name());
         naming.timed(name, &state.arguments(), Budget(naming.sectors))
     };
-    /// That budget with the power of torques from outside, from absolute angles.
+    /// The same budget with the power of torques from outside, from absolute angles.
     BudgetUnder(definition: EnergyDefinition) => {
         let name = format!("budget_{}_under", definition.name());
         naming.timed(name, &[Theta, Omega, Torques], Budget(naming.sectors))
@@ -195,7 +195,7 @@ purposes! { naming:
         let name = format!("transverse_energy_{}", naming.transverse[sector]);
         plain(name, &[Theta, Difference(sector), DifferenceRate(sector)], Scalar)
     };
-    /// Its rate without friction.
+    /// Rate of that energy without friction.
     TransverseTransfer(sector: usize) => {
         let name = format!("transverse_transfer_{}", naming.transverse[sector]);
         naming.timed(name, &along_motion(sector), Scalar)
@@ -211,7 +211,7 @@ purposes! { naming:
         let arguments = [Theta, Omega, SmallDifferences, SmallRates];
         naming.timed("small_accelerations", &arguments, Vector)
     };
-    /// Those accelerations under torques from outside.
+    /// The same accelerations under torques from outside.
     SmallAccelerationsUnder => {
         let motion = [Theta, Omega, SmallDifferences, SmallRates];
         let arguments = [&motion[..], &[Torques, SmallTorques]].concat();

@@ -22,7 +22,7 @@ pub struct Magnitudes {
 pub const NEGLIGIBLE: [f64; 3] = [1e-60, 1e-30, 1e-120];
 
 impl Magnitudes {
-    /// Those of a unit; of an empty one, for pure numbers and what functions of time are
+    /// The magnitudes of a unit; of an empty one, for pure numbers and what functions of time are
     /// formed of.
     pub(super) fn of(unit: &str, sign: Sign) -> Self {
         let [mass, length, inertia] = NEGLIGIBLE;

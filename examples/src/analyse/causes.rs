@@ -29,7 +29,7 @@ const FRICTION: &str = "friction";
 /// Another reading of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cause {
-    /// Its kind, as it stands among those that were tried.
+    /// The kind, as it stands among those that were tried.
     kind: &'static str,
     /// What is so, in words.
     pub words: String,

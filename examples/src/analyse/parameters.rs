@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use crate::failure::Failure;
 use crate::identify::scene::Chain;
 
-/// Those that the authors of the measured double pendulum fitted (K. Kaheman et al.,
+/// Values that the authors of the measured double pendulum fitted (K. Kaheman et al.,
 /// arXiv:2205.06231; their repository's `ParameterEstimation/DoublePendulum`). Their friction
 /// is viscous alone.
 const FITTED: [(&str, f64); 10] = [

@@ -62,7 +62,7 @@ pub struct Trust {
     pub energy: f64,
     /// Largest |∫ power dt − change of the energy|, of that.
     pub closure: f64,
-    /// Its standard deviation there, of that.
+    /// The standard deviation of the closure there, of that.
     pub closure_deviation: f64,
     /// Root mean square of the power's deviation, of that of the power.
     pub power: f64,

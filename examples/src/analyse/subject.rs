@@ -60,7 +60,7 @@ pub trait Subject<const N: usize> {
     /// Change of the energy by a change of the motion, to first order about it.
     fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64;
 
-    /// Its powers, with friction in the pivots that is told beside the pendulum's own: a
+    /// Returns the powers, with friction in the pivots that is told beside the pendulum's own: a
     /// coefficient (N m s) for each, or none.
     fn powers(&self, motion: &Motion<N>, friction: &[f64]) -> Powers;
 

@@ -258,7 +258,7 @@ impl Table {
     /// included; the times of their rows stay.
     ///
     /// # Errors
-    /// Those of a time that cannot be made out; [`ReadErrorKind::Option`] of a stretch without rows.
+    /// Errors of a time that cannot be made out; [`ReadErrorKind::Option`] of a stretch without rows.
     pub fn leaving_out(mut self, clock: &Clock, stretches: &[[f64; 2]]) -> Result<Self, ReadError> {
         let (column, scale) = source(&self, clock, &mut Vec::new())?;
         let times = raw(&self, column)?;
