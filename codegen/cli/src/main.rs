@@ -14,6 +14,7 @@ use branched_pendulum_codegen::{
 };
 use clap::Parser;
 use proc_macro2::TokenStream;
+use quote::ToTokens;
 use source::{Finder, replace};
 use std::io::{self, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
@@ -80,7 +81,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
                 let equations = equations.ok_or_else(|| refuse(title, "loops"))?;
                 replacements.push((found.range, format_tokens(equations)?));
             }
-            (None, None) => replacements.push((found.range, format_tokens(tokens.clone())?)),
+            (None, None) => {
+                let items = with_lints_allowed(tokens.clone());
+                replacements.push((found.range, format_tokens(items)?));
+            }
         }
     }
     if arguments.stage.is_none() && matches!(arguments.emit, None | Some(Output::Equations)) {
@@ -159,4 +163,25 @@ fn format_tokens(tokens: TokenStream) -> Result<String, String> {
         .map_err(|error| {
             format!("error: the emitted code is no Rust (a bug of this tool): {error}")
         })
+}
+
+/// The items with those lints allowed that the compiler silences where a macro writes them: of
+/// style, and of names that nobody else reaches.
+fn with_lints_allowed(tokens: TokenStream) -> TokenStream {
+    let Ok(mut file) = syn::parse2::<syn::File>(tokens.clone()) else {
+        return tokens;
+    };
+    for item in &mut file.items {
+        let attributes = match item {
+            syn::Item::Const(own) => &mut own.attrs,
+            syn::Item::Fn(own) => &mut own.attrs,
+            syn::Item::Impl(own) => &mut own.attrs,
+            syn::Item::Static(own) => &mut own.attrs,
+            syn::Item::Struct(own) => &mut own.attrs,
+            syn::Item::Type(own) => &mut own.attrs,
+            _ => continue,
+        };
+        attributes.push(syn::parse_quote!(#[allow(unreachable_pub, clippy::pedantic)]));
+    }
+    file.into_token_stream()
 }

@@ -136,7 +136,7 @@ fn coverage(arguments: &Arguments, way: Way, cameras: u64, draws: usize) -> [f64
     parts
 }
 
-/// Errors of one camera, the closure squared.
+/// Coverage of one camera, the closure squared.
 fn coverage_of_one(arguments: &Arguments, way: Way, draws: Draws) -> [f64; 6] {
     let (source, all) = estimate(arguments, draws, &[way]);
     let Estimate {

@@ -2,6 +2,19 @@
 
 use branched_pendulum::Pendulum as _;
 
+/// Code that the tool wrote stands under the lints of the user's own.
+#[deny(unreachable_pub, clippy::pedantic)]
+#[rustfmt::skip]
+#[path = "../../fixtures/expanded/paper.rs"]
+mod committed;
+
+#[test]
+fn committed_code_has_no_warnings() {
+    let model = committed::Paper::new();
+    let alpha = model.accelerations(&[0.3, 0.1, 0.1], &[0.0; 3]);
+    assert_eq!(alpha[1], alpha[2]);
+}
+
 /// No prelude, and every name that code might lean on means something else.
 #[no_implicit_prelude]
 mod hostile {
