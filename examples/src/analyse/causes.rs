@@ -329,19 +329,25 @@ impl<const N: usize> Unclosed<'_, N> {
         Some(self.cause("tilt", words, option, |file| file.tilt = Some(tilt)))
     }
 
-    /// A tilt (degrees) by the closure of the equations of motion, which tell it better.
+    /// A tilt (degrees) by the closure of the equations of motion, which tell it better, where it does
+    /// not close their budget as it is.
     fn refined(&self, tilt: f64) -> f64 {
         const BESIDE: f64 = 0.1;
         let own = &self.arguments.measured;
         let estimate = |tilt: f64| {
             let tilt = Some(own.tilt.unwrap_or(0.0) + tilt);
-            let reading = MeasuredFile {
+            let source = self.read(&MeasuredFile {
                 tilt,
                 ..own.clone()
-            };
-            self.estimate(&self.read(&reading)?).map(|(found, _)| found)
+            })?;
+            let (found, draws) = self.estimate(&source)?;
+            let closes = Verdict::of(&source.times, &found, draws).closes();
+            Some((found, closes))
         };
-        let Some((here, beside)) = estimate(tilt).zip(estimate(tilt + BESIDE)) else {
+        let Some((here, false)) = estimate(tilt) else {
+            return tilt;
+        };
+        let Some((beside, _)) = estimate(tilt + BESIDE) else {
             return tilt;
         };
         let weights = least::weights(deviations(&here));
