@@ -258,12 +258,8 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
     source.angles.truncate(count);
-    let findings = source.findings.iter().map(ToString::to_string);
-    let findings: Vec<String> = findings.collect();
-    assert!(
-        findings.contains(&"detected: angles from the upward vertical".to_owned()),
-        "{findings:?}"
-    );
+    let mut findings = source.findings.iter();
+    assert!(findings.any(|f| f.to_string() == "detected: angles from the upward vertical"));
     let measured = Measured {
         subject: &chain,
         record: source.record(),

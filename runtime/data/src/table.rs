@@ -8,8 +8,7 @@ use super::error::{Place, ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, counted, listed};
 use super::format::{DecimalMark, Delimiter, Format, TextLine};
 use super::header::{FileKind, Header, Track};
-use super::names;
-use super::names::quoted;
+use super::names::{self, quoted};
 use super::rows;
 use super::text;
 use super::units::{Unit, bare};
@@ -302,12 +301,9 @@ impl Table {
 
     /// Takes the values of rows away, but for one column.
     pub(crate) fn empty(&mut self, rows: &[bool], but: Option<usize>) {
-        let columns = self.values.iter_mut().enumerate();
-        for (_, values) in columns.filter(|(column, _)| Some(*column) != but) {
-            let of_rows = values.iter_mut().zip(rows);
-            of_rows
-                .filter(|(_, row)| **row)
-                .for_each(|(value, _)| *value = None);
+        for column in (0..self.values.len()).filter(|own| Some(*own) != but) {
+            let values = self.values[column].iter_mut().zip(rows);
+            values.filter(|(_, row)| **row).for_each(|(v, _)| *v = None);
         }
     }
 
