@@ -140,15 +140,15 @@ fn largest_of(trees: u64, intervals: u32) {
 
 #[test]
 fn one_exponent_is_the_largest_of_all() {
-    largest_of(5, 400);
+    largest_of(4, 300);
 }
 
-/// Some minutes: `cargo test -p branched-pendulum-optimised-tests --test exponents -- --ignored
+/// Ten minutes: `cargo test -p branched-pendulum-optimised-tests --test exponents -- --ignored
 /// --nocapture`.
 #[test]
-#[ignore = "some minutes"]
+#[ignore = "ten minutes"]
 fn one_exponent_is_the_largest_of_all_in_two_hundred_trees() {
-    largest_of(200, 1600);
+    largest_of(200, 400);
 }
 
 /// Volumes of coordinates and momenta stay, so that those of angles and velocities go with
