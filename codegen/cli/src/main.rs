@@ -181,7 +181,9 @@ fn with_lints_allowed(tokens: TokenStream) -> TokenStream {
             syn::Item::Type(own) => &mut own.attrs,
             _ => continue,
         };
-        attributes.push(syn::parse_quote!(#[allow(unreachable_pub, clippy::pedantic)]));
+        attributes.push(syn::parse_quote!(
+            #[allow(unreachable_pub, clippy::pedantic, clippy::wrong_self_convention)]
+        ));
     }
     file.into_token_stream()
 }

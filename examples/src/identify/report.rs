@@ -43,7 +43,7 @@ pub fn report(
         ));
     }
     line(format!(
-        "Fitted before {} s, predicted from there on.\n",
+        "Fitted before {:.4} s, predicted from there on.\n",
         measurement.until
     ));
     line("Angles less data, rms in mrad        in windows            one motion".to_owned());
@@ -144,14 +144,14 @@ fn parameters(measurement: &Measurement, reported: &Outcome) -> String {
             Standing::Determined => String::new(),
             Standing::AtBound => "  at its bound".to_owned(),
             Standing::GoesWith(held) => format!("  goes with {}", held.join(", ")),
-            Standing::Held => "  held at its start".to_owned(),
+            Standing::Held => "  held, left open by the data".to_owned(),
         };
         let truth = truth(measurement, &estimate.name);
         let row = format!(
             "{:<34} {:>13.6e} {:>11} {:>11} {}{mark}",
             estimate.name,
             estimate.value,
-            deviation(estimate.by_blocks),
+            deviation(estimate.deviation()),
             deviation(estimate.naive),
             truth.map_or(String::new(), |truth| format!("{truth:>13.6e}"))
         );
@@ -161,7 +161,8 @@ fn parameters(measurement: &Measurement, reported: &Outcome) -> String {
         return text;
     }
     line(format!(
-        "Deviations by {} blocks of the record; naive ones take what is left over for white noise.",
+        "Deviations are the larger of those by {} blocks of the record and of naive ones, which take \
+         what is left over for white noise.",
         fit.blocks
     ));
     line(format!("\n{}", fit.identifiability));
@@ -343,7 +344,7 @@ fn searched(found: &Found) -> Value {
                 Standing::GoesWith(held) => json!(held),
                 _ => json!([]),
             },
-            "deviation": estimate.by_blocks,
+            "deviation": estimate.deviation(),
             "naive": estimate.naive,
         })
     });

@@ -41,7 +41,7 @@ fn trial(number: u64, longest: f64, rate: f64) -> Trial {
 fn worst(fit: &Fit) -> f64 {
     let own = fit.estimates.iter().chain(&fit.ratios);
     let own = own.filter(|estimate| estimate.standing == Standing::Determined);
-    let errors = own.map(|own| (own.value - truth(&own.name)).abs() / own.by_blocks.unwrap());
+    let errors = own.map(|own| (own.value - truth(&own.name)).abs() / own.deviation().unwrap());
     errors.fold(0.0, f64::max)
 }
 

@@ -53,6 +53,16 @@ pub struct ParameterEstimate {
     pub by_blocks: Option<f64>,
 }
 
+impl ParameterEstimate {
+    /// Returns the standard deviation to go by, the larger of the two: blocks see errors that
+    /// are not independent, and are so few that they may find too little.
+    #[must_use]
+    pub fn deviation(&self) -> Option<f64> {
+        let both = self.naive.zip(self.by_blocks);
+        both.map(|(naive, by_blocks)| naive.max(by_blocks))
+    }
+}
+
 /// What the value of an unknown stands on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Standing {
