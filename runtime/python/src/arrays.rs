@@ -34,6 +34,10 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers<'py> {
 
 impl<'py> Numbers<'py> {
     fn converted(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        // NumPy makes a NaN of it.
+        if object.is_none() {
+            return Err(PyTypeError::new_err("None is no real number"));
+        }
         let numpy = object.py().import("numpy")?;
         let is_masked = |object: &Bound<'py, PyAny>| -> PyResult<bool> {
             let answer = numpy.getattr("ma")?.call_method1("is_masked", (object,))?;

@@ -242,7 +242,7 @@ def test_mistakes():
     assert tree.changed(m=0.2).parameters == {"m": 0.2}
     with pytest.raises(KeyError, match="no parameter `n`"):
         tree.changed(n=1)
-    with pytest.raises(ValueError, match="y0 has 3 numbers, must have 6"):
+    with pytest.raises(ValueError, match=r"y0 must have shape \(6,\), got \(3,\)"):
         tree.integrate(np.zeros(3), np.linspace(0, 1, 3))
     with pytest.raises(ValueError, match="there is no method `euler`"):
         tree.integrate(START, np.linspace(0, 1, 3), method="euler")

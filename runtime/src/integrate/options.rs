@@ -185,6 +185,10 @@ impl<T: Real> Options<T> {
             else {
                 continue;
             };
+            // A tolerance below zero is refused as such.
+            if relative < T::ZERO || absolute < T::ZERO {
+                continue;
+            }
             // What starts from zero gets a size that is not known: one, if that counts.
             let size = match value.abs() {
                 size if size > T::ZERO => size,
