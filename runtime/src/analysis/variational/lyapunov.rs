@@ -8,14 +8,14 @@ use super::{Copies, Linearised, Variational};
 use crate::analysis::random::Random;
 use crate::analysis::statistics::Estimate;
 use crate::errors::errors;
-use crate::integrate::{IntegrationError, Integrator};
+use crate::integrate::{DenseStep, IntegrationError, Integrator};
 use crate::system::State;
 
 /// Computation of the exponents of a motion.
 ///
 /// Deviations are integrated beside the motion over equal intervals, after each
-/// of which they are made orthonormal again; the mean logarithms of what that
-/// takes are the exponents, the largest first. Source: G. Benettin, L. Galgani,
+/// of which they are made orthonormal again, and before where one has grown a thousandfold; the
+/// mean logarithms of what that takes are the exponents, the largest first. Source: G. Benettin, L. Galgani,
 /// A. Giorgilli, J.-M. Strelcyn, *Lyapunov characteristic exponents for smooth
 /// dynamical systems*, Meccanica 15 (1980) 9–30.
 ///
@@ -156,6 +156,9 @@ impl From<IntegrationError<f64>> for LyapunovError {
 /// Parts of a run whose spread gives the standard error.
 const PARTS: usize = 10;
 
+/// Growth of a deviation after which all are made orthonormal again, within an interval too.
+const LARGEST_GROWTH: f64 = 1e3;
+
 /// Deviations that are looked at.
 #[derive(Clone, Copy)]
 enum Deviations<'a> {
@@ -193,6 +196,64 @@ impl Deviations<'_> {
         if let Self::Within(copies) | Self::Transverse(copies) = self {
             copies.keep_common(motion);
         }
+    }
+
+    /// Takes from vectors of length `n` that follow each other what is no such deviation and
+    /// makes them orthonormal; returns the logarithms of the lengths that this takes out.
+    fn orthonormalise(
+        self,
+        vectors: &mut [f64],
+        time: f64,
+        n: usize,
+    ) -> Result<Vec<f64>, LyapunovError> {
+        self.keep(vectors, n);
+        let factors = DMatrix::from_column_slice(n, vectors.len() / n, vectors).qr();
+        let lengths = factors.r().diagonal().map(f64::abs);
+        let is_length = |length: &f64| length.is_finite() && *length > 0.0;
+        if !lengths.iter().all(is_length) {
+            return Err(LyapunovError::Degenerate { time });
+        }
+        vectors.copy_from_slice(factors.q().as_slice());
+        Ok(lengths.iter().map(|length| length.ln()).collect())
+    }
+
+    /// Follows orthonormal deviations from a motion to a time, where they are made orthonormal
+    /// again; returns the logarithms of their growth. Before that time too, wherever one has grown
+    /// by [`LARGEST_GROWTH`]: the rounding of a large part would pass the tolerance of those
+    /// beside it that are small, and no step would be short enough.
+    fn grow<L, M>(
+        self,
+        method: &M,
+        system: &Variational<'_, L>,
+        motion: &State<f64>,
+        vectors: &mut [f64],
+        end: f64,
+    ) -> Result<Vec<f64>, LyapunovError>
+    where
+        L: Linearised<f64>,
+        M: for<'a> Integrator<f64, Variational<'a, L>>,
+    {
+        let dimension = motion.values.len();
+        let mut growth = vec![0.0; vectors.len() / dimension];
+        let mut both = State::new(motion.time, [&motion.values, &*vectors].concat());
+        let has_grown = |step: &mut DenseStep<'_, f64>| {
+            let deviations = step.end().get(dimension..).unwrap_or_default();
+            match deviations.iter().any(|part| part.abs() > LARGEST_GROWTH) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        while both.time != end {
+            both = method.integrate(system, &both, end, has_grown)?.state;
+            let (beside, deviations) = both.values.split_at_mut(dimension);
+            self.keep_motion(beside);
+            let logarithms = self.orthonormalise(deviations, both.time, dimension)?;
+            for (sum, logarithm) in growth.iter_mut().zip(logarithms) {
+                *sum += logarithm;
+            }
+        }
+        vectors.copy_from_slice(both.values.get(dimension..).unwrap_or_default());
+        Ok(growth)
     }
 }
 
@@ -299,21 +360,14 @@ impl Lyapunov {
         // One row of logarithms for each interval that counts.
         let mut logarithms: Vec<Vec<f64>> = Vec::new();
         let settling = u64::from(settling);
-        for number in 0..=settling + u64::from(intervals) {
+        kept.keep_motion(&mut motion.values);
+        kept.orthonormalise(&mut vectors, start.time, dimension)?;
+        for number in 1..=settling + u64::from(intervals) {
             let end = start.time + number as f64 * interval;
-            if number > 0 {
-                let run = |system: &Variational<'_, L>, state: &State<f64>| {
-                    method.integrate(system, state, end, |_| ControlFlow::Continue(()))
-                };
-                let both = [motion.values.as_slice(), &vectors].concat();
-                let both = run(&all, &State::new(motion.time, both))?.state;
-                vectors.copy_from_slice(&both.values[dimension..]);
-                motion = run(&alone, &motion)?.state;
-            }
+            let row = kept.grow(method, &all, &motion, &mut vectors, end)?;
+            let run = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
+            motion = method.integrate(&alone, &motion, end, run)?.state;
             kept.keep_motion(&mut motion.values);
-            kept.keep(&mut vectors, dimension);
-            let row = orthonormalise(&mut vectors, dimension)
-                .ok_or(LyapunovError::Degenerate { time: end })?;
             if number > settling {
                 logarithms.push(row);
             }
@@ -341,16 +395,4 @@ impl Lyapunov {
             end: motion,
         })
     }
-}
-
-/// Makes vectors of length `n` that follow each other orthonormal; returns the logarithms of
-/// the lengths that this takes out, none if one is zero or not finite.
-fn orthonormalise(vectors: &mut [f64], n: usize) -> Option<Vec<f64>> {
-    let factors = DMatrix::from_column_slice(n, vectors.len() / n, vectors).qr();
-    let lengths = factors.r().diagonal().map(f64::abs);
-    let is_length = |length: &f64| length.is_finite() && *length > 0.0;
-    lengths.iter().all(is_length).then(|| {
-        vectors.copy_from_slice(factors.q().as_slice());
-        lengths.iter().map(|length| length.ln()).collect()
-    })
 }
