@@ -12,7 +12,7 @@
 
 use std::hint::black_box;
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
@@ -82,7 +82,7 @@ fn states(links: usize) -> Vec<[Vec<f64>; 2]> {
 
 /// Accelerations of states one by one.
 fn one_by_one<M: Pendulum<f64> + 'static>(model: M) -> Passes {
-    let (states, mut alpha) = (states(M::LINKS), vec![0.0; M::LINKS]);
+    let (states, mut alpha) = (states(model.links()), vec![0.0; model.links()]);
     let mut workspace = Workspace::new();
     warm(move || {
         for [theta, omega] in black_box(&states) {
@@ -115,14 +115,14 @@ const RODS: &str = "gravity = 9.80665,
         mass_ratio = 0.5, length_ratio = 0.7)";
 
 /// Accelerations of states in lanes.
-fn in_lanes<M: Cast<f64> + 'static>(model: M) -> Passes {
+fn in_lanes<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     let columns = |scale: f64| -> Vec<Vec<f64>> {
         let column = |link| {
             (0..PASSES)
                 .map(|state| scale * angle(link, state))
                 .collect()
         };
-        (0..M::LINKS).map(column).collect()
+        (0..model.links()).map(column).collect()
     };
     let (theta, omega, mut alpha) = (columns(1.0), columns(2.0), columns(0.0));
     warm(move || {
@@ -134,7 +134,7 @@ fn in_lanes<M: Cast<f64> + 'static>(model: M) -> Passes {
 
 /// Kinetic and potential energy.
 fn both_energies<M: Energy<f64> + 'static>(model: M) -> Passes {
-    let (states, mut workspace) = (states(M::LINKS), Workspace::new());
+    let (states, mut workspace) = (states(model.links()), Workspace::new());
     warm(move || {
         for [theta, omega] in black_box(&states) {
             black_box(model.kinetic_energy_with(&mut workspace, theta, omega));

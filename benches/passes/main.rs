@@ -8,7 +8,7 @@
 mod variants;
 
 use branched_pendulum::batch::Batch;
-use branched_pendulum::{Pendulum, Cast};
+use branched_pendulum::{Pendulum};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::hint::black_box;
@@ -56,7 +56,7 @@ fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     })
 }
 
-fn batch<const N: usize>(model: impl Cast<f64> + 'static) -> Pass {
+fn batch<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     let columns = |rows: &[[f64; N]]| -> Vec<Vec<f64>> {
         (0..N).map(|link| rows.iter().map(|row| row[link]).collect()).collect()
     };

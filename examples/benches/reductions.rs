@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 use branched_pendulum::integrate::LaneMethod;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneOde, TransverseOde};
-use branched_pendulum::{Cast, Scalar, Transverse};
+use branched_pendulum::{Pendulum, Scalar, Transverse};
 use branched_pendulum_examples::scenes::BranchedDouble;
 
 /// 2²⁰ − 1 rods in phase.

@@ -54,7 +54,7 @@ struct Case<'a> {
 }
 
 fn row<M: Pendulum<f64> + Scales<f64>>(model: &M) {
-    let links = M::LINKS;
+    let links = model.links();
     let angle = |link: usize| ((7 * link + 13) % 64) as f64 / 32.0 - 1.0;
     let theta: Vec<f64> = (0..links).map(angle).collect();
     let omega: Vec<f64> = (0..links).map(|link| 3.0 * angle(link + 5)).collect();

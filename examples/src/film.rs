@@ -8,7 +8,7 @@ use branched_pendulum_charts::FilmLink;
 /// The links of a model, from pivot to end.
 pub fn links<P: Positions<f64>>(model: &P) -> Vec<FilmLink> {
     let links = (0..).map_while(|link| model.properties_of(link));
-    let across = if P::STANDS { -1.0 } else { 1.0 };
+    let across = if model.stands() { -1.0 } else { 1.0 };
     let place = |[along, lateral]: [f64; 2]| [along, across * lateral];
     links
         .map(|link| FilmLink {
@@ -20,9 +20,9 @@ pub fn links<P: Positions<f64>>(model: &P) -> Vec<FilmLink> {
 }
 
 /// The angles of a model from the downward vertical.
-pub fn angles<P: Positions<f64>>(_: &P, theta: &[f64]) -> Vec<f64> {
+pub fn angles<P: Positions<f64>>(model: &P, theta: &[f64]) -> Vec<f64> {
     let theta = theta.iter();
-    match P::STANDS {
+    match model.stands() {
         true => theta.map(|angle| PI - angle).collect(),
         false => theta.copied().collect(),
     }

@@ -7,21 +7,24 @@
 //! accelerations.
 //!
 //! ```
-//! # use branched_pendulum::{Pendulum, Cast, Scalar};
+//! # use branched_pendulum::{Model, Pendulum, Scalar};
+//! # use branched_pendulum::system::LinkName;
 //! use branched_pendulum::batch::Batch;
 //! # struct Rod<T>(T);
-//! # impl<T: Scalar> Pendulum<T> for Rod<T> {
-//! #     const LINKS: usize = 1;
-//! #     const LINK_NAMES: &'static [&'static str] = &["rod"];
-//! #     fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-//! #         self.accelerate(time, theta, omega, alpha);
-//! #     }
-//! # }
-//! # impl<T: Scalar> Cast<T> for Rod<T> {
+//! # impl<T: Scalar> Model<T> for Rod<T> {
 //! #     type Of<S: Scalar> = Rod<S>;
+//! #     const KNOWN_LINKS: Option<usize> = Some(1);
+//! #     fn links(&self) -> usize {
+//! #         1
+//! #     }
+//! #     fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+//! #         LinkName::in_list(&["rod"], index)
+//! #     }
 //! #     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
 //! #         Rod(convert(self.0))
 //! #     }
+//! # }
+//! # impl<T: Scalar> Pendulum<T> for Rod<T> {
 //! #     fn evaluate(
 //! #         &self,
 //! #         _time: T,
@@ -53,8 +56,8 @@ use alloc::vec::Vec;
 
 use crate::scalar::{InstructionSet, Lane, at};
 use crate::simd::dispatch;
-use crate::system::cast;
-use crate::system::{Cast, Workspace};
+use crate::system::pendulum;
+use crate::system::{Pendulum, Workspace};
 use blocks::Blocks;
 
 pub use error::BatchError;
@@ -80,7 +83,7 @@ pub struct Batch<'m, P, T> {
     room: Vec<T>,
 }
 
-impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
+impl<'m, P: Pendulum<T>, T: Lane> Batch<'m, P, T> {
     /// For a `pendulum` in `f64` or `f32`. Uses the widest registers that the
     /// machine has.
     ///
@@ -91,7 +94,7 @@ impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
         Self {
             pendulum,
             instructions: InstructionSet::widest(),
-            alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); P::LINKS]),
+            alone: core::array::from_fn(|_| alloc::vec![T::from_f64(0.0); pendulum.links()]),
             workspace: Workspace::new(),
             room: alloc::vec![T::from_f64(0.0); room::<T>(pendulum.room())],
         }
@@ -128,14 +131,15 @@ impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
         omega: &[impl AsRef<[T]>],
         alpha: &mut [impl AsMut<[T]>],
     ) -> Result<(), BatchError> {
+        let links = self.pendulum.links();
         let count = theta.first().map_or(0, |angles| angles.as_ref().len());
         let lengths = theta.iter().map(|s| s.as_ref().len());
-        check(P::LINKS, count, "theta", theta.len(), lengths)?;
+        check(links, count, "theta", theta.len(), lengths)?;
         let lengths = omega.iter().map(|s| s.as_ref().len());
-        check(P::LINKS, count, "omega", omega.len(), lengths)?;
+        check(links, count, "omega", omega.len(), lengths)?;
         let outputs = alpha.len();
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
-        check(P::LINKS, count, "alpha", outputs, lengths)?;
+        check(links, count, "alpha", outputs, lengths)?;
         let blocks = Blocks {
             pendulum: self.pendulum,
             time,
@@ -153,7 +157,7 @@ impl<'m, P: Cast<T>, T: Lane> Batch<'m, P, T> {
     }
 }
 
-impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
+impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
     /// Evaluates states one by one, where there are too few for a register.
     fn one_by_one(
         &mut self,
@@ -171,14 +175,14 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
             *own = at(slice.as_ref(), state);
         }
         if self.instructions == InstructionSet::Build {
-            cast::unfused(self.pendulum, time, own_theta, own_omega, own_alpha);
+            pendulum::unfused(self.pendulum, time, own_theta, own_omega, own_alpha);
         } else {
             let pendulum = self.pendulum;
             let workspace = &mut self.workspace;
             pendulum.accelerations_with(workspace, time, own_theta, own_omega, own_alpha);
         }
         for (own, slice) in own_alpha.iter().zip(alpha) {
-            cast::put(slice.as_mut(), state, *own);
+            pendulum::put(slice.as_mut(), state, *own);
         }
     }
 }

@@ -30,22 +30,40 @@
 //!
 //! ```
 //! use branched_pendulum::prelude::*;
+//! use branched_pendulum::system::LinkName;
 //!
 //! /// A uniform rod of length `length`, in metres.
-//! struct Rod {
-//!     length: f64,
+//! struct Rod<T> {
+//!     length: T,
 //! }
 //!
-//! impl<T: Scalar> Pendulum<T> for Rod {
-//!     const LINKS: usize = 1;
-//!     const LINK_NAMES: &'static [&'static str] = &["rod"];
+//! impl<T: Scalar> Model<T> for Rod<T> {
+//!     type Of<S: Scalar> = Rod<S>;
+//!     const KNOWN_LINKS: Option<usize> = Some(1);
 //!
-//!     fn accelerations_into(&self, _time: T, theta: &[T], _omega: &[T], alpha: &mut [T]) {
+//!     fn links(&self) -> usize {
+//!         1
+//!     }
+//!     fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+//!         (index == 0).then(|| LinkName::listed("rod"))
+//!     }
+//!     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Rod<S> {
+//!         Rod { length: convert(self.length) }
+//!     }
+//! }
+//!
+//! impl<T: Scalar> Pendulum<T> for Rod<T> {
+//!     #[inline(always)]
+//!     fn evaluate(
+//!         &self,
+//!         _time: T,
+//!         theta: impl Fn(usize) -> T,
+//!         _omega: impl Fn(usize) -> T,
+//!         mut alpha: impl FnMut(usize, T),
+//!     ) {
 //!         // (m length^2 / 3) theta'' = -m g (length / 2) sin(theta)
-//!         let factor = T::from_f64(1.5 * 9.80665 / self.length);
-//!         for (alpha, theta) in alpha.iter_mut().zip(theta) {
-//!             *alpha = -(factor * theta.sin_cos().0);
-//!         }
+//!         let factor = T::from_f64(1.5 * 9.80665) / self.length;
+//!         alpha(0, -(factor * theta(0).sin_cos().0));
 //!     }
 //! }
 //!
@@ -112,7 +130,7 @@ pub use model::{ParameterError, Transfer};
 pub use scalar::Scalar;
 pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{
-    Canonical, Cast, Energy, Forced, ForcedDifferences, Parametric, Pendulum, Positions,
+    Canonical, Energy, Forced, ForcedDifferences, Model, Parametric, Pendulum, Positions,
     Prescribed, SmallDifferences, SymmetricPendulum, TaylorPendulum, Transverse, WholeTree,
 };
 pub use transfer_forms::{TransferForm, TransferForms};

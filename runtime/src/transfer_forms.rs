@@ -104,7 +104,7 @@ pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
     /// coordinates (rad) and their momenta (kg m²/s).
     ///
     /// A form that there is not, and slices of other lengths than
-    /// [`LINKS`](crate::Pendulum::LINKS) and that of the receivers, are
+    /// the number of links and that of the receivers, are
     /// answered with NaN.
     fn transfers_into(
         &self,
@@ -116,6 +116,6 @@ pub trait TransferForms<T: Scalar>: SymmetricPendulum<T> {
 
     /// Writes the momenta (kg m²/s) that belong to symmetric coordinates (rad)
     /// with the velocities `rates` (rad/s); NaN for slices of other lengths than
-    /// [`LINKS`](crate::Pendulum::LINKS).
+    /// the number of links.
     fn symmetric_momenta_into(&self, coordinates: &[T], rates: &[T], momenta: &mut [T]);
 }

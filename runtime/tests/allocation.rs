@@ -9,13 +9,13 @@ mod damaged;
 
 use std::num::NonZeroUsize;
 
+use branched_pendulum::TaylorPendulum;
 use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear};
 use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{OdeFn, TaylorOde};
+use branched_pendulum::system::{LinkName, OdeFn, TaylorOde};
 use branched_pendulum::taylor::Quad;
-use branched_pendulum::{Cast, TaylorPendulum};
 use counting::allocations;
 
 const STEP: f64 = 1e-3;
@@ -184,22 +184,24 @@ fn taylor_series() {
 #[derive(Clone, Copy)]
 struct Oscillator<T>(T);
 
-impl<T: Scalar> Pendulum<T> for Oscillator<T> {
-    const LINKS: usize = 1;
-    const LINK_NAMES: &'static [&'static str] = &["oscillator"];
-
-    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        Cast::accelerate(self, time, theta, omega, alpha);
-    }
-}
-
-impl<T: Scalar> Cast<T> for Oscillator<T> {
+impl<T: Scalar> Model<T> for Oscillator<T> {
     type Of<S: Scalar> = Oscillator<S>;
+    const KNOWN_LINKS: Option<usize> = Some(1);
+
+    fn links(&self) -> usize {
+        1
+    }
+
+    fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+        LinkName::in_list(&["oscillator"], index)
+    }
 
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Oscillator<S> {
         Oscillator(convert(self.0))
     }
+}
 
+impl<T: Scalar> Pendulum<T> for Oscillator<T> {
     #[inline(always)]
     fn evaluate(
         &self,

@@ -11,6 +11,7 @@ mod formulas;
 mod function;
 mod gather;
 mod latex;
+mod links;
 mod model;
 mod names;
 mod observables;

@@ -178,7 +178,10 @@ impl Emission<'_> {
         let runtime = self.runtime();
         let stands = self.scene.stands().then(|| {
             quote!(
-                const STANDS: bool = true;
+                #[inline]
+                fn stands(&self) -> bool {
+                    true
+                }
             )
         });
         quote! {

@@ -26,16 +26,17 @@ impl Emission<'_> {
 
     /// The sets of the runtime's trait.
     fn prescribed_sets(&self) -> TokenStream {
-        let runtime = self.runtime();
         let sets = self.scene.prescribed.iter();
-        let sets = sets.map(|PrescribedSet { name, links, .. }| {
+        let sets = sets.map(|PrescribedSet { links, .. }| {
             let links = links.iter().map(|link| Literal::usize_unsuffixed(link.0));
-            quote! {
-                #runtime::system::PrescribedLinks { name: #name, links: &[#(#links),*] }
-            }
+            quote!(&[#(#links),*])
         });
         quote! {
-            const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[#(#sets),*];
+            #[inline]
+            fn prescribed_links(&self, set: usize) -> ::core::option::Option<&[usize]> {
+                const SETS: &[&[usize]] = &[#(#sets),*];
+                SETS.get(set).copied()
+            }
         }
     }
 
@@ -49,7 +50,7 @@ impl Emission<'_> {
             return Some(self.prescribed_in_loops());
         }
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let constants = self.prescribed_sets();
+        let links = self.prescribed_sets();
         let outputs = ["alpha", "reactions"];
         let arms = (0..sets.len()).map(|number| {
             let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
@@ -78,7 +79,7 @@ impl Emission<'_> {
         );
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-                #constants
+                #links
 
                 #accelerations
             }
@@ -88,12 +89,12 @@ impl Emission<'_> {
     /// The function of a tree in loops.
     fn prescribed_in_loops(&self) -> TokenStream {
         let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
-        let (constants, other) = (self.prescribed_sets(), super::other_scalar(name));
+        let (links, other) = (self.prescribed_sets(), super::other_scalar(name));
         let drive = self.drive_at_time();
         let drive_of = self.drive_of(&quote!(pendulum));
         quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-                #constants
+                #links
 
                 fn accelerations_prescribed_into(
                     &self,
@@ -118,8 +119,7 @@ impl Emission<'_> {
                     alpha: &mut [T],
                     reactions: &mut [T],
                 ) {
-                    let links = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(set);
-                    let links = links.map(|set| set.links);
+                    let links = #runtime::Prescribed::prescribed_links(self, set);
                     self.tree.accelerations_prescribed_with(
                         workspace, #drive, links, motion, [alpha, reactions],
                     );
@@ -134,8 +134,7 @@ impl Emission<'_> {
                     alpha: &mut [#other],
                     reactions: &mut [#other],
                 ) {
-                    let links = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(set);
-                    let links = links.map(|set| set.links);
+                    let links = #runtime::Prescribed::prescribed_links(pendulum, set);
                     pendulum.tree.evaluate_prescribed(
                         #drive_of, links, motion, [alpha, reactions],
                     );

@@ -93,7 +93,7 @@ impl Emission<'_> {
         };
         quote! {
             let mut alpha = [T::from_f64(0.0); #links];
-            #runtime::Cast::evaluate(
+            #runtime::Pendulum::evaluate(
                 self,
                 #time,
                 |link| theta[link],

@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
-use super::tokens::{count, ident};
+use super::tokens::ident;
 use crate::functions::Purpose;
 use crate::program::LoopTree;
 use crate::scene::Layout;
@@ -46,7 +46,7 @@ impl Emission<'_> {
     }
 
     /// `Tree<…>`, the model's first field.
-    fn tree_type(&self) -> TokenStream {
+    pub(super) fn tree_type(&self) -> TokenStream {
         let (runtime, equations) = (self.runtime(), self.equations_name());
         quote!(#runtime::tree::Tree<#equations, T>)
     }
@@ -133,8 +133,7 @@ impl Emission<'_> {
                 let body = quote! {
                     let mut reactions = [T::from_f64(0.0); #held];
                     #workspace
-                    let held = <Self as #runtime::Prescribed<T>>::PRESCRIBED.get(#number);
-                    let held = held.map(|set| set.links);
+                    let held = #runtime::Prescribed::prescribed_links(self, #number);
                     let motion =
                         #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
                     self.tree.accelerations_prescribed_with(
@@ -196,31 +195,29 @@ impl Emission<'_> {
     fn strip_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let (time, drive) = (self.time_name(), self.drive_at_time());
-        let (links, names, by_path) = match self.scene.layout {
-            Layout::Generations { links, .. } => {
-                let tree = self.tree_type();
-                let by_path = quote! {
-                    fn link_name(
-                        index: usize,
-                    ) -> ::core::option::Option<#runtime::tree::LinkName> {
-                        <#tree>::link_name(index)
-                    }
-                };
-                (links, Vec::new(), Some(by_path))
-            }
-            _ => {
-                let names = self.scene.links.iter().map(|link| &link.name);
-                (self.scene.links.len(), names.collect(), None)
-            }
-        };
-        let links = count(links);
         let (fields, other) = (self.cast_fields(), super::other_scalar(name));
+        let model = self.model_trait(&quote! {
+            fn cast<#other: #runtime::Scalar>(
+                &self,
+                convert: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> {
+                #name { #(#fields),* }
+            }
+        });
         quote! {
-            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
-                const LINKS: usize = #links;
-                const LINK_NAMES: &'static [&'static str] = &[#(#names),*];
+            #model
 
-                #by_path
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
+                #[inline(always)]
+                fn evaluate(
+                    &self,
+                    #time: T,
+                    theta: impl ::core::ops::Fn(usize) -> T,
+                    omega: impl ::core::ops::Fn(usize) -> T,
+                    alpha: impl ::core::ops::FnMut(usize, T),
+                ) {
+                    self.tree.evaluate(#drive, theta, omega, alpha);
+                }
 
                 fn accelerations_into(
                     &self,
@@ -241,28 +238,6 @@ impl Emission<'_> {
                     alpha: &mut [T],
                 ) {
                     self.tree.accelerations_with(workspace, #drive, theta, omega, alpha);
-                }
-            }
-
-            impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
-                type Of<#other: #runtime::Scalar> = #name<#other>;
-
-                fn cast<#other: #runtime::Scalar>(
-                    &self,
-                    convert: impl ::core::ops::Fn(T) -> #other,
-                ) -> #name<#other> {
-                    #name { #(#fields),* }
-                }
-
-                #[inline(always)]
-                fn evaluate(
-                    &self,
-                    #time: T,
-                    theta: impl ::core::ops::Fn(usize) -> T,
-                    omega: impl ::core::ops::Fn(usize) -> T,
-                    alpha: impl ::core::ops::FnMut(usize, T),
-                ) {
-                    self.tree.evaluate(#drive, theta, omega, alpha);
                 }
 
                 fn room(&self) -> usize {

@@ -40,10 +40,10 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             const SECTORS: &'static [#runtime::sectors::Sector] = &[];
         }
 
-        impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
-            const LINKS: usize = 0;
-            const LINK_NAMES: &'static [&'static str] = &[];
-            fn accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
+        #[allow(missing_docs)]
+        impl #name<f64> {
+            pub const LINKS: usize = 0;
+            pub const LINK_NAMES: &'static [&'static str] = &[];
         }
 
         impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {
@@ -51,11 +51,21 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn canonical_rates(&self, _: T, _: &[T], _: &[T], _: &mut [T], _: &mut [T]) {}
         }
 
-        impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
+        impl<T: #runtime::Scalar> #runtime::Model<T> for #name<T> {
             type Of<#other: #runtime::Scalar> = #name<#other>;
+            const KNOWN_LINKS: ::core::option::Option<usize> = ::core::option::Option::Some(0);
+            fn links(&self) -> usize { 0 }
+            fn link_name(
+                &self, _: usize,
+            ) -> ::core::option::Option<#runtime::system::LinkName<'_>> {
+                ::core::option::Option::None
+            }
             fn cast<#other: #runtime::Scalar>(
                 &self, _: impl ::core::ops::Fn(T) -> #other,
             ) -> #name<#other> { ::core::unimplemented!() }
+        }
+
+        impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
             fn evaluate(
                 &self,
                 _: T,
@@ -189,7 +199,9 @@ fn prescribed(naming: &Naming, name: &Ident, runtime: &TokenStream) -> Option<To
         let other = super::other_scalar(name);
         quote! {
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-                const PRESCRIBED: &'static [#runtime::system::PrescribedLinks] = &[];
+                fn prescribed_links(&self, _: usize) -> ::core::option::Option<&[usize]> {
+                    ::core::option::Option::None
+                }
                 fn accelerations_prescribed_into(
                     &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
                     _: &mut [T], _: &mut [T],

@@ -57,8 +57,7 @@ impl Emission<'_> {
     }
 
     fn pendulum(&self) -> TokenStream {
-        let (name, runtime, links) = (&self.item.ident, self.runtime(), self.links());
-        let link_names = self.scene.links.iter().map(|link| &link.name);
+        let (name, runtime) = (&self.item.ident, self.runtime());
         let call = match self.mechanics.drive.is_some() {
             true => quote!(self.accelerations(time, &theta, &omega)),
             false => quote!(self.accelerations(&theta, &omega)),
@@ -86,35 +85,25 @@ impl Emission<'_> {
             .into_iter()
             .map(|id| self.field(id))
             .collect();
-        let other = super::other_scalar(name);
         let convert = match fields.is_empty() {
             true => quote!(_convert),
             false => quote!(convert),
         };
-        quote! {
-            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
-                const LINKS: usize = #links;
-                const LINK_NAMES: &'static [&'static str] = &[#(#link_names),*];
-
-                // In fused arithmetic where the machine has it.
-                #[inline]
-                fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-                    #runtime::Cast::accelerate(self, time, theta, omega, alpha);
-                }
+        let other = super::other_scalar(name);
+        let model = self.model_trait(&quote! {
+            #[inline(always)]
+            fn cast<#other: #runtime::Scalar>(
+                &self,
+                #convert: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> {
+                #name { #(#fields: convert(self.#fields)),* }
             }
+        });
+        quote! {
+            #model
 
             #allow
-            impl<T: #runtime::Scalar> #runtime::Cast<T> for #name<T> {
-                type Of<#other: #runtime::Scalar> = #name<#other>;
-
-                #[inline(always)]
-                fn cast<#other: #runtime::Scalar>(
-                    &self,
-                    #convert: impl ::core::ops::Fn(T) -> #other,
-                ) -> #name<#other> {
-                    #name { #(#fields: convert(self.#fields)),* }
-                }
-
+            impl<T: #runtime::Scalar> #runtime::Pendulum<T> for #name<T> {
                 #[inline(always)]
                 fn evaluate(
                     &self,

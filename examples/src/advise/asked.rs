@@ -187,14 +187,14 @@ fn cascade<R>(
         CascadeInPhase::new(),
     );
     let ode = AbsoluteAngles(&model);
-    let links = <Cascade as Pendulum<f64>>::LINKS;
+    let links = Cascade::LINKS;
     let advisor = asked(Advisor::new(&ode), question, &model, |more| {
         released(links, 0.4 + more)
     })
     .conserved(Wanted::energy(&model, DRIFT));
     // Generation by generation in loops, branch by branch where the tree is written out, or
     // would be without its reduction: Taylor series are written out.
-    let places = places::<Cascade, CascadeWrittenOut>();
+    let places = places(&model, &written_out);
     let out = ModelForm::new("written out")
         .entry("code = unrolled")
         .ordered(&places);
@@ -215,13 +215,13 @@ fn branch<R>(
 ) -> Result<R, AdviceError> {
     let (model, loops, chain) = (Branch::new(), BranchLoops::new(), BranchInPhase::new());
     let ode = AbsoluteAngles(&model);
-    let links = <Branch as Pendulum<f64>>::LINKS;
+    let links = Branch::LINKS;
     let advisor = asked(Advisor::new(&ode), question, &model, |more| {
         released(links, 0.3 + more)
     });
     let in_loops = ModelForm::new("loops")
         .entry("code = loops")
-        .ordered(&places::<Branch, BranchLoops>());
+        .ordered(&places(&model, &loops));
     let in_phase = ModelForm::new("in phase")
         .entry("in_phase(all)")
         .reduced(BranchInPhase::WHOLE);
@@ -290,19 +290,14 @@ fn by_halves(state: &[f64], map: impl Fn(&[f64; 3]) -> [f64; 3]) -> Vec<f64> {
     [map(&three(q)), map(&three(v))].concat()
 }
 
-/// For each link of `P` the place of the link of that name in `Q`.
-fn places<P: Pendulum<f64>, Q: Pendulum<f64>>() -> Vec<usize> {
-    let name = |found: Option<_>| match found {
-        Some(name) => format!("{name}"),
-        None => String::new(),
-    };
-    let others: Vec<String> = (0..Q::LINKS).map(|link| name(Q::link_name(link))).collect();
-    let place = |link: usize| {
-        let own = name(P::link_name(link));
+/// For each link of a model the place of the link of that name in another.
+fn places<P: Pendulum<f64>, Q: Pendulum<f64>>(model: &P, other: &Q) -> Vec<usize> {
+    let (own, others) = (model.link_names().into_iter(), other.link_names());
+    let place = |(link, own)| {
         others
             .iter()
             .position(|other| *other == own)
             .unwrap_or(link)
     };
-    (0..P::LINKS).map(place).collect()
+    own.enumerate().map(place).collect()
 }

@@ -4,7 +4,7 @@ use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::{Cast, Parametric};
+use branched_pendulum::{Model, Parametric};
 
 use super::motion::{Motion, Record, Smoothed, by_equations};
 use crate::branched_double::apparatus::EXACT;

@@ -133,7 +133,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
         let states: Vec<_> = states.zip(motors).collect();
         let mut together = Together::new(self.tree, &states);
         let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
-        let mut torques = vec![0.0; P::LINKS];
+        let mut torques = vec![0.0; self.tree.links()];
         let mut sums = vec![Window::new(self.arguments.shape().generations); starts.len()];
         for step in 0..steps {
             let place = u64::from(steps) * self.window as u64 + u64::from(step);
@@ -144,7 +144,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
             let time = self.arguments.time(place + 1);
             for (start, (sums, motor)) in sums.iter_mut().zip(motors).enumerate() {
                 let state = together.state(start);
-                let (theta, omega) = state.split_at(P::LINKS);
+                let (theta, omega) = state.split_at(self.tree.links());
                 torques[0] = motor.torque(time);
                 self.tree.budget_by_scale_under(
                     &mut workspace,

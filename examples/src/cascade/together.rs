@@ -26,7 +26,7 @@ pub struct Together<'a, P> {
 impl<'a, P: RodTree> Together<'a, P> {
     /// Starts from `states`, angles before velocities, each with its motor.
     pub fn new(tree: &'a P, starts: &[(&[f64], &'a Motor)]) -> Self {
-        let zeros = || vec![vec![0.0; starts.len()]; P::LINKS];
+        let zeros = || vec![vec![0.0; starts.len()]; tree.links()];
         let column = |number: usize| {
             let numbers = starts.iter().map(|(state, _)| state.get(number));
             numbers
@@ -36,8 +36,8 @@ impl<'a, P: RodTree> Together<'a, P> {
         Self {
             batch: Batch::new(tree),
             motors: starts.iter().map(|(_, motor)| *motor).collect(),
-            theta: (0..P::LINKS).map(column).collect(),
-            omega: (P::LINKS..2 * P::LINKS).map(column).collect(),
+            theta: (0..tree.links()).map(column).collect(),
+            omega: (tree.links()..2 * tree.links()).map(column).collect(),
             torques: zeros(),
             stage: [zeros(), zeros(), zeros()],
             sums: [zeros(), zeros()],
@@ -79,7 +79,7 @@ impl<'a, P: RodTree> Together<'a, P> {
     /// stage before.
     fn stage(&mut self, reach: f64) {
         let [theta, omega, alpha] = &mut self.stage;
-        for link in 0..P::LINKS {
+        for link in 0..self.theta.len() {
             let own = (&mut theta[link], &mut omega[link], &alpha[link]);
             for (start, &angle) in self.theta[link].iter().enumerate() {
                 let velocity = self.omega[link][start];

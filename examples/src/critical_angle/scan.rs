@@ -92,7 +92,7 @@ impl Scan {
         let ode = first_sector(&model)?;
         let releases = angles_deg.iter().chain(&PAPER);
         let releases: Vec<_> = releases
-            .map(|degrees| (ode, at_rest::<InPhase>(*degrees, 0.0)))
+            .map(|degrees| (ode, at_rest(&model, *degrees, 0.0)))
             .collect();
         let growth = Growth {
             frequency_hz: frequency_at_rest(&ode),

@@ -28,10 +28,10 @@ pub fn first_sector<P: Transverse<f64>>(model: P) -> Result<TransverseOde<P>, Fa
 
 /// A release from rest, all links but the parent at one angle, with a difference of one of all
 /// its links alike; angles in degrees.
-pub fn at_rest<P: Transverse<f64>>(parent: f64, children: f64) -> State<f64> {
-    let mut angles = vec![children.to_radians(); P::LINKS];
+pub fn at_rest<P: Transverse<f64>>(model: &P, parent: f64, children: f64) -> State<f64> {
+    let mut angles = vec![children.to_radians(); model.links()];
     angles[0] = parent.to_radians();
     let links = P::TRANSVERSE.first().map_or(0, |sector| sector.links);
-    angles.resize(P::LINKS + links, 1.0);
+    angles.resize(model.links() + links, 1.0);
     State::at_rest(0.0, &angles)
 }

@@ -114,7 +114,7 @@ fn along<P: Transverse<f64> + Sync>(
     let ode = first_sector(model)?;
     let releases = arguments.angles_deg.iter();
     let releases: Vec<_> = releases
-        .map(|degrees| (ode, at_rest::<P>(*degrees, 0.0)))
+        .map(|degrees| (ode, at_rest(model, *degrees, 0.0)))
         .collect();
     let frequency_hz = frequency_at_rest(&ode);
     let growth = Growth {

@@ -1,7 +1,7 @@
 //! The two trees, all of whose properties are parameters.
 
+use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
-use branched_pendulum::{Cast, Parametric};
 
 /// A chain of two links.
 #[branched_pendulum(
@@ -32,7 +32,9 @@ pub struct Chain;
 pub struct Branched;
 
 /// A tree with the values from which its parameters are searched.
-pub trait Described: Parametric<f64> + Cast<f64, Of<f64> = Self> + Energy<f64> {
+pub trait Described:
+    Parametric<f64> + Pendulum<f64> + Model<f64, Of<f64> = Self> + Energy<f64>
+{
     /// Rough values of the parameters, in SI units, but for gravity and laws of friction that
     /// are not viscous.
     const ROUGH: [(&'static str, f64); 9];

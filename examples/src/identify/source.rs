@@ -46,9 +46,11 @@ impl Measurement {
     /// [`Failure::Reading`], [`Failure::Links`] or [`Failure::Integration`].
     pub fn new<M: Described>(arguments: &Arguments) -> Result<Self, Failure> {
         let measured = &arguments.measured;
+        // Names are the same whatever the values.
+        let links = M::with_parameters::<f64>(|_| f64::NAN).link_names();
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let recording = measured.read(file, M::LINKS)?;
+                let recording = measured.read(file, links.len())?;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
                 let angles = angles.map(|link| (0..count).map(|index| link.angle(index)).collect());
@@ -61,8 +63,6 @@ impl Measurement {
                 (times, angles, Vec::new(), Some(truth.collect()))
             }
         };
-        let name = |index| M::link_name(index).map_or(String::new(), |name| name.to_string());
-        let links: Vec<String> = (0..M::LINKS).map(name).collect();
         let of = |times: &[f64], angles: &Angles| {
             let record = links.iter().zip(angles);
             record.fold(AngleRecord::new(times), |record, (link, angles)| {
@@ -110,14 +110,14 @@ fn simulate<M: Described>(arguments: &Arguments) -> Result<(Vec<f64>, Angles), F
         .collect();
     let start = State::at_rest(0.0, M::RELEASE);
     let method = Dop853::new(Options::with_tolerance(1e-12));
-    let motion = method.sample_to_vec(&AbsoluteAngles(tree), &start, &times);
+    let motion = method.sample_to_vec(&AbsoluteAngles(&tree), &start, &times);
     let motion = motion.map_err(|error| Failure::integration(M::RELEASE[0].to_degrees(), error))?;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(arguments.seed);
     let mut noise = || {
         let normal: f64 = StandardNormal.sample(&mut random);
         arguments.noise * normal
     };
-    let angles = (0..M::LINKS)
+    let angles = (0..tree.links())
         .map(|link| {
             motion
                 .iter()

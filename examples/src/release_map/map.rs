@@ -99,7 +99,7 @@ pub fn over_releases<P: Transverse<f64> + Sync>(
 ) -> Result<Map, Failure> {
     let plane = (arguments.children(), arguments.parents());
     Map::compute(plane, arguments, job, |children, parent| {
-        Ok((first_sector(model)?, at_rest::<P>(parent, children)))
+        Ok((first_sector(model)?, at_rest(model, parent, children)))
     })
 }
 
@@ -122,7 +122,9 @@ pub fn over_ratios<P: Transverse<f64> + Sync>(
     Map::compute(plane, arguments, job, |ratio, energy| {
         // G_1 (1 − cos θ_1), G_1 being the energy of the horizontal parent.
         let parent = (1.0 - energy).acos().to_degrees();
-        Ok((first_sector(model(ratio)?)?, at_rest::<P>(parent, 0.0)))
+        let model = model(ratio)?;
+        let start = at_rest(&model, parent, 0.0);
+        Ok((first_sector(model)?, start))
     })
 }
 

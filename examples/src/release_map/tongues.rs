@@ -91,7 +91,7 @@ pub fn along(
     let ode = first_sector(model)?;
     let growth = growth(model, span(arguments), arguments.tolerance)?;
     let starts = line.iter();
-    let starts = starts.map(|&[parent, child]| (ode, at_rest::<InPhase>(parent, child)));
+    let starts = starts.map(|&[parent, child]| (ode, at_rest(model, parent, child)));
     let grown = growth.in_lanes(&Ensemble::new(), &starts.collect::<Vec<_>>());
     let rates = grown.into_iter().map(|grown| Ok(grown?.rate.value));
     let rates = rates.collect::<Result<Vec<f64>, Failure>>()?;
@@ -131,10 +131,7 @@ impl Ridge {
         release: [f64; 2],
         (span, tolerance): (f64, f64),
     ) -> Result<Option<Self>, Failure> {
-        let start = (
-            first_sector(model)?,
-            at_rest::<InPhase>(release[0], release[1]),
-        );
+        let start = (first_sector(model)?, at_rest(model, release[0], release[1]));
         let growth = growth(model, span, tolerance)?;
         let Some(grown) = growth.in_lanes(&Ensemble::new(), &[start]).pop() else {
             return Ok(None);

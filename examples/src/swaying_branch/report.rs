@@ -1,6 +1,5 @@
 //! Table, frames and chart.
 
-use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
 
@@ -17,7 +16,7 @@ use crate::program::Job;
 /// [`Failure::Csv`] or [`Failure::File`].
 pub fn write_frames(job: &Job, seen: &Seen) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
-    let names = <Branch as Pendulum<f64>>::LINK_NAMES.iter();
+    let names = Branch::LINK_NAMES.iter();
     columns.extend(names.map(|name| Column::new(*name, "rad")));
     job.csv("swaying-branch.csv", &columns, |file| {
         for (number, state) in seen.states.iter().enumerate() {

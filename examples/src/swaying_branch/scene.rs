@@ -57,7 +57,7 @@ use branched_pendulum::prelude::*;
 pub struct Branch;
 
 /// Number of links.
-pub const LINKS: usize = <Branch as Pendulum<f64>>::LINKS;
+pub const LINKS: usize = Branch::LINKS;
 
 /// A link half way up, which the hand takes.
 pub const HELD: usize = 2;

@@ -43,7 +43,7 @@ fn slopes<M: TransferForms<f64>>(model: &M, receiver: &str, amplitudes: [f64; 2]
         amplitudes: amplitudes.to_vec(),
         states: 300,
         seed: 0,
-        background: Background::uniform::<M>(1.0, 5.0),
+        background: Background::uniform(model, 1.0, 5.0),
     };
     let curves = average.curves(model).unwrap();
     let curve = curves.iter().find(|curve| curve.receiver == receiver);

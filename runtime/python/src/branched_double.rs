@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, Table, by_state};
-use crate::motions::Model;
+use crate::motions::MeasuredModel;
 use crate::pendulum::Pendulum;
 use crate::smoothing::Coordinates;
 use paper::Paper;
@@ -20,7 +20,7 @@ use paper::Paper;
 mod paper;
 
 /// Links, and half the numbers of a state.
-const LINKS: usize = <Paper as branched_pendulum::Pendulum<f64>>::LINKS;
+const LINKS: usize = Paper::LINKS;
 
 /// Forms of W that the model has.
 const FORMS: &[branched_pendulum::TransferForm] = <Paper as TransferForms<f64>>::TRANSFER_FORMS;
@@ -36,23 +36,9 @@ pub(crate) struct BranchedDouble {
     model: Paper,
 }
 
-impl Model for AbsoluteAngles<Paper> {
-    fn link_names(&self) -> Vec<String> {
-        let names = <Paper as branched_pendulum::Pendulum<f64>>::LINK_NAMES;
-        names.iter().map(|name| (*name).to_owned()).collect()
-    }
-
-    fn state_energy(&self, state: &[f64]) -> f64 {
-        match halves(state) {
-            Some([theta, omega]) => {
-                self.0.kinetic_energy(theta, omega) + self.0.potential_energy(theta)
-            }
-            None => f64::NAN,
-        }
-    }
-
+impl MeasuredModel for Paper {
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
-        let rows = |theta: &[f64; LINKS]| self.0.mass_matrix(theta).map(Vec::from).to_vec();
+        let rows = |theta: &[f64; LINKS]| self.mass_matrix(theta).map(Vec::from).to_vec();
         theta.try_into().map(rows).unwrap_or_default()
     }
 
@@ -70,8 +56,8 @@ impl Model for AbsoluteAngles<Paper> {
             (0..LINKS).map(row).collect()
         };
         Coordinates {
-            of_links: rows(&|angles| self.0.to_symmetric(angles)),
-            links: rows(&|coordinates| self.0.from_symmetric(coordinates)),
+            of_links: rows(&|angles| self.to_symmetric(angles)),
+            links: rows(&|coordinates| self.from_symmetric(coordinates)),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Energies by scale: the class `ScaleBudget`.
 
+use branched_pendulum::Model;
 use branched_pendulum::tree::MOST_GENERATIONS;
 use branched_pendulum_trees::PendulumTree;
 use numpy::{IntoPyArray, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};

@@ -12,22 +12,13 @@ use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
     Report, Rk4, RunError, Solution, Trajectory,
 };
-use branched_pendulum::scalar::Dual;
-use branched_pendulum::system::{CastOde, LaneOde, Ode, RatesOnly, State};
+use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, RatesOnly, State};
 
 use crate::growth::GrowthTask;
 use crate::smoothing::{Coordinates, Estimate};
 
-/// Equations of motion with the pendulum behind them.
-pub(crate) trait Model:
-    LaneOde<f64> + CastOde<f64, Dual<f64, 1>> + Clone + Send + Sync + 'static
-{
-    /// Names of the links, in the order of the angles.
-    fn link_names(&self) -> Vec<String>;
-
-    /// The energy (J) of a state: angles, angular velocities.
-    fn state_energy(&self, state: &[f64]) -> f64;
-
+/// A model with what its measured motions are smoothed by.
+pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
     /// The mass matrix (kg m²) at angles, a row for each link.
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>>;
 
@@ -36,7 +27,7 @@ pub(crate) trait Model:
 
     /// Coordinates in which measured angles are smoothed.
     fn smoothed_coordinates(&self) -> Coordinates {
-        Coordinates::links(self.link_names().len())
+        Coordinates::links(self.links())
     }
 }
 
@@ -49,7 +40,7 @@ pub(crate) enum Deviations {
     Transverse(Copies),
 }
 
-/// The motions of a [`Model`], whatever its type.
+/// The motions of a model, whatever its type.
 pub(crate) trait Motions: Send + Sync {
     fn names(&self) -> Vec<String>;
 
@@ -142,7 +133,7 @@ struct ModelSmoothing<'a, M> {
 /// Most links of a pendulum whose equations smooth angles.
 const MOST_SMOOTHED: usize = 4;
 
-impl<M: Model> ModelSmoothing<'_, M> {
+impl<M: MeasuredModel> ModelSmoothing<'_, M> {
     fn estimate<const N: usize, const D: usize>(&self) -> Result<Estimate, SmoothingError> {
         let array = |row: &Vec<Option<f64>>| std::array::from_fn(|link| row[link]);
         let angles: Vec<[Option<f64>; N]> = self.angles.iter().map(array).collect();
@@ -169,7 +160,7 @@ impl<M: Model> ModelSmoothing<'_, M> {
             ..ModelSmoother::<N>::default()
         };
         let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-        let system = linearised(self.model.clone());
+        let system = linearised(AbsoluteAngles(self.model.clone()));
         let mass = |theta: &[f64; N]| {
             let rows = self.model.mass_rows(theta);
             let entry = |row: usize, column: usize| rows.get(row)?.get(column).copied();
@@ -193,9 +184,9 @@ impl<M: Model> ModelSmoothing<'_, M> {
     }
 }
 
-impl<M: Model> Motions for M {
+impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
     fn names(&self) -> Vec<String> {
-        self.link_names()
+        self.0.link_names()
     }
 
     fn dimension(&self) -> usize {
@@ -207,7 +198,10 @@ impl<M: Model> Motions for M {
     }
 
     fn energy(&self, state: &[f64]) -> f64 {
-        self.state_energy(state)
+        match state.split_at_checked(self.0.links()) {
+            Some((theta, omega)) => self.0.energy_of(theta, omega),
+            None => f64::NAN,
+        }
     }
 
     fn sample(
@@ -280,7 +274,7 @@ impl<M: Model> Motions for M {
     }
 
     fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies> {
-        let copies = Copies::of_links(&self.link_parents(), alike)?;
+        let copies = Copies::of_links(&self.0.link_parents(), alike)?;
         let are_in_phase = starts.iter().all(|start| copies.are_in_phase(self, start));
         are_in_phase.then_some(copies)
     }
@@ -302,7 +296,7 @@ impl<M: Model> Motions for M {
     }
 
     fn smoothed_coordinates(&self) -> Coordinates {
-        Model::smoothed_coordinates(self)
+        self.0.smoothed_coordinates()
     }
 
     fn smooth(
@@ -314,7 +308,7 @@ impl<M: Model> Motions for M {
         guess: &[f64],
     ) -> Result<Estimate, SmoothingError> {
         let task = ModelSmoothing {
-            model: self,
+            model: &self.0,
             noise,
             friction,
             times,

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use branched_pendulum::system::{LinkPoint, Workspace};
+use branched_pendulum::system::{
+    AbsoluteAngles, Energy, Forced, LinkPoint, Model, Pendulum as _, Positions,
+};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
@@ -13,7 +15,7 @@ use pyo3::types::PyDict;
 use crate::DescriptionError;
 use crate::arrays::{Matrix, Number, Numbers, Row, Table, by_state, matrix};
 use crate::budget::ScaleBudget;
-use crate::motions::Model;
+use crate::motions::MeasuredModel;
 use crate::pendulum::Pendulum;
 
 /// A pendulum tree that a text describes:
@@ -23,14 +25,10 @@ use crate::pendulum::Pendulum;
 /// in it are parameters, in SI units. Mistakes raise `DescriptionError`, each marked in its line.
 #[pyclass(frozen, extends = Pendulum, module = "branched_pendulum")]
 pub(crate) struct Tree {
-    tree: Arc<PendulumTree>,
+    system: Arc<AbsoluteAngles<PendulumTree>>,
 }
 
-impl Model for PendulumTree {
-    fn link_names(&self) -> Vec<String> {
-        self.names().to_vec()
-    }
-
+impl MeasuredModel for PendulumTree {
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         self.mass_matrix(theta)
     }
@@ -38,15 +36,8 @@ impl Model for PendulumTree {
     fn link_parents(&self) -> Vec<Option<usize>> {
         let links = 0..self.links();
         links
-            .map(|link| self.link_properties(link)?.parent)
+            .map(|link| self.properties_of(link)?.parent)
             .collect()
-    }
-
-    fn state_energy(&self, state: &[f64]) -> f64 {
-        match state.split_at_checked(self.links()) {
-            Some((theta, omega)) => PendulumTree::energy(self, theta, omega),
-            None => f64::NAN,
-        }
     }
 }
 
@@ -81,15 +72,19 @@ fn values(parameters: Option<Bound<'_, PyDict>>) -> PyResult<Vec<(String, f64)>>
 }
 
 fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
-    let tree = Arc::new(tree);
-    let motions = tree.clone();
-    PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree { tree })
+    let system = Arc::new(AbsoluteAngles(tree));
+    let motions = system.clone();
+    PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree { system })
 }
 
 impl Tree {
+    fn tree(&self) -> &PendulumTree {
+        &self.system.0
+    }
+
     /// Angles that were given, or zeros.
     fn angles(&self, theta: Option<Numbers<'_>>) -> PyResult<Vec<f64>> {
-        let links = self.tree.links();
+        let links = self.tree().links();
         match theta {
             Some(theta) => theta.row("theta", links),
             None => Ok(vec![0.0; links]),
@@ -116,7 +111,7 @@ impl Tree {
     /// Returns the tree with other values of parameters: `tree.changed(m=0.3)`.
     #[pyo3(signature = (**parameters))]
     fn changed(&self, py: Python<'_>, parameters: Option<Bound<'_, PyDict>>) -> PyResult<Py<Self>> {
-        let mut tree = PendulumTree::clone(&self.tree);
+        let mut tree = self.tree().clone();
         for (name, value) in values(parameters)? {
             tree = tree.with(&name, value).map_err(|error| wrong(py, error))?;
         }
@@ -126,14 +121,14 @@ impl Tree {
     /// Values of the parameters, in SI units.
     #[getter]
     fn parameters(&self) -> BTreeMap<String, f64> {
-        let names = self.tree.description().parameters();
+        let names = self.tree().description().parameters();
         names
-            .filter_map(|name| Some((name.to_owned(), self.tree.value(name)?)))
+            .filter_map(|name| Some((name.to_owned(), self.tree().value(name)?)))
             .collect()
     }
 
     fn __repr__(&self) -> String {
-        format!("Tree of {}", self.tree.names().join(", "))
+        format!("Tree of {}", self.tree().names().join(", "))
     }
 
     /// Returns the angular accelerations (rad/s²) at angles `theta` (rad) and angular velocities `omega`
@@ -147,19 +142,16 @@ impl Tree {
         time: f64,
         torques: Option<Numbers<'py>>,
     ) -> PyResult<Row<'py>> {
-        let n = self.tree.links();
+        let n = self.tree().links();
         let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
         let mut alpha = vec![0.0; n];
-        let workspace = &mut Workspace::new();
         match torques {
             None => self
-                .tree
-                .accelerations_with(workspace, time, &theta, &omega, &mut alpha),
+                .tree()
+                .accelerations_into(time, &theta, &omega, &mut alpha),
             Some(torques) => {
                 let torques = torques.row("torques", n)?;
-                let given = [&theta[..], &omega, &torques];
-                self.tree
-                    .accelerations_under_with(workspace, time, given, &mut alpha);
+                self.tree().accelerations_under_into(time, &theta, &omega, &torques, &mut alpha);
             }
         }
         Ok(alpha.into_pyarray(py))
@@ -168,23 +160,23 @@ impl Tree {
     /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
     /// (rad/s), in the frame that moves with the root's pivot.
     fn kinetic_energy(&self, theta: Numbers<'_>, omega: Numbers<'_>) -> PyResult<f64> {
-        let n = self.tree.links();
+        let n = self.tree().links();
         let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
-        Ok(self.tree.kinetic_energy(&theta, &omega))
+        Ok(self.tree().kinetic_energy_of(&theta, &omega))
     }
 
     /// Returns the potential energy (J) at angles `theta` (rad).
     fn potential_energy(&self, theta: Numbers<'_>) -> PyResult<f64> {
-        let theta = theta.row("theta", self.tree.links())?;
-        Ok(self.tree.potential_energy(&theta))
+        let theta = theta.row("theta", self.tree().links())?;
+        Ok(self.tree().potential_energy_of(&theta))
     }
 
     /// Returns the power (W) of friction and drag, never positive, of each state of an array
     /// whose last axis is that of the components.
     fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
-        let n = self.tree.links();
+        let n = self.tree().links();
         by_state(py, &y, 2 * n, |state| {
-            [self.tree.friction_power(state.get(n..).unwrap_or_default())]
+            [self.tree().friction_power(state.get(n..).unwrap_or_default())]
         })
     }
 
@@ -203,7 +195,7 @@ impl Tree {
             Some(times) => times.to_vec(),
             None => vec![0.0],
         };
-        ScaleBudget::of(py, &self.tree, &y, &times)
+        ScaleBudget::of(py, self.tree(), &y, &times)
     }
 
     /// Returns the generalized momenta (kg m²/s) at angles `theta` (rad) and angular
@@ -214,21 +206,21 @@ impl Tree {
         theta: Numbers<'py>,
         omega: Numbers<'py>,
     ) -> PyResult<Row<'py>> {
-        let n = self.tree.links();
+        let n = self.tree().links();
         let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
-        Ok(self.tree.momenta(&theta, &omega).into_pyarray(py))
+        Ok(self.tree().momenta(&theta, &omega).into_pyarray(py))
     }
 
     /// Returns the mass matrix (kg m²) at angles `theta` (rad).
     fn mass_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
-        let theta = theta.row("theta", self.tree.links())?;
-        matrix(py, self.tree.mass_matrix(&theta).concat(), theta.len())
+        let theta = theta.row("theta", self.tree().links())?;
+        matrix(py, self.tree().mass_matrix(&theta).concat(), theta.len())
     }
 
     /// Returns the second derivatives of the potential energy (N m/rad) at angles `theta` (rad).
     fn stiffness_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
-        let theta = theta.row("theta", self.tree.links())?;
-        matrix(py, self.tree.stiffness_matrix(&theta).concat(), theta.len())
+        let theta = theta.row("theta", self.tree().links())?;
+        matrix(py, self.tree().stiffness_matrix(&theta).concat(), theta.len())
     }
 
     /// Returns frequencies (Hz) and shapes of the linear modes, a row for each, about angles
@@ -240,9 +232,9 @@ impl Tree {
         py: Python<'py>,
         theta: Option<Numbers<'py>>,
     ) -> PyResult<(Row<'py>, Matrix<'py>)> {
-        let n = self.tree.links();
+        let n = self.tree().links();
         let theta = self.angles(theta)?;
-        let modes = self.tree.modes(&theta);
+        let modes = self.tree().modes(&theta);
         let modes = modes.map_err(|error| PyValueError::new_err(error.to_string()))?;
         let shapes = matrix(py, modes.shapes.concat(), n)?;
         Ok((modes.frequencies_hz.into_pyarray(py), shapes))
@@ -252,7 +244,7 @@ impl Tree {
     /// near zeros, if none are given. The drive is left out.
     #[pyo3(signature = (theta = None))]
     fn equilibrium<'py>(&self, py: Python<'py>, theta: Option<Numbers<'py>>) -> PyResult<Row<'py>> {
-        let found = self.tree.equilibrium(&self.angles(theta)?);
+        let found = self.tree().equilibrium(&self.angles(theta)?);
         let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
         Ok(found.into_pyarray(py))
     }
@@ -275,7 +267,7 @@ impl Tree {
                 return Err(PyValueError::new_err(text));
             }
         };
-        let theta = theta.row("theta", self.tree.links())?;
-        matrix(py, self.tree.points(point, &theta).concat(), 2)
+        let theta = theta.row("theta", self.tree().links())?;
+        matrix(py, self.tree().points(point, &theta).concat(), 2)
     }
 }

@@ -10,7 +10,7 @@ use super::measured::errors;
 use super::rest::come_to_rest;
 use crate::integrate::Factored;
 use crate::scalar::Dual;
-use crate::system::{Cast, Energy, Pendulum, Workspace};
+use crate::system::{Energy, Pendulum, Workspace};
 
 /// Errors of matrices that come from accelerations, relative.
 const ROUNDING: f64 = 1e-10;
@@ -26,17 +26,17 @@ impl Linear {
     /// rates in the symmetric way of springs and friction.
     pub fn about<P>(model: &P, near: &[f64]) -> Result<Self, LinearError>
     where
-        P: Cast<f64>,
+        P: Pendulum<f64>,
         P::Of<Dual<f64, 1>>: Energy<Dual<f64, 1>>,
     {
-        if near.len() != P::LINKS {
+        if near.len() != model.links() {
             return Err(LinearError::Length {
                 name: "near",
-                expected: P::LINKS,
+                expected: model.links(),
                 found: near.len(),
             });
         }
-        check_size(P::LINKS)?;
+        check_size(model.links())?;
         let dual = model.cast(Dual::<f64, 1>::constant);
         let slopes = RestSlopes::at_rest(&dual, near)?;
         let mass = mass(&dual, &slopes.equilibrium);

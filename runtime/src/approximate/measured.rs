@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::about::RestSlopes;
 use super::linear::Linear;
 use crate::integrate::{Frames, longest_sub_step};
-use crate::system::{AbsoluteAngles, Cast, Ode, OdeFn, State};
+use crate::system::{AbsoluteAngles, Ode, OdeFn, Pendulum, State};
 
 /// Amplitudes at which errors are measured, rad: small ones, where they grow with the
 /// amplitude and its square.
@@ -19,7 +19,7 @@ const FRAMES: u32 = 60;
 /// E₁ a² + E₂ a³ for a motion of the mode alone from rest, whose largest angle is a.
 ///
 /// E₁ vanishes about an equilibrium to whose two sides a tree is alike.
-pub(super) fn errors<P: Cast<f64>>(
+pub(super) fn errors<P: Pendulum<f64>>(
     model: &P,
     linear: &Linear,
     slopes: &RestSlopes,

@@ -29,7 +29,7 @@ pub(super) struct SmallError<T> {
 
 impl<T: Real> SmallError<T> {
     pub(super) fn new<P: SmallDifferences<T>>(model: &P, patterns: &DifferencePatterns) -> Self {
-        let hanging = vec![T::ZERO; P::LINKS];
+        let hanging = vec![T::ZERO; model.links()];
         let (mut squares, mut lift) = (Vec::new(), T::from_f64(f64::INFINITY));
         for &number in P::SMALL {
             let sector = P::TRANSVERSE[number];
@@ -76,8 +76,8 @@ impl<T: Real> SmallError<T> {
             return [T::NAN; 2];
         }
         let (angles, rates) = small.split_at(patterns.half());
-        let (theta, difference) = angles.split_at(P::LINKS);
-        let (omega, difference_rate) = rates.split_at(P::LINKS);
+        let (theta, difference) = angles.split_at(model.links());
+        let (omega, difference_rate) = rates.split_at(model.links());
         let differences = difference.iter().zip(difference_rate).zip(&self.squares);
         let parts =
             differences.map(|((&angle, &rate), &square)| angle * angle + rate * rate / square);

@@ -184,8 +184,9 @@ impl<P: Forced<T>, A: ForcedApproximation<T>, T: Real> Switched<UnderTorques<P, 
     /// Moves on by a frame under torques (N m) that stay the same during it; torques of
     /// another number than links are none.
     pub fn advance_under(&mut self, torques: &[T]) {
+        let links = self.full.ode_mut().dimension() / 2;
         let held = self.full.ode_mut().torques_mut();
-        held.resize(P::LINKS, T::ZERO);
+        held.resize(links, T::ZERO);
         if torques.len() == held.len() {
             held.copy_from_slice(torques);
         } else {

@@ -2,7 +2,7 @@
 
 use crate::scalar::Lane;
 use crate::simd::{Kernel, Known, Simd};
-use crate::system::{Cast, InRegisters};
+use crate::system::{InRegisters, Pendulum};
 
 /// All states, if they are enough for one register; lengths checked.
 pub(super) struct Blocks<'a, P, T, In, On, Out> {
@@ -17,7 +17,7 @@ pub(super) struct Blocks<'a, P, T, In, On, Out> {
 
 impl<P, T, In, On, Out> Kernel<T> for Blocks<'_, P, T, In, On, Out>
 where
-    P: Cast<T>,
+    P: Pendulum<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
@@ -31,10 +31,10 @@ where
         let Some(last) = self.count.checked_sub(R::LANES) else {
             return 0;
         };
-        match P::LINKS {
-            1 if R::AHEAD => self.ahead::<R, 1>(last),
-            2 if R::AHEAD => self.ahead::<R, 2>(last),
-            3 if R::AHEAD => self.ahead::<R, 3>(last),
+        match P::KNOWN_LINKS {
+            Some(1) if R::AHEAD => self.ahead::<R, 1>(last),
+            Some(2) if R::AHEAD => self.ahead::<R, 2>(last),
+            Some(3) if R::AHEAD => self.ahead::<R, 3>(last),
             _ => self.in_turn::<R>(last),
         }
     }
@@ -42,7 +42,7 @@ where
 
 impl<P, T, In, On, Out> Blocks<'_, P, T, In, On, Out>
 where
-    P: Cast<T>,
+    P: Pendulum<T>,
     T: Lane,
     In: AsRef<[T]>,
     On: AsRef<[T]>,
@@ -54,11 +54,12 @@ where
     #[inline(always)]
     fn in_turn<R: Simd<T>>(self, last: usize) -> usize {
         let mut next = 0;
+        let links = self.pendulum.links();
         // Links as many as the compiler knows them to be.
         let (Some(theta), Some(omega), Some(alpha)) = (
-            self.theta.get(..P::LINKS),
-            self.omega.get(..P::LINKS),
-            self.alpha.get_mut(..P::LINKS),
+            self.theta.get(..links),
+            self.omega.get(..links),
+            self.alpha.get_mut(..links),
         ) else {
             return next;
         };

@@ -7,7 +7,7 @@ use crate::model::Transfer;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
 use crate::simd::{Kernel, Simd, dispatch};
-use crate::system::{Cast, Forced};
+use crate::system::{Forced, Model, Pendulum};
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
 /// number for each link: [`state_function!`](crate::state_function) writes it.
@@ -15,7 +15,7 @@ use crate::system::{Cast, Forced};
     message = "`{Self}` is no function of states of `{P}`",
     note = "write `state_function!(|model: Model, theta, omega| model.kinetic_energy(theta, omega))`"
 )]
-pub trait StateFunction<P: Cast<T>, T: Scalar, const A: usize> {
+pub trait StateFunction<P: Pendulum<T>, T: Scalar, const A: usize> {
     /// Returns the values at `time` (s). `arguments` stand one after the other, with
     /// as many numbers each as there are links; None if they are fewer.
     fn call<S: Scalar>(
@@ -123,9 +123,14 @@ impl<S: Scalar, const N: usize> StateValues<S> for Budget<S, N> {
 #[macro_export]
 macro_rules! state_function {
     (|$model:ident: $kind:ty, $time:ident; $($arguments:ident),+| $value:expr) => {{
-        const LINKS: usize = <$kind as $crate::Pendulum<f64>>::LINKS;
+        const LINKS: usize = match <$kind as $crate::Model<f64>>::KNOWN_LINKS {
+            ::core::option::Option::Some(links) => links,
+            ::core::option::Option::None => ::core::panic!(
+                "functions of states are those of a model whose type tells the number of links"
+            ),
+        };
         const ARGUMENTS: usize = [$(::core::stringify!($arguments)),+].len();
-        type On<T> = <$kind as $crate::Cast<f64>>::Of<T>;
+        type On<T> = <$kind as $crate::Model<f64>>::Of<T>;
         struct NamedFunction;
         impl<T: $crate::Scalar> $crate::batch::StateFunction<On<T>, T, ARGUMENTS> for NamedFunction {
             #[inline(always)]
@@ -146,7 +151,7 @@ macro_rules! state_function {
     };
 }
 
-impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
+impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
     /// Writes the values of a [`state_function!`](crate::state_function) at `time`
     /// (s): of each argument one slice for each link, of `values` one slice for each
     /// number that the function returns, and in each slice one number for each state.
@@ -176,7 +181,13 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
         let count = first.map_or(0, |states| states.as_ref().len());
         for argument in arguments {
             let lengths = argument.iter().map(|s| s.as_ref().len());
-            super::check(P::LINKS, count, "arguments", argument.len(), lengths)?;
+            super::check(
+                self.pendulum.links(),
+                count,
+                "arguments",
+                argument.len(),
+                lengths,
+            )?;
         }
         let expected = number_of_values(F::call::<T>);
         if values.len() != expected {
@@ -218,11 +229,11 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
         let count = theta.first().map_or(0, |states| states.as_ref().len());
         for (name, argument) in [("theta", theta), ("omega", omega), ("torques", torques)] {
             let lengths = argument.iter().map(|s| s.as_ref().len());
-            super::check(P::LINKS, count, name, argument.len(), lengths)?;
+            super::check(self.pendulum.links(), count, name, argument.len(), lengths)?;
         }
         let found = alpha.len();
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
-        super::check(P::LINKS, count, "alpha", found, lengths)?;
+        super::check(self.pendulum.links(), count, "alpha", found, lengths)?;
         let states = FunctionOfStates {
             function: PhantomData::<Under>,
             pendulum: self.pendulum,
@@ -237,7 +248,7 @@ impl<P: Cast<T>, T: Lane> Batch<'_, P, T> {
 }
 
 /// A function of states in registers.
-trait RegisterFunction<P: Cast<T>, T: Scalar> {
+trait RegisterFunction<P: Pendulum<T>, T: Scalar> {
     /// Tells the values with their indices; `alpha` is room for one number a link. None
     /// where there are fewer arguments than it takes.
     fn tell<S: Scalar>(
@@ -254,7 +265,7 @@ struct ValuesOf<F, const A: usize>(PhantomData<F>);
 
 impl<P, T, F, const A: usize> RegisterFunction<P, T> for ValuesOf<F, A>
 where
-    P: Cast<T>,
+    P: Pendulum<T>,
     T: Scalar,
     F: StateFunction<P, T, A>,
 {
@@ -283,8 +294,8 @@ impl<P: Forced<T>, T: Scalar> RegisterFunction<P, T> for Under {
         alpha: &mut [S],
         put: &mut impl FnMut(usize, S),
     ) -> Option<()> {
-        let (theta, others) = arguments.split_at_checked(P::LINKS)?;
-        let (omega, torques) = others.split_at_checked(P::LINKS)?;
+        let (theta, others) = arguments.split_at_checked(pendulum.links())?;
+        let (omega, torques) = others.split_at_checked(pendulum.links())?;
         P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
         for (link, &value) in alpha.iter().enumerate() {
             put(link, value);
@@ -312,7 +323,7 @@ struct FunctionOfStates<'a, F, P, T, In, Out, const A: usize> {
 impl<F, P, T, In, Out, const A: usize> Kernel<T> for FunctionOfStates<'_, F, P, T, In, Out, A>
 where
     F: RegisterFunction<P, T>,
-    P: Cast<T>,
+    P: Pendulum<T>,
     T: Lane,
     In: AsRef<[T]>,
     Out: AsMut<[T]>,
@@ -325,8 +336,9 @@ where
     fn run<R: Simd<T>>(self) {
         let pendulum = self.pendulum.cast(R::splat);
         let time = R::splat(self.time);
-        let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * P::LINKS];
-        let mut alpha = alloc::vec![R::splat(T::from_f64(0.0)); P::LINKS];
+        let links = pendulum.links();
+        let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * links];
+        let mut alpha = alloc::vec![R::splat(T::from_f64(0.0)); links];
         // Where there are fewer states than lanes.
         let mut few = alloc::vec![T::from_f64(0.0); R::LANES];
         let mut next = 0;

@@ -2,7 +2,7 @@
 
 use super::by_reference::by_reference;
 use super::ode::halves;
-use super::{Cast, CastOde, LengthMismatch, Ode, State};
+use super::{CastOde, LengthMismatch, Model, Ode, State};
 use crate::scalar::Scalar;
 
 /// Hamilton's equations, q' = ∂H/∂p, p' = −∂H/∂q + Q, in canonical variables.
@@ -71,7 +71,7 @@ pub struct CanonicalVariables<C>(pub C);
 
 impl<T: Scalar, S: Scalar, C> CastOde<T, S> for CanonicalVariables<C>
 where
-    C: Cast<T> + Canonical<T>,
+    C: Model<T> + Canonical<T>,
     C::Of<S>: Canonical<S>,
 {
     type Of = CanonicalVariables<C::Of<S>>;

@@ -1,8 +1,10 @@
 //! Pendulums as first-order systems.
 
-use super::cast::put;
+use super::by_reference::by_reference;
+use super::model::twice;
 use super::ode::halves;
-use super::{Cast, CastOde, LaneOde, Ode, Pendulum, SymmetricPendulum, Workspace};
+use super::pendulum::put;
+use super::{CastOde, LaneOde, Model, Ode, Pendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
 /// A pendulum as a first-order system in absolute angles: the state is the
@@ -13,22 +15,57 @@ pub struct AbsoluteAngles<P>(pub P);
 
 impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<P> {
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        2 * self.0.links()
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        second_order(P::LINKS, state, rates, |theta, omega, alpha| {
+        second_order(self.0.links(), state, rates, |theta, omega, alpha| {
             self.0.accelerations_into(time, theta, omega, alpha);
         });
     }
 
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        second_order(P::LINKS, state, rates, |theta, omega, alpha| {
+        second_order(self.0.links(), state, rates, |theta, omega, alpha| {
             self.0
                 .accelerations_with(workspace, time, theta, omega, alpha);
         });
+    }
+}
+
+/// Equations of motion in symmetric coordinates: means and differences of
+/// identical sibling subtrees.
+///
+/// There are as many coordinates as links. A set of differences that is
+/// exactly zero, with its rates, has accelerations that are exactly zero.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no symmetric coordinates in `{T}`",
+    note = "a tree with identical siblings has them with `emit(symmetric)` in its attribute"
+)]
+pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
+    /// Names of the coordinates, in order.
+    const COORDINATE_NAMES: &'static [&'static str];
+
+    /// Writes the second time derivatives of the coordinates, in rad/s², for
+    /// `coordinates` (rad) and `rates` (rad/s) at `time` (s).
+    ///
+    /// Lengths as in [`Pendulum::accelerations_into`].
+    fn symmetric_accelerations_into(
+        &self,
+        time: T,
+        coordinates: &[T],
+        rates: &[T],
+        accelerations: &mut [T],
+    );
+}
+
+by_reference! {
+    impl<T: Scalar> SymmetricPendulum<T> for &P {
+        const COORDINATE_NAMES: &'static [&'static str];
+        fn symmetric_accelerations_into(
+            &self, time: T, coordinates: &[T], rates: &[T], accelerations: &mut [T]
+        );
     }
 }
 
@@ -39,13 +76,13 @@ pub struct SymmetricCoordinates<P>(pub P);
 
 impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<P> {
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        2 * self.0.links()
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         second_order(
-            P::LINKS,
+            self.0.links(),
             state,
             rates,
             |coordinates, velocities, accelerations| {
@@ -56,7 +93,7 @@ impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<P> {
     }
 }
 
-impl<T: Scalar, S: Scalar, P: Cast<T>> CastOde<T, S> for AbsoluteAngles<P> {
+impl<T: Scalar, S: Scalar, P: Pendulum<T>> CastOde<T, S> for AbsoluteAngles<P> {
     type Of = AbsoluteAngles<P::Of<S>>;
 
     fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
@@ -64,10 +101,10 @@ impl<T: Scalar, S: Scalar, P: Cast<T>> CastOde<T, S> for AbsoluteAngles<P> {
     }
 }
 
-impl<T: Scalar, P: Cast<T>> LaneOde<T> for AbsoluteAngles<P> {
+impl<T: Scalar, P: Pendulum<T>> LaneOde<T> for AbsoluteAngles<P> {
     type Of<S: Scalar> = P::Of<S>;
 
-    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+    const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> P::Of<S> {
         self.0.cast(convert)
@@ -76,12 +113,13 @@ impl<T: Scalar, P: Cast<T>> LaneOde<T> for AbsoluteAngles<P> {
     #[inline(always)]
     fn rates_of<S: Scalar>(pendulum: &P::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         // As many as the compiler knows them to be.
-        let (Some(state), Some(rates)) = (state.get(..2 * P::LINKS), rates.get_mut(..2 * P::LINKS))
+        let links = pendulum.links();
+        let (Some(state), Some(rates)) = (state.get(..2 * links), rates.get_mut(..2 * links))
         else {
             return;
         };
-        let (theta, omega) = state.split_at(P::LINKS);
-        let (velocities, alpha) = rates.split_at_mut(P::LINKS);
+        let (theta, omega) = state.split_at(links);
+        let (velocities, alpha) = rates.split_at_mut(links);
         for (rate, velocity) in velocities.iter_mut().zip(omega) {
             *rate = *velocity;
         }
@@ -92,11 +130,15 @@ impl<T: Scalar, P: Cast<T>> LaneOde<T> for AbsoluteAngles<P> {
             |link, value| put(alpha, link, value),
         );
     }
+
+    fn shape(&self) -> usize {
+        self.0.shape()
+    }
 }
 
 impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SymmetricCoordinates<P>
 where
-    P: Cast<T> + SymmetricPendulum<T>,
+    P: SymmetricPendulum<T>,
     P::Of<S>: SymmetricPendulum<S>,
 {
     type Of = SymmetricCoordinates<P::Of<S>>;

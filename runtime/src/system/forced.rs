@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::by_reference::by_reference;
+use super::model::twice;
 use super::ode::{StateHalves, halves};
-use super::{Cast, LaneOde, Ode, Workspace};
+use super::{LaneOde, Model, Ode, Pendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// Equations of motion with torques that the caller hands over: wind, a hand, a motor,
@@ -16,11 +17,11 @@ use crate::scalar::Scalar;
     message = "`{Self}` takes no torques from outside",
     note = "a model takes them with `emit(forces)` in its attribute"
 )]
-pub trait Forced<T: Scalar>: Cast<T> + Sized {
+pub trait Forced<T: Scalar>: Pendulum<T> {
     /// Writes the angular accelerations, in rad/s², as
     /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with
     /// generalized torques Q (N m) on top of all others: M θ̈ + b = Q. Their power is Q·ω. All
-    /// slices have length [`LINKS`](super::Pendulum::LINKS); for others the results are NaN.
+    /// slices have one number for each [link](super::Model::links); for others the results are NaN.
     ///
     /// Q_i is a couple on link i. Forces on links have the torques that
     /// [`Positions`](super::Positions) tells. On a link that stands for several of a
@@ -122,7 +123,6 @@ impl<T: Scalar> Torques<T> for Vec<T> {
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
 /// use branched_pendulum::prelude::*;
-/// use branched_pendulum::Cast;
 /// use branched_pendulum::system::{LaneTorques, LinkPoint, Torques, UnderTorques};
 ///
 /// #[branched_pendulum(
@@ -173,7 +173,7 @@ pub trait LaneTorques<T: Scalar>: Torques<T> {
     type Of<S: Scalar>: Torques<S>;
 
     /// Takes every constant through `convert`, as
-    /// [`Cast::cast`](super::Cast::cast).
+    /// [`Model::cast`](super::Model::cast).
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
@@ -262,7 +262,7 @@ impl<P: fmt::Debug, F> fmt::Debug for UnderTorques<P, F> {
 
 impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        2 * self.pendulum.links()
     }
 
     #[inline]
@@ -273,7 +273,7 @@ impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
         let Self { pendulum, torques } = self;
-        if let Some((given, out)) = under(P::LINKS, torques, time, state, rates) {
+        if let Some((given, out)) = under(pendulum.links(), torques, time, state, rates) {
             let ([theta, omega], [velocities, alpha]) = (given, out);
             pendulum.accelerations_under_with(workspace, time, theta, omega, velocities, alpha);
             velocities.copy_from_slice(omega);
@@ -284,7 +284,7 @@ impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
 impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, F> {
     type Of<S: Scalar> = UnderTorques<P::Of<S>, F::Of<S>>;
 
-    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+    const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         UnderTorques {
@@ -296,11 +296,15 @@ impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, 
     #[inline(always)]
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let UnderTorques { pendulum, torques } = system;
-        if let Some((given, out)) = under(P::LINKS, torques, time, state, rates) {
+        if let Some((given, out)) = under(pendulum.links(), torques, time, state, rates) {
             let ([theta, omega], [velocities, alpha]) = (given, out);
             P::accelerations_under_of(pendulum, time, theta, omega, velocities, alpha);
             velocities.copy_from_slice(omega);
         }
+    }
+
+    fn shape(&self) -> usize {
+        self.pendulum.shape()
     }
 }
 

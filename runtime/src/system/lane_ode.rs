@@ -7,7 +7,7 @@ use crate::scalar::Scalar;
 /// [`Ensemble::integrate_in_lanes`](crate::ensemble::Ensemble::integrate_in_lanes)
 /// integrates as many trajectories at a time as a vector register holds.
 ///
-/// As [`Cast`](super::Cast) is for pendulums, this is for their systems:
+/// As [`Model::cast`](super::Model::cast) is for models, this is for their systems:
 /// [`AbsoluteAngles`](super::AbsoluteAngles) of a model,
 /// [`UnderTorques`](super::UnderTorques), [`TransverseOde`](super::TransverseOde), or
 /// equations of your own.

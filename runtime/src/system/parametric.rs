@@ -1,6 +1,6 @@
 //! Models by the names of their parameters.
 
-use super::Cast;
+use super::Model;
 use crate::model::ParameterError;
 use crate::scalar::Scalar;
 
@@ -29,7 +29,7 @@ use crate::scalar::Scalar;
     message = "`{Self}` has no named parameters",
     note = "write a name in place of a number in its attribute: `mass = bob_mass`"
 )]
-pub trait Parametric<T: Scalar>: Cast<T> {
+pub trait Parametric<T: Scalar>: Model<T> {
     /// Names of the parameters, in their order.
     const PARAMETERS: &'static [&'static str];
 

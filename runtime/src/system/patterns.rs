@@ -106,10 +106,10 @@ impl DifferencePatterns {
         tree: WholeTree,
         weights: &[(&str, &[f64])],
     ) -> Result<Self, PatternError> {
-        let _ = model;
+        let links = model.links();
         let mut places = Vec::with_capacity(tree.links());
         tree.for_each(|link, angle| places.push((link, angle)));
-        let mut counts = vec![0; P::LINKS];
+        let mut counts = vec![0; links];
         tree.counts(&mut counts);
         let sectors: Vec<TransverseSector> =
             P::SMALL.iter().map(|&index| P::TRANSVERSE[index]).collect();
@@ -132,7 +132,7 @@ impl DifferencePatterns {
                     });
                 }
             };
-            let mut met = vec![0; P::LINKS];
+            let mut met = vec![0; links];
             let weight = |&(link, _): &(usize, f64)| {
                 if !(sector.first..sector.first + sector.links).contains(&link) {
                     return 0.0;
@@ -149,7 +149,7 @@ impl DifferencePatterns {
         };
         let patterns: Result<Vec<Pattern>, PatternError> = sectors.iter().map(pattern).collect();
         Ok(Self {
-            links: P::LINKS,
+            links,
             patterns: patterns?,
             shares: counts.iter().map(|&count| 1.0 / count as f64).collect(),
             places,

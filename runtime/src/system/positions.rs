@@ -1,5 +1,8 @@
 //! Where links are.
 
+use alloc::vec;
+use alloc::vec::Vec;
+
 use super::Pendulum;
 use super::by_reference::by_reference;
 use crate::model::Transfer;
@@ -23,7 +26,7 @@ impl LinkPoint {
 }
 
 /// A link as data. SI units; places are along the link and across it: at angle 0
-/// downwards (upwards in a tree that [stands](Positions::STANDS)), and to the side to which
+/// downwards (upwards in a tree that [stands](Positions::stands)), and to the side to which
 /// positive angles move the link's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkProperties<T> {
@@ -89,10 +92,10 @@ impl<T: Scalar> LinkProperties<T> {
 ///
 /// Vectors are x, y: x to the side to which positive angles move a link's end, y
 /// upwards, from the root's pivot; where that is driven, in the frame of reference that
-/// moves with it. All slices have length [`LINKS`](Pendulum::LINKS); for others the
+/// moves with it. All slices have one number for each link; for others the
 /// results are NaN.
 ///
-/// So it is too where gravity is written as negative and the tree [stands](Self::STANDS): at
+/// So it is too where gravity is written as negative and the tree [stands](Self::stands): at
 /// angle 0 ends are above their pivots, and positive angles turn a link with the clock. The
 /// moment of a force F at r from a pivot, as the torque of a link, is x F_y − y F_x in a tree
 /// that hangs and y F_x − x F_y in one that stands.
@@ -151,8 +154,10 @@ impl<T: Scalar> LinkProperties<T> {
     note = "a model knows it with `emit(positions)` in its attribute"
 )]
 pub trait Positions<T: Scalar>: Pendulum<T> {
-    /// True if angles are those from the upward vertical: gravity is written as negative.
-    const STANDS: bool = false;
+    /// Returns true if angles are those from the upward vertical: gravity is written as negative.
+    fn stands(&self) -> bool {
+        false
+    }
 
     /// Mass, inertia and places of a link, and its parent; none where there is no such
     /// link.
@@ -160,7 +165,7 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
 
     /// The links that hang from a link. Looks at all behind it.
     fn children(&self, link: usize) -> impl Iterator<Item = usize> {
-        let behind = link.saturating_add(1)..Self::LINKS;
+        let behind = link.saturating_add(1)..self.links();
         behind.filter(move |&other| {
             let properties = self.properties_of(other);
             properties.is_some_and(|properties| properties.parent == Some(link))
@@ -189,11 +194,37 @@ pub trait Positions<T: Scalar>: Pendulum<T> {
         forces: &[[T; 2]],
         torques: &mut [T],
     );
+
+    /// Returns the positions that [`points_into`](Self::points_into) writes. Allocates.
+    #[must_use]
+    fn points(&self, point: LinkPoint, theta: &[T]) -> Vec<[T; 2]> {
+        let mut points = vec![[T::from_f64(0.0); 2]; self.links()];
+        self.points_into(point, theta, &mut points);
+        points
+    }
+
+    /// Returns the velocities that [`point_velocities_into`](Self::point_velocities_into)
+    /// writes. Allocates.
+    #[must_use]
+    fn point_velocities(&self, point: LinkPoint, theta: &[T], omega: &[T]) -> Vec<[T; 2]> {
+        let mut velocities = vec![[T::from_f64(0.0); 2]; self.links()];
+        self.point_velocities_into(point, theta, omega, &mut velocities);
+        velocities
+    }
+
+    /// Returns the torques that [`point_torques_into`](Self::point_torques_into) writes.
+    /// Allocates.
+    #[must_use]
+    fn point_torques(&self, point: LinkPoint, theta: &[T], forces: &[[T; 2]]) -> Vec<T> {
+        let mut torques = vec![T::from_f64(0.0); self.links()];
+        self.point_torques_into(point, theta, forces, &mut torques);
+        torques
+    }
 }
 
 by_reference! {
     impl<T: Scalar> Positions<T> for &P {
-        const STANDS: bool;
+        fn stands(&self) -> bool;
         fn properties_of(&self, link: usize) -> Option<LinkProperties<T>>;
         fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]);
         fn point_velocities_into(

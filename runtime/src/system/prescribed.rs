@@ -1,20 +1,13 @@
 //! Pendulums of which some links are moved.
 
+use alloc::vec::Vec;
 use core::fmt;
 
 use super::by_reference::by_reference;
+use super::model::twice;
 use super::ode::halves;
-use super::{Forced, LaneOde, Ode, Workspace};
+use super::{Forced, LaneOde, Model, Ode, Workspace};
 use crate::scalar::Scalar;
-
-/// Links whose motion is handed over together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PrescribedLinks {
-    /// Their names, with `_and_` between.
-    pub name: &'static str,
-    /// Their indices.
-    pub links: &'static [usize],
-}
 
 /// A state, and what acts on it from outside.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +31,9 @@ pub struct PrescribedMotion<'a, T> {
     note = "a model has some with `prescribed(LINK)` in its attribute"
 )]
 pub trait Prescribed<T: Scalar>: Forced<T> {
-    /// The sets of links.
-    const PRESCRIBED: &'static [PrescribedLinks];
+    /// Returns the indices of the links of a set, if there is one of that number: sets count in
+    /// the order of the description.
+    fn prescribed_links(&self, set: usize) -> Option<&[usize]>;
 
     /// Writes the angular accelerations (rad/s²) of all links where those of a set are
     /// given, and the reactions: the torques (N m) on these links that make them move so,
@@ -88,7 +82,6 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
 
 by_reference! {
     impl<T: Scalar> Prescribed<T> for &P {
-        const PRESCRIBED: &'static [PrescribedLinks];
         for fn accelerations_prescribed_of<S: Scalar>(
             pendulum: &Self::Of<S>, set: usize, time: S, motion: PrescribedMotion<'_, S>,
             alpha: &mut [S], reactions: &mut [S]
@@ -101,6 +94,7 @@ by_reference! {
             &self, set: usize, time: T, motion: PrescribedMotion<'_, T>, alpha: &mut [T],
             reactions: &mut [T]
         );
+        fn prescribed_links(&self, set: usize) -> Option<&[usize]>;
     }
 }
 
@@ -127,7 +121,7 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
     type Of<S: Scalar>: LinkCourses<S>;
 
     /// Takes every constant through `convert`, as
-    /// [`Cast::cast`](super::Cast::cast).
+    /// [`Model::cast`](super::Model::cast).
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S>;
 }
 
@@ -175,11 +169,11 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct PrescribedOde<P, F> {
     pendulum: P,
     index: usize,
-    set: PrescribedLinks,
+    held: Vec<usize>,
     course: F,
 }
 
@@ -201,17 +195,18 @@ impl<P, F> PrescribedOde<P, F> {
         P: Prescribed<T>,
         F: LinkCourses<T>,
     {
+        let held = pendulum.prescribed_links(set)?.to_vec();
         Some(Self {
             pendulum,
             index: set,
-            set: *P::PRESCRIBED.get(set)?,
+            held,
             course,
         })
     }
 
-    /// The set of links.
-    pub fn set(&self) -> &PrescribedLinks {
-        &self.set
+    /// Returns the indices of the prescribed links.
+    pub fn held_links(&self) -> &[usize] {
+        &self.held
     }
 
     /// Writes the reactions (N m) on the links of the set in a state at `time`: the
@@ -222,14 +217,15 @@ impl<P, F> PrescribedOde<P, F> {
         F: LinkCourses<T>,
     {
         let nan = T::from_f64(f64::NAN);
-        if reactions.len() != self.set.links.len() {
+        if reactions.len() != self.held.len() {
             return reactions.fill(nan);
         }
         let mut rates = alloc::vec![nan; state.len()];
         let mut workspace = Workspace::new();
-        let (room, workspace) = workspace.with_inner(course_room(P::LINKS, self.set.links.len()));
-        let held = (self.set.links, &self.course);
-        let moved = on_course(P::LINKS, held, time, state, &mut rates, room);
+        let (room, workspace) =
+            workspace.with_inner(course_room(self.pendulum.links(), self.held.len()));
+        let held = (&*self.held, &self.course);
+        let moved = on_course(self.pendulum.links(), held, time, state, &mut rates, room);
         let Some((motion, [alpha, _])) = moved else {
             return reactions.fill(nan);
         };
@@ -288,20 +284,20 @@ impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
         let Self {
             pendulum,
             index: _,
-            set,
+            held,
             course: _,
         } = self;
         formatter
             .debug_struct("PrescribedOde")
             .field("pendulum", pendulum)
-            .field("set", set)
+            .field("held", held)
             .finish_non_exhaustive()
     }
 }
 
 impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P, F> {
     fn dimension(&self) -> usize {
-        2 * P::LINKS
+        2 * self.pendulum.links()
     }
 
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
@@ -310,9 +306,10 @@ impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P,
 
     #[inline]
     fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        let (room, workspace) = workspace.with_inner(course_room(P::LINKS, self.set.links.len()));
-        let held = (self.set.links, &self.course);
-        let moved = on_course(P::LINKS, held, time, state, rates, room);
+        let (room, workspace) =
+            workspace.with_inner(course_room(self.pendulum.links(), self.held.len()));
+        let held = (&*self.held, &self.course);
+        let moved = on_course(self.pendulum.links(), held, time, state, rates, room);
         if let Some((motion, [alpha, reactions])) = moved {
             self.pendulum.accelerations_prescribed_with(
                 workspace, self.index, time, motion, alpha, reactions,
@@ -324,13 +321,13 @@ impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P,
 impl<T: Scalar, P: Prescribed<T>, F: LaneCourses<T>> LaneOde<T> for PrescribedOde<P, F> {
     type Of<S: Scalar> = PrescribedOde<P::Of<S>, F::Of<S>>;
 
-    const DIMENSION: Option<usize> = Some(2 * P::LINKS);
+    const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         PrescribedOde {
             pendulum: self.pendulum.cast(&convert),
             index: self.index,
-            set: self.set,
+            held: self.held.clone(),
             course: self.course.on_scalar(&convert),
         }
     }
@@ -340,14 +337,19 @@ impl<T: Scalar, P: Prescribed<T>, F: LaneCourses<T>> LaneOde<T> for PrescribedOd
         let PrescribedOde {
             pendulum,
             index,
-            set,
+            held,
             course,
         } = system;
-        let mut room = alloc::vec![S::from_f64(0.0); course_room(P::LINKS, set.links.len())];
-        let held = (set.links, course);
-        let moved = on_course(P::LINKS, held, time, state, rates, &mut room);
+        let links = pendulum.links();
+        let mut room = alloc::vec![S::from_f64(0.0); course_room(links, held.len())];
+        let held = (held.as_slice(), course);
+        let moved = on_course(links, held, time, state, rates, &mut room);
         if let Some((motion, [alpha, reactions])) = moved {
             P::accelerations_prescribed_of(pendulum, *index, time, motion, alpha, reactions);
         }
+    }
+
+    fn shape(&self) -> usize {
+        self.pendulum.shape()
     }
 }

@@ -6,7 +6,7 @@ pub use forced::{ForcedDifferences, SmallUnderTorques};
 
 use super::by_reference::by_reference;
 use super::transverse::with_differences;
-use super::{CastOde, LaneOde, Ode, Transverse, TransverseSector};
+use super::{CastOde, LaneOde, Model, Ode, Transverse, TransverseSector};
 use crate::scalar::Scalar;
 
 /// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
@@ -79,6 +79,18 @@ pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -
     count
 }
 
+/// Returns the number of components of a state, where that of links is known.
+pub(super) const fn dimension(
+    links: Option<usize>,
+    sectors: &[TransverseSector],
+    small: &[usize],
+) -> Option<usize> {
+    match links {
+        Some(links) => Some(2 * (links + differences(sectors, small))),
+        None => None,
+    }
+}
+
 /// The angles in phase and the small differences that act back on them as a first-order
 /// system: the state is the angles, the differences of all sectors in the order of
 /// [`SMALL`](SmallDifferences::SMALL), the angular velocities and the rates of the
@@ -122,28 +134,28 @@ impl<P> SmallOde<P> {
     where
         P: SmallDifferences<T>,
     {
-        let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
+        let Self(model) = self;
+        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
         if state.len() != 2 * half {
             return T::from_f64(f64::NAN);
         }
         let (angles, velocities) = state.split_at(half);
-        let (theta, difference) = angles.split_at(P::LINKS);
-        let (omega, difference_rate) = velocities.split_at(P::LINKS);
-        let Self(model) = self;
+        let (theta, difference) = angles.split_at(model.links());
+        let (omega, difference_rate) = velocities.split_at(model.links());
         model.small_energy_of(theta, omega, difference, difference_rate)
     }
 }
 
 impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
     fn dimension(&self) -> usize {
-        2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL))
+        2 * (self.0.links() + differences(P::TRANSVERSE, P::SMALL))
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let Self(model) = self;
         let differences = differences(P::TRANSVERSE, P::SMALL);
-        let lengths = (P::LINKS, differences);
+        let lengths = (model.links(), differences);
         if let Some((given, second)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
             model.small_accelerations_into(time, theta, omega, difference, rate, second);
@@ -167,7 +179,7 @@ where
 impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
     type Of<S: Scalar> = SmallOde<P::Of<S>>;
 
-    const DIMENSION: Option<usize> = Some(2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL)));
+    const DIMENSION: Option<usize> = dimension(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         let Self(model) = self;
@@ -178,7 +190,7 @@ impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let SmallOde(model) = system;
         let differences = differences(P::TRANSVERSE, P::SMALL);
-        let lengths = (P::LINKS, differences);
+        let lengths = (model.links(), differences);
         if let Some((given, second)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
             P::small_accelerations_of(model, time, theta, omega, difference, rate, second);

@@ -1,7 +1,7 @@
 //! Systems that know the Taylor coefficients of their motion.
 
 use super::by_reference::by_reference;
-use super::{AbsoluteAngles, Cast, Ode, Workspace};
+use super::{AbsoluteAngles, Ode, Pendulum, Workspace};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
 
@@ -11,7 +11,7 @@ use crate::simd::Quad;
     message = "`{Self}` does not know the Taylor coefficients of its motion",
     note = "a model knows them with `emit(taylor)` in its attribute"
 )]
-pub trait TaylorPendulum<T: Scalar>: Cast<T> {
+pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(order: usize) -> usize;
 
@@ -20,7 +20,7 @@ pub trait TaylorPendulum<T: Scalar>: Cast<T> {
     /// (s).
     ///
     /// Coefficient k of all angles (rad/sᵏ), then of all angular velocities
-    /// (rad/sᵏ⁺¹), is at k · 2 [`LINKS`](super::Pendulum::LINKS) of `coefficients`, for
+    /// (rad/sᵏ⁺¹), is at 2 k times the number of links of `coefficients`, for
     /// as many orders as it has room for. The recurrences work in `work`,
     /// whatever stands there: [`taylor_workspace`](Self::taylor_workspace). Where
     /// lengths do not fit, the coefficients are NaN.
@@ -147,11 +147,12 @@ impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
 
     #[inline]
     fn taylor(&self, time: T, state: &[T], coefficients: &mut [T], work: &mut [Quad<T>]) {
-        if state.len() != 2 * P::LINKS {
+        let links = self.0.links();
+        if state.len() != 2 * links {
             coefficients.fill(T::from_f64(f64::NAN));
             return;
         }
-        let (theta, omega) = state.split_at(P::LINKS);
+        let (theta, omega) = state.split_at(links);
         self.0
             .taylor_coefficients_into(time, theta, omega, coefficients, work);
     }

@@ -2,7 +2,7 @@
 
 use super::by_reference::by_reference;
 use super::ode::halves;
-use super::{Cast, LaneOde, Ode};
+use super::{LaneOde, Model, Ode, Pendulum};
 use crate::scalar::Scalar;
 
 /// Copies that move in phase, whose small differences follow equations of their own.
@@ -21,7 +21,7 @@ pub struct TransverseSector {
     pub holders: usize,
 }
 
-/// An in-phase motion at one time, as slices of [`LINKS`](super::Pendulum::LINKS) values.
+/// An in-phase motion at one time, as slices of one value for each link.
 #[derive(Clone, Copy, Debug)]
 pub struct InPhaseMotion<'a, T> {
     /// Angles, rad.
@@ -44,7 +44,7 @@ pub struct InPhaseMotion<'a, T> {
 ///
 /// Sectors are counted in the order of [`TRANSVERSE`](Self::TRANSVERSE). Values are NaN
 /// for a sector that does not exist and for slices of other lengths.
-pub trait Transverse<T: Scalar>: Cast<T> {
+pub trait Transverse<T: Scalar>: Pendulum<T> {
     /// The sectors.
     const TRANSVERSE: &'static [TransverseSector];
 
@@ -190,7 +190,7 @@ impl<P> TransverseOde<P> {
 
 impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
     fn dimension(&self) -> usize {
-        2 * (P::LINKS + self.sector.links)
+        2 * (self.model.links() + self.sector.links)
     }
 
     #[inline]
@@ -200,7 +200,7 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
             index,
             sector,
         } = self;
-        let lengths = (P::LINKS, sector.links);
+        let lengths = (model.links(), sector.links);
         if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
             let (motion, differences) = ([theta, omega], [difference, rate]);
@@ -212,9 +212,9 @@ impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
 impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
     type Of<S: Scalar> = TransverseOde<P::Of<S>>;
 
-    const DIMENSION: Option<usize> = match common_links(P::TRANSVERSE) {
-        Some(links) => Some(2 * (P::LINKS + links)),
-        None => None,
+    const DIMENSION: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
+        (Some(motion), Some(links)) => Some(2 * (motion + links)),
+        _ => None,
     };
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
@@ -232,7 +232,7 @@ impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
             index,
             sector,
         } = system;
-        let lengths = (P::LINKS, sector.links);
+        let lengths = (model.links(), sector.links);
         if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
             let [theta, omega, difference, rate] = given;
             let (motion, differences) = ([theta, omega], [difference, rate]);

@@ -45,7 +45,7 @@ impl<E: LinkEquations, T> Tree<E, T> {
 
     /// The name of a link of a tree by generations.
     #[must_use]
-    pub fn link_name(index: usize) -> Option<LinkName> {
+    pub fn link_name(index: usize) -> Option<LinkName<'static>> {
         let (generation, index) = place(Self::COPIES, index)?;
         Some(LinkName {
             stem: E::NAMES.get(generation)?,

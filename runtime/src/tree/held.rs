@@ -3,7 +3,7 @@
 use super::small::LinkStates;
 use super::{LinkEquations, RootDrive, Tree, states};
 use crate::scalar::{Scalar, at};
-use crate::system::cast::put;
+use crate::system::pendulum::put;
 use crate::system::{PrescribedMotion, Workspace};
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {

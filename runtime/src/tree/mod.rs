@@ -72,7 +72,7 @@ pub use small::{LinkStates, SmallTree};
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};
 use crate::simd::{Simd, wide_slice};
-use crate::system::cast::put;
+use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
 use copies::links;
 use memory::Sizes;
@@ -218,7 +218,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     }
 
     /// Tells the accelerations in the arithmetic of `T`, as
-    /// [`Cast::evaluate`](crate::Cast::evaluate). Allocates.
+    /// [`Pendulum::evaluate`](crate::Pendulum::evaluate). Allocates.
     #[inline(always)]
     pub fn evaluate(
         &self,

@@ -22,7 +22,7 @@ pub struct RootDrive<T> {
 impl<T: Scalar> RootDrive<T> {
     /// Returns the drive on other scalars.
     #[inline(always)]
-    pub(super) fn map<S>(self, convert: impl Fn(T) -> S) -> RootDrive<S> {
+    pub fn map<S>(self, convert: impl Fn(T) -> S) -> RootDrive<S> {
         let [x, y] = self.pivot;
         RootDrive {
             pivot: [convert(x), convert(y)],

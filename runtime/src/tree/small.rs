@@ -14,7 +14,7 @@ use crate::scalar::{Scalar, at};
 use crate::simd::dispatch::in_fused_numbers;
 use crate::simd::{Kernel, Simd};
 use crate::system::Workspace;
-use crate::system::cast::put;
+use crate::system::pendulum::put;
 
 /// A tree of any shape and of some links, its equations `E` taken through it one link after
 /// the other. Faster than a [`Tree`](super::Tree) for one state of few links.

@@ -10,7 +10,7 @@ fn ratio<P>(model: &P, linear: &Linear, start: &[f64]) -> f64
 where
     P: Pendulum<f64>,
 {
-    let n = P::LINKS;
+    let n = model.links();
     let mut frames = linear.frames(1.0 / 60.0).unwrap();
     let estimate = frames.error(start);
     let times: Vec<f64> = (1..=60).map(|frame| f64::from(frame) / 60.0).collect();
@@ -31,7 +31,7 @@ where
 
 /// Least and largest ratio over states in disorder, from 0.6 to 35 degrees.
 fn ratios<P: Pendulum<f64>>(model: &P, linear: &Linear) -> (f64, f64) {
-    let n = P::LINKS;
+    let n = model.links();
     let mut seed = 1.0_f64;
     let mut number = || {
         seed = (seed + 0.618_033_988_749_895) % 1.0;

@@ -1,6 +1,6 @@
 //! Frames in real time.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{OdeFn, UnderTorques};
@@ -72,7 +72,7 @@ fn motion_does_not_depend_on_the_rate_of_frames() {
             ControlFlow::Continue(())
         })
         .unwrap();
-    fn second<T: Real, P: Cast<T>>(model: &P, angles: &[f64], rate: u32) -> Vec<f64> {
+    fn second<T: Real, P: Pendulum<T>>(model: &P, angles: &[f64], rate: u32) -> Vec<f64> {
         let angles: Vec<T> = angles.iter().map(|&angle| T::from_f64(angle)).collect();
         let start = State::at_rest(T::ZERO, &angles);
         let sub_step = longest_sub_step(model);
@@ -97,7 +97,7 @@ fn motion_does_not_depend_on_the_rate_of_frames() {
 }
 
 fn energy<T: Real, P: Energy<T>>(model: &P, state: &[T]) -> f64 {
-    let (theta, omega) = state.split_at(P::LINKS);
+    let (theta, omega) = state.split_at(model.links());
     (model.kinetic_energy_of(theta, omega) + model.potential_energy_of(theta)).to_f64()
 }
 
@@ -105,8 +105,8 @@ fn energy<T: Real, P: Energy<T>>(model: &P, state: &[T]) -> f64 {
 /// limited energy is lost, and none comes from nowhere.
 #[test]
 fn energy_does_not_rise_by_itself() {
-    fn highest<T: Real, P: Cast<T> + Energy<T>>(model: &P, lift: f64, share: f64) -> f64 {
-        let angles: Vec<T> = (0..P::LINKS).map(|_| T::from_f64(lift)).collect();
+    fn highest<T: Real, P: Energy<T>>(model: &P, lift: f64, share: f64) -> f64 {
+        let angles: Vec<T> = (0..model.links()).map(|_| T::from_f64(lift)).collect();
         let start = State::at_rest(T::ZERO, &angles);
         let step = T::from_f64(share) * longest_sub_step(model);
         let mut frames = Frames::new(AbsoluteAngles(model), &start, step).unwrap();
@@ -134,7 +134,7 @@ fn energy_does_not_rise_by_itself() {
 /// Hits of any size, of finite and other torques, in both precisions.
 #[test]
 fn no_hit_makes_a_state_that_is_not_finite() {
-    fn hit<T: Real, P: Cast<T> + Forced<T> + Energy<T>>(model: &P) {
+    fn hit<T: Real, P: Forced<T> + Energy<T>>(model: &P) {
         let start = State::at_rest(T::ZERO, &[T::from_f64(0.1); 3]);
         let step = longest_sub_step(model);
         for torque in [1.0, 1e3, 1e6, 1e30, 3e38, f64::INFINITY, f64::NAN] {

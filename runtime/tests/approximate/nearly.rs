@@ -7,7 +7,7 @@ use branched_pendulum::approximate::{
 use branched_pendulum::integrate::{Frames, InputError, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{DifferencePatterns, SmallOde, UnderTorques};
-use branched_pendulum::{Cast, SmallDifferences};
+use branched_pendulum::{Pendulum, SmallDifferences};
 
 use crate::scenes::{BranchedSmall, BranchedSmallParameters, Tree, TreeSmall, branched};
 
@@ -20,8 +20,8 @@ fn branched_small(friction: f64) -> BranchedSmall {
 /// Energy of the motion in phase over that which lifts the lightest sector to the
 /// horizontal.
 fn energy<M: SmallDifferences<f64>>(model: &M, theta: &[f64], omega: &[f64]) -> f64 {
-    let none = vec![0.0; SmallOde(model).dimension() / 2 - M::LINKS];
-    let still = vec![0.0; M::LINKS];
+    let none = vec![0.0; SmallOde(model).dimension() / 2 - model.links()];
+    let still = vec![0.0; model.links()];
     let rest = model.small_energy_of(&still, &still, &none, &none);
     let lift = M::SMALL.iter().map(|&number| {
         let sector = M::TRANSVERSE[number];
@@ -35,7 +35,7 @@ fn energy<M: SmallDifferences<f64>>(model: &M, theta: &[f64], omega: &[f64]) -> 
 /// Least and largest ratio of the estimate to the largest error of an angle in the second
 /// that follows, over states in disorder whose motion in phase has up to the energy that
 /// lifts a sector's links to the horizontal.
-fn ratios<M: SmallDifferences<f64>, W: Cast<f64>>(
+fn ratios<M: SmallDifferences<f64>, W: Pendulum<f64>>(
     model: &M,
     patterns: &DifferencePatterns,
     whole: &W,
@@ -50,13 +50,13 @@ fn ratios<M: SmallDifferences<f64>, W: Cast<f64>>(
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         2.0 * ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 1.0
     };
-    let count = SmallOde(model).dimension() / 2 - M::LINKS;
+    let count = SmallOde(model).dimension() / 2 - model.links();
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for size in [0.01, 0.05, 0.2, 0.5] {
         let mut followed = 0;
         while followed < 100 {
-            let theta: Vec<f64> = (0..M::LINKS).map(|_| number()).collect();
-            let omega: Vec<f64> = (0..M::LINKS).map(|_| 6.0 * number()).collect();
+            let theta: Vec<f64> = (0..model.links()).map(|_| number()).collect();
+            let omega: Vec<f64> = (0..model.links()).map(|_| 6.0 * number()).collect();
             if energy(model, &theta, &omega) > 1.0 {
                 continue;
             }
@@ -72,7 +72,7 @@ fn ratios<M: SmallDifferences<f64>, W: Cast<f64>>(
             method
                 .sample(&AbsoluteAngles(whole), &start, &times, |_, full| {
                     nearly.step(&mut state);
-                    for (a, b) in full.iter().zip(&state).take(W::LINKS) {
+                    for (a, b) in full.iter().zip(&state).take(whole.links()) {
                         worst = worst.max((a - b).abs());
                     }
                 })

@@ -1,6 +1,7 @@
 //! Problems that come with their answers.
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::system::LinkName;
 
 /// A system of any rates. Rates are called by their address, so that each method is compiled
 /// once for all such systems.
@@ -99,6 +100,7 @@ pub(crate) fn harmonic<T: Real>() -> Problem<T> {
 
 /// The paper's pendulum (`docs/physics.md`, sections 1 and 6), its equations
 /// of motion solved by hand: A₁₁, A₂₂ = A₃₃, A₁₂ = A₁₃, g h₁, g h₂ = g h₃.
+#[derive(Clone, Copy)]
 pub(crate) struct BranchedDouble {
     pub(crate) m1: f64,
     pub(crate) m2: f64,
@@ -122,28 +124,50 @@ impl BranchedDouble {
     }
 }
 
-impl<T: Scalar> Pendulum<T> for BranchedDouble {
-    const LINKS: usize = 3;
-    const LINK_NAMES: &'static [&'static str] = &["parent", "left", "right"];
+impl<T: Scalar> Model<T> for BranchedDouble {
+    type Of<S: Scalar> = BranchedDouble;
+    const KNOWN_LINKS: Option<usize> = Some(3);
 
-    fn accelerations_into(&self, _time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
+    fn links(&self) -> usize {
+        3
+    }
+
+    fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+        LinkName::in_list(&["parent", "left", "right"], index)
+    }
+
+    fn cast<S: Scalar>(&self, _: impl Fn(T) -> S) -> BranchedDouble {
+        *self
+    }
+}
+
+impl<T: Scalar> Pendulum<T> for BranchedDouble {
+    #[inline(always)]
+    fn evaluate(
+        &self,
+        _time: T,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        mut alpha: impl FnMut(usize, T),
+    ) {
         let number = T::from_f64;
         let (m2, mu, g2) = (number(self.m2), number(self.mu), number(self.g2));
         // M2 α_j + μ c_j α_1 = -f_j; eliminating both α_j leaves the root.
         let mut inertia = number(self.m1);
-        let mut torque = -(number(self.g1) * theta[0].sin_cos().0);
+        let mut torque = -(number(self.g1) * theta(0).sin_cos().0);
         let mut children = [(number(0.0), number(0.0)); 2];
         for (j, child) in [1, 2].into_iter().zip(&mut children) {
-            let (sine, cosine) = (theta[j] - theta[0]).sin_cos();
-            let force = mu * sine * omega[0] * omega[0] + g2 * theta[j].sin_cos().0;
+            let (sine, cosine) = (theta(j) - theta(0)).sin_cos();
+            let force = mu * sine * omega(0) * omega(0) + g2 * theta(j).sin_cos().0;
             let coupling = mu * cosine;
             inertia = inertia - coupling * coupling / m2;
-            torque = torque + mu * sine * omega[j] * omega[j] + coupling * force / m2;
+            torque = torque + mu * sine * omega(j) * omega(j) + coupling * force / m2;
             *child = (coupling, force);
         }
-        alpha[0] = torque / inertia;
+        let root = torque / inertia;
+        alpha(0, root);
         for (j, (coupling, force)) in [1, 2].into_iter().zip(children) {
-            alpha[j] = -((coupling * alpha[0] + force) / m2);
+            alpha(j, -((coupling * root + force) / m2));
         }
     }
 }

@@ -2,37 +2,12 @@
 
 use branched_pendulum::analysis::{EquilibriumError, Modes, ModesError, equilibrium_of_torques};
 use branched_pendulum::scalar::{Dual, Scalar};
-use branched_pendulum::system::{FirstIntegral, Workspace};
+use branched_pendulum::system::{Model, Slopes, Workspace, gradient};
 use branched_pendulum::tree::Bodies;
 
 use crate::tree::PendulumTree;
 
-/// Derivatives that are formed at once.
-const WIDTH: usize = 8;
-
 impl<T: Scalar> PendulumTree<T> {
-    /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
-    /// (rad/s), in the frame of reference that moves with the root's pivot. NaN for slices
-    /// of another length than there are links, here and below.
-    #[must_use]
-    pub fn kinetic_energy(&self, theta: &[T], omega: &[T]) -> T {
-        self.bodies
-            .kinetic_energy(&mut Workspace::new(), theta, omega)
-    }
-
-    /// Returns the potential energy (J) at angles `theta` (rad), that of springs among it;
-    /// zero where all angles are zero and the springs at rest.
-    #[must_use]
-    pub fn potential_energy(&self, theta: &[T]) -> T {
-        self.bodies.potential_energy(&mut Workspace::new(), theta)
-    }
-
-    /// Returns the energy K + U (J).
-    #[must_use]
-    pub fn energy(&self, theta: &[T], omega: &[T]) -> T {
-        self.kinetic_energy(theta, omega) + self.potential_energy(theta)
-    }
-
     /// Returns the power (W) of friction and drag, never positive.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
@@ -68,17 +43,17 @@ impl<T: Scalar> PendulumTree<T> {
     /// Returns the generalized momenta ∂K/∂ω (kg m²/s). O(links²).
     #[must_use]
     pub fn momenta(&self, theta: &[T], omega: &[T]) -> Vec<T> {
-        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
+        let bodies = self.bodies.cast(Slopes::<T>::constant);
         self.momenta_of(&bodies, theta, omega)
     }
 
-    fn momenta_of(&self, bodies: &Bodies<Dual<T, WIDTH>>, theta: &[T], omega: &[T]) -> Vec<T> {
+    fn momenta_of(&self, bodies: &Bodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
         // A value that is no number has derivatives of zero.
         if theta.len() != self.links() {
             return vec![T::from_f64(f64::NAN); self.links()];
         }
-        let theta: Vec<Dual<T, WIDTH>> = theta.iter().copied().map(Dual::constant).collect();
-        gradient(self.links(), omega, |omega, workspace| {
+        let theta: Vec<Slopes<T>> = theta.iter().copied().map(Dual::constant).collect();
+        gradient_of(self.links(), omega, |omega, workspace| {
             bodies.kinetic_energy(workspace, &theta, omega)
         })
     }
@@ -87,7 +62,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// of unit velocities. O(links³).
     #[must_use]
     pub fn mass_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
-        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
+        let bodies = self.bodies.cast(Slopes::<T>::constant);
         let row = |link: usize| {
             let mut omega = vec![T::from_f64(0.0); self.links()];
             if let Some(own) = omega.get_mut(link) {
@@ -102,7 +77,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// row for each link. O(links³).
     #[must_use]
     pub fn stiffness_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
-        type Twice<T> = Dual<Dual<T, 1>, WIDTH>;
+        type Twice<T> = Slopes<Dual<T, 1>>;
         if theta.len() != self.links() {
             return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
         }
@@ -113,7 +88,7 @@ impl<T: Scalar> PendulumTree<T> {
             if let Some(own) = point.get_mut(link) {
                 *own = Dual::variable(own.value, 0);
             }
-            let slopes = gradient(self.links(), &point, |theta, workspace| {
+            let slopes = gradient_of(self.links(), &point, |theta, workspace| {
                 bodies.potential_energy(workspace, theta)
             });
             slopes.into_iter().map(|slope| slope.tangents[0]).collect()
@@ -179,62 +154,24 @@ impl PendulumTree<f64> {
 
     /// The torques −∂U/∂θ on the links.
     fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
-        let bodies = self.bodies.cast(Dual::<f64, WIDTH>::constant);
-        let slopes = gradient(self.links(), theta, |theta, workspace| {
+        let bodies = self.bodies.cast(Slopes::<f64>::constant);
+        let slopes = gradient_of(self.links(), theta, |theta, workspace| {
             bodies.potential_energy(workspace, theta)
         });
         slopes.into_iter().map(|slope| -slope).collect()
     }
 }
 
-/// The energy, with its derivatives by angles and angular velocities.
-impl<T: Scalar> FirstIntegral<T> for PendulumTree<T> {
-    fn evaluate(&self, state: &[T], slopes: &mut [T]) -> T {
-        let n = self.links();
-        if [state.len(), slopes.len()] != [2 * n; 2] {
-            slopes.fill(T::from_f64(f64::NAN));
-            return T::from_f64(f64::NAN);
-        }
-        let bodies = self.bodies.cast(Dual::<T, WIDTH>::constant);
-        let all = gradient(2 * n, state, |state, workspace| {
-            let (theta, omega) = state.split_at(n);
-            let kinetic = bodies.kinetic_energy(workspace, theta, omega);
-            kinetic + bodies.potential_energy(workspace, theta)
-        });
-        slopes.copy_from_slice(&all);
-        let (theta, omega) = state.split_at(n);
-        self.energy(theta, omega)
-    }
-}
-
-/// Derivatives of a function by its variables, some at once. NaN for another number of
-/// values than `n`.
-fn gradient<T: Scalar>(
+/// Derivatives of a function by its variables. NaN for another number of values than `n`.
+fn gradient_of<T: Scalar>(
     n: usize,
     values: &[T],
-    function: impl Fn(&[Dual<T, WIDTH>], &mut Workspace<Dual<T, WIDTH>>) -> Dual<T, WIDTH>,
+    function: impl Fn(&[Slopes<T>], &mut Workspace<Slopes<T>>) -> Slopes<T>,
 ) -> Vec<T> {
     let mut slopes = vec![T::from_f64(f64::NAN); n];
-    if values.len() != n {
-        return slopes;
-    }
-    let mut workspace = Workspace::new();
-    let mut point: Vec<Dual<T, WIDTH>> = values.iter().copied().map(Dual::constant).collect();
-    for (part, slopes) in slopes.chunks_mut(WIDTH).enumerate() {
-        let own = |point: &mut Vec<Dual<T, WIDTH>>, change: fn((usize, &mut Dual<T, WIDTH>))| {
-            let own = point.iter_mut().skip(part * WIDTH).take(WIDTH);
-            own.enumerate().for_each(change);
-        };
-        own(&mut point, |(direction, value)| {
-            *value = Dual::variable(value.value, direction)
-        });
-        let result = function(&point, &mut workspace);
-        for (slope, tangent) in slopes.iter_mut().zip(result.tangents) {
-            *slope = tangent;
-        }
-        own(&mut point, |(_, value)| {
-            *value = Dual::constant(value.value)
-        });
+    if values.len() == n {
+        let mut workspace = Workspace::new();
+        gradient(values, &mut slopes, |point| function(point, &mut workspace));
     }
     slopes
 }

@@ -1,7 +1,8 @@
 //! The equations of a tree in one of their forms.
 
+use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::system::Workspace;
+use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::RootDrive;
 
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
@@ -72,14 +73,74 @@ impl<T: Scalar> Equations<T> {
         }
     }
 
-    /// Does so in the arithmetic of `T`, compiled for the instructions that the caller
-    /// chooses.
+    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
+    /// caller chooses.
     #[inline(always)]
-    pub(crate) fn evaluate(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+    pub(crate) fn evaluate(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        alpha: impl FnMut(usize, T),
+    ) {
         match self {
-            Self::Straight(ways) => ways.evaluate(acting, given, alpha),
-            Self::General(ways) => ways.evaluate(acting, given, alpha),
-            Self::Rough(ways) => ways.evaluate(acting, given, alpha),
+            Self::Straight(ways) => ways.evaluate(drive, theta, omega, alpha),
+            Self::General(ways) => ways.evaluate(drive, theta, omega, alpha),
+            Self::Rough(ways) => ways.evaluate(drive, theta, omega, alpha),
+        }
+    }
+
+    /// Writes accelerations under torques, likewise.
+    #[inline(always)]
+    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+        match self {
+            Self::Straight(ways) => ways.evaluate_under(acting, given, alpha),
+            Self::General(ways) => ways.evaluate_under(acting, given, alpha),
+            Self::Rough(ways) => ways.evaluate_under(acting, given, alpha),
+        }
+    }
+
+    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
+    pub(crate) fn room(&self) -> usize {
+        match self {
+            Self::Straight(ways) => ways.room(),
+            Self::General(ways) => ways.room(),
+            Self::Rough(ways) => ways.room(),
+        }
+    }
+
+    /// Returns the tree for registers of states at one time of a drive.
+    #[inline(always)]
+    pub(crate) fn in_registers<R: Simd<T>>(
+        &self,
+        drive: Option<RootDrive<T>>,
+        room: &mut [T],
+    ) -> impl InRegisters<R> {
+        match self {
+            Self::Straight(ways) => OneOf::First(ways.in_registers(drive, room)),
+            Self::General(ways) => OneOf::Second(OneOf::First(ways.in_registers(drive, room))),
+            Self::Rough(ways) => OneOf::Second(OneOf::Second(ways.in_registers(drive, room))),
+        }
+    }
+}
+
+/// One of two forms in registers.
+pub(crate) enum OneOf<A, B> {
+    First(A),
+    Second(B),
+}
+
+impl<R, A: InRegisters<R>, B: InRegisters<R>> InRegisters<R> for OneOf<A, B> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        match self {
+            Self::First(form) => form.evaluate(theta, omega, alpha),
+            Self::Second(form) => form.evaluate(theta, omega, alpha),
         }
     }
 }

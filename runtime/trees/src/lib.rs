@@ -18,9 +18,8 @@ mod energies;
 mod equations;
 mod error;
 mod forms;
+mod model;
 mod numbers;
-mod ode;
-mod positions;
 #[cfg(feature = "strips")]
 mod prescribed;
 mod rows;
@@ -35,7 +34,4 @@ mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
-pub use ode::TreeUnderTorques;
-#[cfg(feature = "strips")]
-pub use prescribed::PrescribedTree;
 pub use tree::PendulumTree;

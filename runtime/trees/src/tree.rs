@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::system::Workspace;
+use branched_pendulum::system::{Model, Pendulum, Workspace};
 use branched_pendulum::tree::{Bodies, PropertyTable, Shape};
 
 use crate::description::TreeDescription;
@@ -173,11 +173,6 @@ impl<T: Scalar> PendulumTree<T> {
         self.described.values.get(place).copied()
     }
 
-    /// Returns the number of links, each with one angle.
-    pub fn links(&self) -> usize {
-        self.described.names.len()
-    }
-
     /// Returns the names of the links, in the order of the angles.
     pub fn names(&self) -> &[String] {
         &self.described.names
@@ -185,8 +180,7 @@ impl<T: Scalar> PendulumTree<T> {
 
     /// Returns the tree on other scalars: `convert` should change the type of its
     /// constants and not their value.
-    #[must_use]
-    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+    pub(crate) fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
         PendulumTree {
             described: Arc::clone(&self.described),
             equations: self.equations.cast(&convert),
@@ -209,37 +203,11 @@ impl<T: Scalar> PendulumTree<T> {
         alpha
     }
 
-    /// Writes the angular accelerations, in memory that the caller keeps.
-    pub fn accelerations_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        alpha: &mut [T],
-    ) {
-        self.accelerate(workspace, self.acting(time, None), [theta, omega], alpha);
-    }
-
-    /// Writes the angular accelerations under torques (N m) from outside on the links,
-    /// likewise; the torques of forces are those that
-    /// [`point_torques`](Self::point_torques) tells.
-    pub fn accelerations_under_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        [theta, omega, torques]: [&[T]; 3],
-        alpha: &mut [T],
-    ) {
-        let acting = self.acting(time, Some(torques));
-        self.accelerate(workspace, acting, [theta, omega], alpha);
-    }
-
     // With its caller, so that what is given goes through memory once; where code has to be
     // small it is compiled once for a tree under torques and one without.
     #[cfg_attr(target_family = "wasm", inline(never))]
     #[cfg_attr(not(target_family = "wasm"), inline(always))]
-    fn accelerate(
+    pub(crate) fn accelerate(
         &self,
         workspace: &mut Workspace<T>,
         acting: Acting<'_, T>,

@@ -1,16 +1,18 @@
 //! Ways through a tree: in strips, and link by link.
 
+use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::system::Workspace;
-use branched_pendulum::tree::{LinkEquations, LinkStates, SmallTree, Tree};
+use branched_pendulum::system::{InRegisters, Workspace};
+use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
-use crate::forms::Acting;
+use crate::forms::{Acting, OneOf};
 use crate::rows::Form;
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
 /// one state of a small one.
 #[derive(Clone, Debug)]
 pub(crate) struct Ways<E, T> {
+    links: usize,
     strips: Tree<E, T>,
     small: Option<SmallTree<E, T>>,
 }
@@ -28,6 +30,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     pub(crate) fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
         let above = [T::from_f64(0.0), gravity];
         Self {
+            links: parents.len(),
             strips: Tree::with_parents(parents, &rows, above),
             small: (parents.len() <= most(form)).then(|| SmallTree::new(parents, rows, above)),
         }
@@ -35,6 +38,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ways<E, S> {
         Ways {
+            links: self.links,
             strips: self.strips.cast(&convert),
             small: self.small.as_ref().map(|small| small.cast(&convert)),
         }
@@ -70,10 +74,32 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         }
     }
 
-    /// Does so in the arithmetic of `T`, compiled for the instructions that the caller
-    /// chooses.
+    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
+    /// caller chooses.
     #[inline(always)]
     pub(crate) fn evaluate(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        mut alpha: impl FnMut(usize, T),
+    ) {
+        if self.has_one_driven_link(drive) {
+            let (given, mut result) = ([[theta(0)], [omega(0)]], [T::from_f64(f64::NAN)]);
+            let acting = Acting {
+                drive,
+                torques: None,
+            };
+            let [theta, omega] = &given;
+            self.evaluate_under(acting, [theta, omega], &mut result);
+            return alpha(0, result[0]);
+        }
+        self.strips.evaluate(drive, theta, omega, alpha);
+    }
+
+    /// Writes accelerations under what acts from outside, likewise.
+    #[inline(always)]
+    pub(crate) fn evaluate_under(
         &self,
         acting: Acting<'_, T>,
         [theta, omega]: [&[T]; 2],
@@ -81,27 +107,53 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     ) {
         let mut sum = [T::from_f64(0.0)];
         let torques = acting.on_links(theta.len(), &mut sum);
-        match torques {
-            None => {
-                let at = |numbers: &[T], link: usize| match numbers.get(link) {
-                    Some(&number) => number,
-                    None => T::from_f64(f64::NAN),
-                };
-                self.strips.evaluate(
-                    acting.drive,
-                    |link| at(theta, link),
-                    |link| at(omega, link),
-                    |link, value| {
-                        if let Some(alpha) = alpha.get_mut(link) {
-                            *alpha = value;
-                        }
-                    },
-                );
-            }
-            Some(torques) => {
-                let given = [theta, omega, torques];
-                self.strips.evaluate_under(acting.drive, given, alpha);
-            }
+        let given = [theta, omega, torques.unwrap_or_default()];
+        self.strips.evaluate_under(acting.drive, given, alpha);
+    }
+
+    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
+    pub(crate) fn room(&self) -> usize {
+        self.strips.room()
+    }
+
+    /// Returns the tree for registers of states at one time of a drive.
+    #[inline(always)]
+    pub(crate) fn in_registers<R: Simd<T>>(
+        &self,
+        drive: Option<RootDrive<T>>,
+        room: &mut [T],
+    ) -> impl InRegisters<R> {
+        match self.has_one_driven_link(drive) {
+            true => OneOf::First(Driven {
+                ways: self.cast(R::splat),
+                drive: drive.map(|drive| drive.map(R::splat)),
+            }),
+            false => OneOf::Second(self.strips.in_registers(drive, room)),
         }
+    }
+
+    /// Returns true for a tree of one link with a drive, whose torque the equations know on
+    /// links with children alone.
+    #[inline(always)]
+    fn has_one_driven_link(&self, drive: Option<RootDrive<T>>) -> bool {
+        self.links == 1 && drive.is_some()
+    }
+}
+
+/// One link in registers, with its drive at one time.
+struct Driven<E, R> {
+    ways: Ways<E, R>,
+    drive: Option<RootDrive<R>>,
+}
+
+impl<E: LinkEquations, R: Scalar> InRegisters<R> for Driven<E, R> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        self.ways.evaluate(self.drive, theta, omega, alpha);
     }
 }

@@ -1,23 +1,33 @@
 //! The way through a tree link by link, for builds without strips.
 
+use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::system::Workspace;
-use branched_pendulum::tree::{LinkEquations, LinkStates, SmallTree};
+use branched_pendulum::system::{InRegisters, Workspace};
+use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree};
 
 use crate::forms::Acting;
 use crate::rows::Form;
 
 /// A tree of any size, link by link.
 #[derive(Clone, Debug)]
-pub(crate) struct Ways<E, T>(SmallTree<E, T>);
+pub(crate) struct Ways<E, T> {
+    links: usize,
+    tree: SmallTree<E, T>,
+}
 
 impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     pub(crate) fn new(_: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
-        Self(SmallTree::new(parents, rows, [T::from_f64(0.0), gravity]))
+        Self {
+            links: parents.len(),
+            tree: SmallTree::new(parents, rows, [T::from_f64(0.0), gravity]),
+        }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ways<E, S> {
-        Ways(self.0.cast(convert))
+        Ways {
+            links: self.links,
+            tree: self.tree.cast(convert),
+        }
     }
 
     /// Writes the accelerations at angles and angular velocities.
@@ -36,13 +46,71 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
             omega,
             torques,
         };
-        let Self(tree) = self;
-        tree.accelerations_with(workspace, acting.drive, states, alpha);
+        self.tree
+            .accelerations_with(workspace, acting.drive, states, alpha);
     }
 
-    /// Does so in the arithmetic of `T`.
+    /// Gives the accelerations in the arithmetic of `T`.
     #[inline(always)]
-    pub(crate) fn evaluate(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+    pub(crate) fn evaluate(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        mut alpha: impl FnMut(usize, T),
+    ) {
+        let links = self.links;
+        let (theta, omega): (Vec<T>, Vec<T>) = (0..links).map(|i| (theta(i), omega(i))).unzip();
+        let mut result = vec![T::from_f64(f64::NAN); links];
+        let acting = Acting {
+            drive,
+            torques: None,
+        };
+        self.evaluate_under(acting, [&theta, &omega], &mut result);
+        for (link, value) in result.into_iter().enumerate() {
+            alpha(link, value);
+        }
+    }
+
+    /// Writes accelerations under what acts from outside, likewise.
+    #[inline(always)]
+    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         self.accelerate(&mut Workspace::new(), acting, given, alpha);
+    }
+
+    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
+    pub(crate) fn room(&self) -> usize {
+        0
+    }
+
+    /// Returns the tree for registers of states at one time of a drive.
+    #[inline(always)]
+    pub(crate) fn in_registers<R: Simd<T>>(
+        &self,
+        drive: Option<RootDrive<T>>,
+        _: &mut [T],
+    ) -> impl InRegisters<R> {
+        Registers {
+            ways: self.cast(R::splat),
+            drive: drive.map(|drive| drive.map(R::splat)),
+        }
+    }
+}
+
+/// A tree in registers, with its drive at one time.
+struct Registers<E, R> {
+    ways: Ways<E, R>,
+    drive: Option<RootDrive<R>>,
+}
+
+impl<E: LinkEquations, R: Scalar> InRegisters<R> for Registers<E, R> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        self.ways.evaluate(self.drive, theta, omega, alpha);
     }
 }

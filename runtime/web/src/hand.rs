@@ -1,6 +1,6 @@
 //! A hand that holds a link.
 
-use branched_pendulum::system::LinkPoint;
+use branched_pendulum::system::{LinkPoint, Model, Positions};
 use branched_pendulum_trees::PendulumTree;
 
 /// Angular frequency of the whole tree on the hand's spring, rad/s.
@@ -46,7 +46,7 @@ impl Hand {
             square += side * side;
         }
         let part = if square > 0.0 { along / square } else { 0.0 };
-        let masses = (0..tree.links()).filter_map(|link| tree.link_properties(link));
+        let masses = (0..tree.links()).filter_map(|link| tree.properties_of(link));
         let mass: f64 = masses.map(|link| link.mass).sum();
         Some(Self {
             link,

@@ -2,7 +2,7 @@
 
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::integrate::{AnyIntegrator, Integrator, Stepper};
-use branched_pendulum::system::{LinkPoint, RatesOnly, State};
+use branched_pendulum::system::{Energy, LinkPoint, Model, Positions, RatesOnly, State};
 use branched_pendulum_trees::PendulumTree;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -86,7 +86,7 @@ impl Pendulum {
     /// Masses of the links, kg.
     pub fn masses(&self) -> Vec<f64> {
         let tree = self.tree();
-        let links = (0..tree.links()).filter_map(|link| tree.link_properties(link));
+        let links = (0..tree.links()).filter_map(|link| tree.properties_of(link));
         links.map(|link| link.mass).collect()
     }
 
@@ -100,7 +100,7 @@ impl Pendulum {
         let length = |[x, y]: [f64; 2]| x.hypot(y);
         let pivots = self.down_the_tree(0.0, |above, pivot| above + length(pivot));
         let ends = pivots.iter().enumerate().filter_map(|(link, pivot)| {
-            Some(pivot + length(self.tree().link_properties(link)?.end))
+            Some(pivot + length(self.tree().properties_of(link)?.end))
         });
         ends.fold(0.0, f64::max)
     }
@@ -177,7 +177,7 @@ impl Pendulum {
         };
         let mut both: Vec<(f64, f64)> = Vec::new();
         for (link, name) in self.tree().names().iter().enumerate() {
-            let parent = self.tree().link_properties(link).and_then(|own| own.parent);
+            let parent = self.tree().properties_of(link).and_then(|own| own.parent);
             let above = || both.get(parent?).copied();
             let own = of(name).or_else(above).unwrap_or_default();
             both.push(own);
@@ -234,13 +234,13 @@ impl Pendulum {
     /// Energy, J.
     pub fn energy(&self) -> f64 {
         let (theta, omega) = self.theta_omega();
-        self.tree().energy(theta, omega)
+        self.tree().energy_of(theta, omega)
     }
 
     /// Kinetic energy, J.
     pub fn kinetic_energy(&self) -> f64 {
         let (theta, omega) = self.theta_omega();
-        self.tree().kinetic_energy(theta, omega)
+        self.tree().kinetic_energy_of(theta, omega)
     }
 
     /// Error of the energy since the account began, which work does not explain, over the
@@ -325,7 +325,7 @@ impl Pendulum {
     fn down_the_tree<T: Copy>(&self, root: T, next: impl Fn(T, [f64; 2]) -> T) -> Vec<T> {
         let mut numbers: Vec<T> = Vec::new();
         for link in 0..self.tree().links() {
-            let own = self.tree().link_properties(link);
+            let own = self.tree().properties_of(link);
             let above = own.and_then(|own| Some((*numbers.get(own.parent?)?, own.pivot)));
             numbers.push(above.map_or(root, |(above, pivot)| next(above, pivot)));
         }

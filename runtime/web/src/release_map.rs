@@ -3,12 +3,16 @@
 use branched_pendulum::analysis::growth::{BetweenCopies, Growth};
 use branched_pendulum::analysis::variational::{ByTangents, Copies, linearised};
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::system::State;
+use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
 use branched_pendulum_trees::PendulumTree;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// A tree with its derivatives.
-type LinearisedTree = ByTangents<PendulumTree, Dual<f64, 1>, PendulumTree<Dual<f64, 1>>>;
+type LinearisedTree = ByTangents<
+    AbsoluteAngles<PendulumTree>,
+    Dual<f64, 1>,
+    AbsoluteAngles<PendulumTree<Dual<f64, 1>>>,
+>;
 
 /// The plane of releases from rest of a tree with two equal branches: angle of the root, and
 /// common angle of all that hangs from it.
@@ -23,7 +27,7 @@ pub struct ReleaseMap {
 /// Returns the first two equal branches of a tree.
 pub(crate) fn copies(tree: &PendulumTree) -> Option<Copies> {
     let parents: Vec<Option<usize>> = (0..tree.links())
-        .map(|link| tree.link_properties(link)?.parent)
+        .map(|link| tree.properties_of(link)?.parent)
         .collect();
     let mut generations: Vec<f64> = Vec::with_capacity(parents.len());
     for parent in &parents {
@@ -42,7 +46,7 @@ pub(crate) fn copies(tree: &PendulumTree) -> Option<Copies> {
         siblings.filter(|[one, other]| parents[*one].is_some() && parents[*one] == parents[*other]);
     siblings.find_map(|links| {
         let both = Copies::of_links(&parents, &[&links])?;
-        both.are_in_phase(tree, &motion).then_some(both)
+        both.are_in_phase(&AbsoluteAngles(tree), &motion).then_some(both)
     })
 }
 
@@ -58,7 +62,7 @@ pub(crate) fn in_phase(links: usize, root: f64, rest: f64) -> State<f64> {
 impl ReleaseMap {
     pub(crate) fn of(tree: &PendulumTree, span: f64, tolerance: f64) -> Result<Self, String> {
         let branches = copies(tree).ok_or("the map is one of a tree with two equal branches")?;
-        let copies = BetweenCopies::new(linearised(tree.clone()), branches);
+        let copies = BetweenCopies::new(linearised(AbsoluteAngles(tree.clone())), branches);
         let frequency = copies.frequency_at_rest();
         Ok(Self {
             growth: Growth {

@@ -1,6 +1,6 @@
 //! The equations of motion, with an account of the work.
 
-use branched_pendulum::system::{Ode, Workspace};
+use branched_pendulum::system::{Forced, Model, Ode, Pendulum, Workspace};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::hand::Hand;
@@ -62,7 +62,7 @@ impl Ode<f64> for Swing {
             None => tree.accelerations_with(workspace, time, theta, omega, alpha),
             Some(torques) => {
                 *power += tree.outside_power(omega, &torques);
-                tree.accelerations_under_with(workspace, time, [theta, omega, &torques], alpha);
+                tree.accelerations_under_with(workspace, time, theta, omega, &torques, alpha);
             }
         }
     }

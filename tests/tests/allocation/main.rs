@@ -10,7 +10,7 @@ mod counting;
 
 use std::num::NonZeroUsize;
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Lane;
 use branched_pendulum::system::Workspace;
@@ -73,7 +73,7 @@ struct Irregular;
 struct Mobile;
 
 fn evaluations<T: Lane, P: Pendulum<T> + Energy<T>>(model: &P) {
-    let n = P::LINKS;
+    let n = model.links();
     let (theta, omega) = (vec![T::from_f64(0.3); n], vec![T::from_f64(0.1); n]);
     let mut alpha = vec![T::from_f64(0.0); n];
     let mut workspace = Workspace::new();
@@ -118,10 +118,10 @@ fn large_trees() {
 )]
 struct Small;
 
-fn batch_of<T: Lane, P: Cast<T>>(model: &P) {
+fn batch_of<T: Lane, P: Pendulum<T>>(model: &P) {
     let mut batch = Batch::new(model);
-    let states = vec![vec![T::from_f64(0.1); 67]; P::LINKS];
-    let mut alpha = vec![vec![T::from_f64(0.0); 67]; P::LINKS];
+    let states = vec![vec![T::from_f64(0.1); 67]; model.links()];
+    let mut alpha = vec![vec![T::from_f64(0.0); 67]; model.links()];
     let allocations = of_two(|| {
         batch
             .accelerations(T::from_f64(0.0), &states, &states, &mut alpha)

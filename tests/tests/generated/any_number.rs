@@ -1,7 +1,7 @@
 //! Emitted models, as they are, on other numbers: variational equations, checked
 //! parameters of any real type, every function for many states.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::analysis::variational::{Linearised, linearised};
 use branched_pendulum::batch::{Batch, BatchError, StateFunction};
 use branched_pendulum::prelude::*;
@@ -125,7 +125,7 @@ fn batch_agrees<P, F, const N: usize, const M: usize>(
     function: impl Fn() -> F,
     plain: impl Fn(&[f64; N], &[f64; N]) -> [f64; M],
 ) where
-    P: Cast<f64>,
+    P: Pendulum<f64>,
     F: StateFunction<P, f64, 2>,
 {
     for count in [0, 1, 2, 3, 5, 8, 9, 16, 21] {

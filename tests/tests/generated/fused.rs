@@ -3,7 +3,8 @@
 //! arithmetic keeps.
 
 use branched_pendulum::scalar::InstructionSet;
-use branched_pendulum::{Cast, Pendulum, Scalar};
+use branched_pendulum::system::LinkName;
+use branched_pendulum::{Model, Pendulum, Scalar};
 use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_compiler_tests::source::scene;
@@ -15,22 +16,24 @@ use branched_pendulum_tests::scenes::{
 /// Hands out the sine and cosine that the machine computes with.
 struct Sines;
 
-impl<T: Scalar> Pendulum<T> for Sines {
-    const LINKS: usize = 2;
-    const LINK_NAMES: &'static [&'static str] = &["sine", "cosine"];
-
-    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        Cast::accelerate(self, time, theta, omega, alpha);
-    }
-}
-
-impl<T: Scalar> Cast<T> for Sines {
+impl<T: Scalar> Model<T> for Sines {
     type Of<S: Scalar> = Sines;
+    const KNOWN_LINKS: Option<usize> = Some(2);
+
+    fn links(&self) -> usize {
+        2
+    }
+
+    fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+        LinkName::in_list(&["sine", "cosine"], index)
+    }
 
     fn cast<S: Scalar>(&self, _convert: impl Fn(T) -> S) -> Sines {
         Sines
     }
+}
 
+impl<T: Scalar> Pendulum<T> for Sines {
     #[inline(always)]
     fn evaluate(
         &self,
@@ -47,7 +50,7 @@ impl<T: Scalar> Cast<T> for Sines {
 
 fn sin_cos(angle: f64) -> (f64, f64) {
     let mut both = [0.0; 2];
-    Sines.accelerations_into(0.0, &[angle, 0.0], &[0.0; 2], &mut both);
+    Pendulum::<f64>::accelerations_into(&Sines, 0.0, &[angle, 0.0], &[0.0; 2], &mut both);
     (both[0], both[1])
 }
 
@@ -69,7 +72,7 @@ fn agrees<P: Pendulum<f64>>(name: &str, model: &P, parameters: &[f64]) {
     let interpreter = interpreter.expect("every scene has accelerations");
     for _ in 0..100 {
         let mut numbers = |size: f64| -> Vec<f64> {
-            (0..P::LINKS)
+            (0..model.links())
                 .map(|_| random.array::<1>(-size, size)[0])
                 .collect()
         };
@@ -80,7 +83,7 @@ fn agrees<P: Pendulum<f64>>(name: &str, model: &P, parameters: &[f64]) {
             Argument::Time => time,
             _ => theta[index],
         };
-        let mut compiled = vec![0.0; P::LINKS];
+        let mut compiled = vec![0.0; model.links()];
         model.accelerations_into(time, &theta, &omega, &mut compiled);
         let fused = interpreter.evaluate_fused(sin_cos, mul_add, input);
         let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();

@@ -39,21 +39,19 @@ pair!(ShortLoops, ShortUnrolled: count = 2, branching = 5, shape = disc, mass = 
     length = 0.2, radius = 0.05, spring = 0.01);
 
 /// The number in `loops` of each link of `unrolled`, by name.
-fn order<L: Pendulum<f64>, U: Pendulum<f64>>() -> Vec<usize> {
-    let names: Vec<String> = (0..L::LINKS)
-        .map(|index| L::link_name(index).unwrap().to_string())
-        .collect();
-    assert!(L::link_name(L::LINKS).is_none());
-    let find = |name: &&str| names.iter().position(|other| other == name).unwrap();
-    U::LINK_NAMES.iter().map(find).collect()
+fn order<L: Pendulum<f64>, U: Pendulum<f64>>(loops: &L, unrolled: &U) -> Vec<usize> {
+    let names = loops.link_names();
+    assert!(loops.link_name(loops.links()).is_none());
+    let find = |name: &String| names.iter().position(|other| other == name).unwrap();
+    unrolled.link_names().iter().map(find).collect()
 }
 
 /// Both models at random states: accelerations within the conditioning bound of
 /// each other, |M⁻¹| (|M| |ω̇| + |b|) with |b| term by term, and energies.
 fn agree<L: Energy<f64>, U: Energy<f64>>(loops: &L, unrolled: &U, tree: &Tree) {
-    let n = U::LINKS;
-    assert_eq!(L::LINKS, n);
-    let order = order::<L, U>();
+    let n = unrolled.links();
+    assert_eq!(loops.links(), n);
+    let order = order(loops, unrolled);
     let mut random = Random::new(7);
     let mut worst = 0.0_f64;
     for _ in 0..200 {
@@ -228,7 +226,8 @@ fn a_path_leads_to_the_link_of_that_name() {
     assert_eq!(Tree::link(&[2]), Some(3));
     assert_eq!(Tree::link(&[2, 1]), Some(4 + 3 + 2));
     let place = Tree::link(&[2, 0, 1]).unwrap();
-    let name = <Tree as Pendulum<f64>>::link_name(place).unwrap();
+    let tree = Tree::new();
+    let name = tree.link_name(place).unwrap();
     assert_eq!(name.to_string(), "tree_4_3_1_2");
     assert_eq!(Tree::link(&[3]), None);
     assert_eq!(Tree::link(&[0, 0, 0, 0]), None);
@@ -237,7 +236,7 @@ fn a_path_leads_to_the_link_of_that_name() {
 /// Other scalars, one by one: double-double against double.
 #[test]
 fn other_scalars_compute_the_same_tree() {
-    let n = <TernaryLoops as Pendulum<f64>>::LINKS;
+    let n = TernaryLoops::LINKS;
     let mut random = Random::new(11);
     let theta: Vec<f64> = (0..n).map(|_| random.array::<1>(-3.0, 3.0)[0]).collect();
     let omega: Vec<f64> = theta.iter().map(|theta| 2.0 - theta).collect();
@@ -294,7 +293,7 @@ fn parameters_give_the_tree_of_their_values() {
     };
     let named = Named::new(parameters).unwrap();
     let literal = TernaryLoops::<f64>::new();
-    let n = <Named as Pendulum<f64>>::LINKS;
+    let n = Named::LINKS;
     let mut random = Random::new(13);
     let theta: Vec<f64> = (0..n).map(|_| random.array::<1>(-3.0, 3.0)[0]).collect();
     let (mut own, mut other) = (vec![0.0; n], vec![0.0; n]);

@@ -48,10 +48,9 @@ fn oracle(text: &str) -> (Tree, Vec<[f64; 2]>) {
 }
 
 /// Index in the model of each link of the tree written out, by name.
-fn order<P: Pendulum<f64>>(names: &[&str]) -> Vec<usize> {
-    let of = |index: usize| P::link_name(index).map(|name| name.to_string());
-    let own: Vec<_> = (0..P::LINKS).map(of).collect();
-    let find = |name: &&str| own.iter().position(|other| other.as_deref() == Some(*name));
+fn order<P: Pendulum<f64>>(model: &P, names: &[&str]) -> Vec<usize> {
+    let own = model.link_names();
+    let find = |name: &&str| own.iter().position(|other| other == *name);
     names
         .iter()
         .map(|name| find(name).expect("it has that link"))
@@ -71,7 +70,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 /// Data, points, velocities and torques of a model whose links stand at `order`.
 fn agrees<P: Positions<f64>>(model: &P, tree: &Tree, ends: &[[f64; 2]], order: &[usize]) {
     let links = tree.links.len();
-    assert_eq!(P::LINKS, links);
+    assert_eq!(model.links(), links);
     for (link, (expected, &end)) in tree.links.iter().zip(ends).enumerate() {
         let found = model.properties_of(order[link]).expect("it has that link");
         assert_eq!(found.parent, expected.parent.map(|parent| order[parent]));
@@ -185,17 +184,22 @@ fn moves_as_it_says<P: Positions<f64>>(
 #[test]
 fn all_forms_know_where_their_links_are() {
     let (tree, ends) = oracle(BUSH);
-    let names = <Bush as Pendulum<f64>>::LINK_NAMES;
-    agrees(&Bush::new(), &tree, &ends, &order::<Bush>(names));
-    agrees(&BushLoops::new(), &tree, &ends, &order::<BushLoops>(names));
+    let names = Bush::LINK_NAMES;
+    agrees(&Bush::new(), &tree, &ends, &order(&Bush::new(), names));
+    agrees(
+        &BushLoops::new(),
+        &tree,
+        &ends,
+        &order(&BushLoops::new(), names),
+    );
     let (tree, ends) = oracle(GROVE);
-    let names = <Grove as Pendulum<f64>>::LINK_NAMES;
-    agrees(&Grove::new(), &tree, &ends, &order::<Grove>(names));
+    let names = Grove::LINK_NAMES;
+    agrees(&Grove::new(), &tree, &ends, &order(&Grove::new(), names));
     agrees(
         &GroveLoops::new(),
         &tree,
         &ends,
-        &order::<GroveLoops>(names),
+        &order(&GroveLoops::new(), names),
     );
 }
 
@@ -215,14 +219,14 @@ fn parameters_and_other_numbers_come_along() {
     // A link that says no joint ends at its centre of mass.
     let shoot = model.properties_of(4).unwrap();
     assert_eq!(shoot.end, shoot.centre);
-    let precise = branched_pendulum::Cast::cast(&model, Double::from_f64);
+    let precise = branched_pendulum::Model::cast(&model, Double::from_f64);
     let theta = [0.3, -0.2, 0.7, 1.1, -2.0];
     let more = precise.ends(&theta.map(Double::from_f64));
     for (end, more) in model.ends(&theta).concat().into_iter().zip(more.concat()) {
         assert!((Double::from_f64(end) - more).to_f64().abs() < 1e-15);
     }
-    let loops = branched_pendulum::Cast::cast(&GroveLoops::new(), |x| x as f32);
-    let last = <GroveLoops as Pendulum<f64>>::LINKS - 1;
+    let loops = branched_pendulum::Model::cast(&GroveLoops::new(), |x| x as f32);
+    let last = GroveLoops::LINKS - 1;
     assert_eq!(loops.properties_of(last).unwrap().mass, 0.015);
 }
 

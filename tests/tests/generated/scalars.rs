@@ -1,7 +1,7 @@
 //! One body of emitted code with every scalar: lanes and batches have the bits
 //! of plain numbers, dual numbers the derivatives, double-double the digits.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::batch::{Batch, BatchError};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, InstructionSet, Lane, Lanes};
@@ -39,7 +39,7 @@ fn states(links: usize, count: usize) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
 /// pairs of registers and a half, for every instruction set, against one state
 /// after the other: through `accelerations_into` where the registers fuse, by the
 /// plain function where they do not.
-fn batch_agrees<T: Lane, P: Cast<T>, const N: usize>(
+fn batch_agrees<T: Lane, P: Pendulum<T>, const N: usize>(
     model: &P,
     plain: impl Fn(&[T; N], &[T; N]) -> [T; N],
     convert: fn(f64) -> T,
@@ -129,10 +129,10 @@ fn lanes_have_the_bits_of_plain_numbers() {
     }
 }
 
-fn one_state_without_answer<P: Cast<f64>>(model: &P, link: usize) {
-    let (mut theta, omega) = states(P::LINKS, 11);
+fn one_state_without_answer<P: Pendulum<f64>>(model: &P, link: usize) {
+    let (mut theta, omega) = states(model.links(), 11);
     theta[link][4] = f64::NAN;
-    let mut alpha = vec![vec![0.0; 11]; P::LINKS];
+    let mut alpha = vec![vec![0.0; 11]; model.links()];
     Batch::new(model)
         .accelerations(0.0, &theta, &omega, &mut alpha)
         .unwrap();

@@ -190,9 +190,7 @@ macro_rules! said {
 fn said_at_run_time(tree: &PendulumTree, given: &Given) -> Said {
     let (theta, omega) = (&given.theta[..], &given.omega[..]);
     let mut accelerations = vec![0.0; theta.len()];
-    let state = [theta, omega, &given.torques[..]];
-    let workspace = &mut Workspace::new();
-    tree.accelerations_under_with(workspace, given.time, state, &mut accelerations);
+    tree.accelerations_under_into(given.time, theta, omega, &given.torques, &mut accelerations);
     let places = LinkPoint::ALL.map(|point| {
         let velocities = tree.point_velocities(point, theta, omega);
         [tree.points(point, theta), velocities].concat().concat()
@@ -202,8 +200,8 @@ fn said_at_run_time(tree: &PendulumTree, given: &Given) -> Said {
         accelerations,
         places: places.concat(),
         torques: torques.concat(),
-        kinetic: tree.kinetic_energy(theta, omega),
-        potential: tree.potential_energy(theta),
+        kinetic: tree.kinetic_energy_of(theta, omega),
+        potential: tree.potential_energy_of(theta),
         drive_power: tree.drive_power(given.time, theta, omega),
     }
 }
@@ -255,14 +253,13 @@ macro_rules! agree {
     ($written:ident, $loops:ident, $hanging:ident, $text:ident) => {{
         let (written, loops, hanging) = ($written::new(), $loops::new(), $hanging::new());
         let tree = PendulumTree::parse($text).expect("it is right");
-        let links = <$written as Pendulum<f64>>::LINKS;
+        let links = $written::LINKS;
         let mut random = Random::new(links as u64);
         let mut constant = None;
         for _ in 0..30 {
             let given = Given::random(&mut random, links);
-            let array = |values: &[f64]| -> [f64; <$written as Pendulum<f64>>::LINKS] {
-                values.try_into().expect("as many")
-            };
+            let array =
+                |values: &[f64]| -> [f64; $written::LINKS] { values.try_into().expect("as many") };
             let other = said!(&hanging, &given.mirrored(), array);
             let own = said!(&written, &given, array);
             let constant = *constant.get_or_insert(own.potential - other.potential);
@@ -357,7 +354,7 @@ fn what_stands_falls_twice_as_fast_in_a_lift() {
     LiftLoops::new().accelerations_into(0.0, &theta, &[0.0; 2], &mut loops);
     let twice: Vec<f64> = still.iter().map(|alpha| 2.0 * alpha).collect();
     close(&loops, &twice, 1.0, "in a lift");
-    let wide = branched_pendulum::Cast::cast(&LiftLoops::new(), Double::from_f64);
+    let wide = branched_pendulum::Model::cast(&LiftLoops::new(), Double::from_f64);
     let zero = Double::from_f64(0.0);
     let mut ends = [[zero; 2]; 2];
     wide.points_into(LinkPoint::End, &[zero; 2], &mut ends);
@@ -365,12 +362,9 @@ fn what_stands_falls_twice_as_fast_in_a_lift() {
     assert_eq!(ends[1].map(|value| value.to_f64()), [0.0, 0.5]);
     // It leans to positive x.
     assert!(Rod::new().ends(&[0.1])[0][0] > 0.0);
-    let (stands, hangs) = (
-        <Lift as Positions<f64>>::STANDS,
-        <HangingLift as Positions<f64>>::STANDS,
-    );
-    assert!(stands && <&LiftLoops as Positions<f64>>::STANDS && !hangs);
-    const { assert!(<Crown as Positions<f64>>::STANDS) };
+    let (stands, hangs) = (Lift::new().stands(), HangingLift::new().stands());
+    assert!(stands && Positions::stands(&&LiftLoops::new()) && !hangs);
+    assert!(Crown::new().stands());
 }
 
 /// U is Σ m g y but for a constant, and the torques of weights are −∂U/∂θ: by differences.

@@ -154,7 +154,7 @@ fn same_lagrangian<M: Energy<f64>, W: Energy<f64>>(
     tree: WholeTree,
 ) {
     let mut random = Random::new(5);
-    let links = M::LINKS;
+    let links = model.links();
     let mut zero = None;
     for _ in 0..200 {
         let state = expanded(tree, links, &mut random);
@@ -230,12 +230,12 @@ fn copies_in_phase_stay_so() {
     fn check<M: Pendulum<f64>, W: Pendulum<f64>>(model: &M, whole: &W, tree: WholeTree) {
         let mut random = Random::new(6);
         for _ in 0..200 {
-            let state = expanded(tree, M::LINKS, &mut random);
-            let mut alpha = vec![0.0; M::LINKS];
+            let state = expanded(tree, model.links(), &mut random);
+            let mut alpha = vec![0.0; model.links()];
             model.accelerations_into(0.3, &state.theta, &state.omega, &mut alpha);
-            let mut found = vec![0.0; W::LINKS];
+            let mut found = vec![0.0; whole.links()];
             tree.velocities(&alpha, &mut found).expect("all links");
-            let mut expected = vec![0.0; W::LINKS];
+            let mut expected = vec![0.0; whole.links()];
             let (theta, omega) = (&state.whole_theta, &state.whole_omega);
             whole.accelerations_into(0.3, theta, omega, &mut expected);
             assert!(
@@ -262,7 +262,7 @@ fn links_stand_for_as_many_as_move_alike() {
     assert_eq!(counts[..6], [1, 2, 6, 4, 4, 1]);
     assert_eq!(AllInPhase::WHOLE.links(), WHOLE);
     // The trunk with its tail, two arms with their fingers, six hands, four nails.
-    assert_eq!(<FingersLocked as Pendulum<f64>>::LINKS, 13);
+    assert_eq!(FingersLocked::LINKS, 13);
     let mut angles = [0.0; WHOLE];
     let mut given: Vec<f64> = (0..13).map(f64::from).collect();
     given[0] = 0.5;
@@ -294,7 +294,7 @@ fn links_stand_for_as_many_as_move_alike() {
 #[test]
 fn copies_on_locked_copies_are_told_apart() {
     // The trunk with its tail and arms and their fingers, six hands, eight nails.
-    assert_eq!(<FingersLockedInArms as Pendulum<f64>>::LINKS, 15);
+    assert_eq!(FingersLockedInArms::LINKS, 15);
     let mut angles = [0.0; OF_RACK];
     let mut given: Vec<f64> = (0..15).map(f64::from).collect();
     given[0] = 0.5;
@@ -320,7 +320,7 @@ fn copies_on_locked_copies_are_told_apart() {
     assert_eq!(count(tree, 15), own);
     // Nails of both fingers of an arm as one.
     let in_phase = FingersInPhaseInArms::WHOLE;
-    let links = <FingersInPhaseInArms as Pendulum<f64>>::LINKS;
+    let links = FingersInPhaseInArms::LINKS;
     let counts = count(in_phase, links);
     assert_eq!(counts.iter().sum::<usize>(), OF_RACK);
     assert_eq!(counts.iter().filter(|&&count| count == 2).count(), 4);
@@ -391,7 +391,7 @@ seven!(SevenInPhase, in_phase(tree));
 
 #[test]
 fn a_million_links_are_a_chain() {
-    assert_eq!(<Chain as Pendulum<f64>>::LINKS, 20);
+    assert_eq!(Chain::LINKS, 20);
     assert_eq!(Chain::WHOLE.links(), (1 << 20) - 1);
     let theta: Vec<f64> = (0..20).map(f64::from).collect();
     let mut whole = vec![f64::NAN; Chain::WHOLE.links()];

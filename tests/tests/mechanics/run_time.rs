@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
+use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::report::Problem;
 use branched_pendulum_compiler_tests::front_end::{run, split};
 use branched_pendulum_compiler_tests::mistakes::mistakes;
@@ -51,10 +52,10 @@ fn random_trees_agree_with_their_programs() {
             }
             let place = || format!("tree {seed}, state {count}");
             let kinetic = compiled.evaluate("kinetic_energy", &[&theta, &omega])[0];
-            let error = tree.kinetic_energy(&theta, &omega) - kinetic;
+            let error = tree.kinetic_energy_of(&theta, &omega) - kinetic;
             energies.note(error, motion.kinetic_terms, place);
             let potential = compiled.evaluate("potential_energy", &[&theta])[0];
-            let error = tree.potential_energy(&theta) - potential;
+            let error = tree.potential_energy_of(&theta) - potential;
             energies.note(error, motion.potential_terms, place);
             let momenta = compiled.evaluate("momenta", &[&theta, &omega]);
             for (link, (own, other)) in tree.momenta(&theta, &omega).iter().zip(momenta).enumerate()

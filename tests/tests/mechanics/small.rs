@@ -31,18 +31,18 @@ fn crown_patterns() -> DifferencePatterns {
 
 /// A random state of angles and differences, the latter of this size.
 fn state<M: SmallDifferences<f64>>(model: &M, size: f64, random: &mut Random) -> Vec<f64> {
-    let count = SmallOde(model).dimension() / 2 - M::LINKS;
-    let mut state = random.around_zero(M::LINKS, PI);
+    let count = SmallOde(model).dimension() / 2 - model.links();
+    let mut state = random.around_zero(model.links(), PI);
     state.extend(random.around_zero(count, size));
-    state.extend(random.around_zero(M::LINKS, 5.0));
+    state.extend(random.around_zero(model.links(), 5.0));
     state.extend(random.around_zero(count, 5.0 * size));
     state
 }
 
 /// A state with differences of another size.
-fn scaled<M: Pendulum<f64>>(_: &M, state: &[f64], size: f64) -> Vec<f64> {
+fn scaled<M: Pendulum<f64>>(model: &M, state: &[f64], size: f64) -> Vec<f64> {
     let half = state.len() / 2;
-    let scale = |(index, &value): (usize, &f64)| match index % half < M::LINKS {
+    let scale = |(index, &value): (usize, &f64)| match index % half < model.links() {
         true => value,
         false => size * value,
     };
@@ -73,7 +73,7 @@ fn errors<M: SmallDifferences<f64>, W: Pendulum<f64>>(
     let expected = patterns.to_small(&shifted);
     let mut largest = [0.0_f64; 2];
     for index in half..2 * half {
-        let of = usize::from(index - half >= M::LINKS);
+        let of = usize::from(index - half >= model.links());
         largest[of] = largest[of].max((found[index] - expected[index]).abs());
     }
     largest
@@ -169,10 +169,10 @@ fn in_phase<M: SmallDifferences<f64>>(model: &M) {
         let half = state.len() / 2;
         let mut rates = vec![0.0; 2 * half];
         SmallOde(model).rates(0.7, &state, &mut rates);
-        let mut alpha = vec![0.0; M::LINKS];
-        let (theta, omega) = (&state[..M::LINKS], &state[half..half + M::LINKS]);
+        let mut alpha = vec![0.0; model.links()];
+        let (theta, omega) = (&state[..model.links()], &state[half..half + model.links()]);
         model.accelerations_into(0.7, theta, omega, &mut alpha);
-        let (means, differences) = rates[half..].split_at(M::LINKS);
+        let (means, differences) = rates[half..].split_at(model.links());
         let largest = alpha.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
         for (found, expected) in means.iter().zip(&alpha) {
             assert!((found - expected).abs() <= 1e-12 * largest);
@@ -199,7 +199,7 @@ fn differences_follow_the_transverse_equations() {
         let half = state.len() / 2;
         let mut rates = vec![0.0; 2 * half];
         SmallOde(&model).rates(0.7, &state, &mut rates);
-        let links = <CrownSmall as Pendulum<f64>>::LINKS;
+        let links = CrownSmall::LINKS;
         let motion = InPhaseMotion {
             theta: &state[..links],
             omega: &state[half..half + links],

@@ -47,7 +47,7 @@ fn weights(sector: &TransverseSector) -> Vec<f64> {
             words.map(|word| word.parse().expect("a number")).collect(),
         )
     };
-    let names = <Crown as Pendulum<f64>>::LINK_NAMES.iter();
+    let names = Crown::LINK_NAMES.iter();
     let weight = |name: &&str| {
         let (node, copies) = link(name);
         match (sector.name, node.as_str(), copies.as_slice()) {
@@ -72,9 +72,9 @@ struct Sample {
 
 impl Sample {
     fn new<M: Pendulum<f64>>(model: &M, sector: &TransverseSector, random: &mut Random) -> Self {
-        let theta = random.around_zero(M::LINKS, PI);
-        let omega = random.around_zero(M::LINKS, 5.0);
-        let mut alpha = vec![0.0; M::LINKS];
+        let theta = random.around_zero(model.links(), PI);
+        let omega = random.around_zero(model.links(), 5.0);
+        let mut alpha = vec![0.0; model.links()];
         model.accelerations_into(0.7, &theta, &omega, &mut alpha);
         Self {
             theta,
@@ -96,7 +96,7 @@ impl Sample {
 
 /// The accelerations of the motion in phase and those of the differences, formed together.
 fn together<M: Transverse<f64>>(model: &M, number: usize, sample: &Sample) -> Vec<f64> {
-    let mut both = vec![0.0; M::LINKS + sample.difference.len()];
+    let mut both = vec![0.0; model.links() + sample.difference.len()];
     let motion = [&sample.theta[..], &sample.omega];
     let differences = [&sample.difference[..], &sample.rate];
     model.transverse_motion_into(number, 0.7, motion, differences, &mut both);
@@ -354,7 +354,7 @@ fn every_sector_of_fifteen_links_grows_as_in_the_whole_tree() {
     {
         assert_eq!(known.name, format!("tree_{}", sector + 2));
         assert_eq!((known.copies, known.holders), (2, 1 << sector));
-        let names = <Fifteen as Pendulum<f64>>::LINK_NAMES.iter();
+        let names = Fifteen::LINK_NAMES.iter();
         let weight = |name: &&str| {
             let numbers: Vec<usize> = name.split('_').filter_map(|n| n.parse().ok()).collect();
             // Its generation, then the number of each copy on the way to it.

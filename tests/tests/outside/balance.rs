@@ -23,7 +23,7 @@ where
     W: Fn(f64, &[f64], &[f64], &[f64]) -> f64,
 {
     fn dimension(&self) -> usize {
-        2 * P::LINKS + 1
+        2 * self.model.links() + 1
     }
 
     fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
@@ -37,14 +37,14 @@ where
         state: &[f64],
         rates: &mut [f64],
     ) {
-        let (theta, rest) = state.split_at(P::LINKS);
-        let omega = &rest[..P::LINKS];
-        let mut torques = vec![0.0; P::LINKS];
+        let (model, links) = (self.model, self.model.links());
+        let (theta, rest) = state.split_at(links);
+        let omega = &rest[..links];
+        let mut torques = vec![0.0; links];
         self.torques.torques_into(time, theta, omega, &mut torques);
-        let (velocities, rest) = rates.split_at_mut(P::LINKS);
+        let (velocities, rest) = rates.split_at_mut(links);
         velocities.copy_from_slice(omega);
-        let (alpha, work) = rest.split_at_mut(P::LINKS);
-        let model = self.model;
+        let (alpha, work) = rest.split_at_mut(links);
         model.accelerations_under_with(workspace, time, theta, omega, &torques, alpha);
         work[0] = (self.power)(time, theta, omega, &torques);
     }
@@ -55,7 +55,7 @@ fn energy_closes<P>(model: &P, power: impl Fn(f64, &[f64], &[f64], &[f64]) -> f6
 where
     P: Forced<f64> + Positions<f64> + Energy<f64>,
 {
-    let links = P::LINKS;
+    let links = model.links();
     let energy = |values: &[f64]| {
         let (theta, omega) = (&values[..links], &values[links..2 * links]);
         model.kinetic_energy_of(theta, omega) + model.potential_energy_of(theta)

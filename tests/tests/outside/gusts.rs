@@ -40,12 +40,12 @@ pub(super) struct Gusts<'m, P> {
 impl<'m, P: Positions<f64>> Gusts<'m, P> {
     pub(super) fn new(model: &'m P, seed: u64) -> Self {
         let mut random = Random::new(seed);
-        let couples = (0..P::LINKS)
+        let couples = (0..model.links())
             .map(|_| Noise::new(&mut random, 0.01))
             .collect();
         let mut forces = || {
             let force = |_| [Noise::new(&mut random, 0.1), Noise::new(&mut random, 0.1)];
-            (0..P::LINKS).map(force).collect()
+            (0..model.links()).map(force).collect()
         };
         let forces = [forces(), forces()];
         Self {

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
+use branched_pendulum::state_function;
 use branched_pendulum::system::{LaneOde, LaneTorques, Torques, TransverseOde, UnderTorques};
-use branched_pendulum::{Cast, state_function};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::balance::{ByGeneration, Irregular};
@@ -59,12 +59,12 @@ struct Written;
 
 fn lanes_meet_the_plain_method<P>(model: impl Fn() -> P)
 where
-    P: Forced<f64> + Cast<f64> + Sync,
+    P: Forced<f64> + Sync,
 {
     let mut random = Random::new(3);
     let releases: Vec<_> = couples(21)
         .map(|couples| {
-            let values = random.around_zero(2 * P::LINKS, 0.4);
+            let values = random.around_zero(2 * model().links(), 0.4);
             (UnderTorques::of(model(), couples), State::new(0.0, values))
         })
         .collect();
@@ -102,7 +102,7 @@ struct WithWork<T> {
     couples: Couples<T>,
 }
 
-const LINKS: usize = <ByGeneration as Pendulum<f64>>::LINKS;
+const LINKS: usize = ByGeneration::LINKS;
 
 impl Ode<f64> for WithWork<f64> {
     fn dimension(&self) -> usize {
@@ -179,7 +179,7 @@ fn batches_under_torques() {
     let model = Irregular::<f64>::new();
     let mut random = Random::new(8);
     let [theta, omega, torques]: [Vec<Vec<f64>>; 3] = [3.0, 9.0, 0.1].map(|size| {
-        let links = 0..<Irregular as Pendulum<f64>>::LINKS;
+        let links = 0..Irregular::LINKS;
         links.map(|_| random.around_zero(STATES, size)).collect()
     });
     let mut alpha: Vec<Vec<f64>> = theta.clone();

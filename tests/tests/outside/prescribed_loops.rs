@@ -3,14 +3,14 @@
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
+use branched_pendulum::Scalar;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{
     LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, PrescribedOde,
 };
-use branched_pendulum::{Cast, Scalar};
 use branched_pendulum_compiler_tests::random::Random;
 
-use super::prescribed::reactions_make_the_free_tree_move_so;
+use super::prescribed::{reactions_make_the_free_tree_move_so, sets};
 
 /// Four generations, with all that acts in joints; units are parameters.
 macro_rules! rule {
@@ -44,22 +44,24 @@ const LINKS: usize = 15;
 /// The place of each link of the loops in the tree that is written out.
 fn places() -> [usize; LINKS] {
     std::array::from_fn(|link| {
-        let name = <InLoops as Pendulum<f64>>::link_name(link);
-        let name = name.expect("a link").to_string();
-        let mut names = <WrittenOut as Pendulum<f64>>::LINK_NAMES.iter();
+        let model = in_loops();
+        let name = model.link_name(link).expect("a link").to_string();
+        let mut names = WrittenOut::LINK_NAMES.iter();
         names.position(|known| *known == name).expect("its name")
     })
 }
 
 #[test]
 fn sets_name_the_same_links() {
-    let written = <WrittenOut as Prescribed<f64>>::PRESCRIBED;
-    let looped = <InLoops as Prescribed<f64>>::PRESCRIBED;
-    for (written, looped) in written.iter().zip(looped) {
-        assert_eq!(written.name, looped.name);
-        let links: Vec<usize> = looped.links.iter().map(|&link| places()[link]).collect();
-        assert_eq!(written.links, links);
+    let (written, looped) = (written_out(), in_loops());
+    for set in 0..3 {
+        let written = written.prescribed_links(set).expect("it has that set");
+        let looped = looped.prescribed_links(set).expect("it has that set");
+        let links: Vec<usize> = looped.iter().map(|&link| places()[link]).collect();
+        assert_eq!(written, links);
     }
+    assert_eq!(written.prescribed_links(3), None);
+    assert_eq!(looped.prescribed_links(3), None);
 }
 
 #[test]
@@ -67,12 +69,12 @@ fn trees_by_rule_move_as_written_out() {
     let (written, looped, places) = (written_out(), in_loops(), places());
     let in_order = |values: &[f64]| -> Vec<f64> { places.map(|place| values[place]).to_vec() };
     let mut random = Random::new(41);
-    for (number, set) in <InLoops as Prescribed<f64>>::PRESCRIBED.iter().enumerate() {
+    for (number, set) in sets(&looped) {
         for _ in 0..100 {
             let time = random.between(0.0, 9.0);
             let [theta, omega, torques] =
                 [3.0, 9.0, 0.3].map(|size| random.around_zero(LINKS, size));
-            let prescribed = random.around_zero(set.links.len(), 50.0);
+            let prescribed = random.around_zero(set.len(), 50.0);
             let motion = PrescribedMotion {
                 theta: &theta,
                 omega: &omega,
@@ -102,7 +104,7 @@ fn trees_by_rule_move_as_written_out() {
             for pairs in [pairs, reactions.collect()] {
                 let size = pairs.iter().fold(1.0_f64, |size, (a, _)| size.max(a.abs()));
                 for (a, b) in pairs {
-                    assert!((a - b).abs() < 1e-11 * size, "{}: {a} {b}", set.name);
+                    assert!((a - b).abs() < 1e-11 * size, "{set:?}: {a} {b}");
                 }
             }
         }
@@ -124,13 +126,13 @@ struct Blocks;
 fn links_are_held_in_blocks_and_on_threads() {
     let mut model = Blocks::new();
     reactions_make_the_free_tree_move_so(&model, 2);
-    let links = <Blocks as Pendulum<f64>>::LINKS;
-    let set = <Blocks as Prescribed<f64>>::PRESCRIBED[0];
+    let links = Blocks::LINKS;
+    let set = model.prescribed_links(0).expect("it has that set").to_vec();
     let last = links - 1;
-    assert_eq!((set.links[0], set.links[4]), (0, last));
+    assert_eq!((set[0], set[4]), (0, last));
     let mut random = Random::new(42);
     let [theta, omega, torques] = [3.0, 9.0, 0.1].map(|size| random.around_zero(links, size));
-    let prescribed = random.around_zero(set.links.len(), 5.0);
+    let prescribed = random.around_zero(set.len(), 5.0);
     let motion = PrescribedMotion {
         theta: &theta,
         omega: &omega,
@@ -139,7 +141,7 @@ fn links_are_held_in_blocks_and_on_threads() {
     };
     let mut on = |threads: usize| {
         model.set_threads(NonZeroUsize::new(threads).expect("some threads"));
-        let (mut alpha, mut reactions) = (vec![0.0; links], vec![0.0; set.links.len()]);
+        let (mut alpha, mut reactions) = (vec![0.0; links], vec![0.0; set.len()]);
         model.accelerations_prescribed_into(0, 0.0, motion, &mut alpha, &mut reactions);
         (alpha, reactions)
     };
@@ -182,7 +184,7 @@ impl<T: Scalar> LaneCourses<T> for Hands<T> {
 
 fn lanes_meet_the_plain_method<P>(model: impl Fn() -> P)
 where
-    P: Prescribed<f64> + Cast<f64> + Sync,
+    P: Prescribed<f64> + Sync,
 {
     let mut random = Random::new(43);
     let releases: Vec<_> = (0..11)
@@ -192,11 +194,12 @@ where
                 pace: 2.0 + 0.1 * f64::from(i),
             };
             let held = PrescribedOde::of(model(), 1, hands).expect("it has that set");
-            let mut values = random.around_zero(2 * P::LINKS, 0.4);
-            let mut courses = vec![[0.0; 3]; held.set().links.len()];
+            let mut values = random.around_zero(2 * model().links(), 0.4);
+            let links = values.len() / 2;
+            let mut courses = vec![[0.0; 3]; held.held_links().len()];
             hands.courses_into(0.0, &mut courses);
-            for (&link, [angle, rate, _]) in held.set().links.iter().zip(courses) {
-                (values[link], values[P::LINKS + link]) = (angle, rate);
+            for (&link, [angle, rate, _]) in held.held_links().iter().zip(courses) {
+                (values[link], values[links + link]) = (angle, rate);
             }
             (held, State::new(0.0, values))
         })

@@ -31,7 +31,7 @@ grove!(Stiff, locked(hook, 0.7));
 fn on_whole(time: f64) -> [f64; 11] {
     let wave = |pace: f64| 0.02 * (pace * time).sin();
     let mut torques = [0.0; 11];
-    for (link, name) in <Whole as Pendulum<f64>>::LINK_NAMES.iter().enumerate() {
+    for (link, name) in Whole::LINK_NAMES.iter().enumerate() {
         torques[link] = match name.split('_').next() {
             Some("limb") => 5.0 * wave(3.0),
             Some("bough") => wave(4.0),
@@ -73,7 +73,7 @@ fn a_reduced_tree_moves_as_the_one_whose_joint_is_locked() {
         .expect("all links");
     ends.push(whole);
     let spread = |values: [f64; 3]| -> [f64; 10] {
-        let names = <Stiff as Pendulum<f64>>::LINK_NAMES;
+        let names = Stiff::LINK_NAMES;
         std::array::from_fn(|link| match names[link].split('_').next() {
             Some("limb") => values[0],
             Some("bough") => values[1],
@@ -118,7 +118,7 @@ fn accelerations_are_those_of_the_whole_tree() {
     let boughs: f64 = 3.0 * torques[1];
     assert!((of_reduced[1] - boughs).abs() < 1e-16);
     let alpha = reduced.accelerations_under(&[0.3, 0.5, -0.2], &[1.0, 2.0, -3.0], &of_reduced);
-    let names = <Stiff as Pendulum<f64>>::LINK_NAMES;
+    let names = Stiff::LINK_NAMES;
     let kind = |link: usize| match names[link].split('_').next() {
         Some("limb") => 0,
         Some("bough") => 1,

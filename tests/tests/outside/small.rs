@@ -83,7 +83,7 @@ fn errors<M: ForcedDifferences<f64>, W: Forced<f64>>(
     let expected = patterns.to_small(&rates);
     let mut largest = [0.0_f64; 2];
     for index in half..2 * half {
-        let of = usize::from(index - half >= M::LINKS);
+        let of = usize::from(index - half >= model.links());
         largest[of] = largest[of].max((found[index] - expected[index]).abs());
     }
     largest
@@ -103,7 +103,7 @@ fn orders<M: ForcedDifferences<f64>, W: Forced<f64>>(
         .collect();
     let sums = sizes.map(|size| {
         let scaled = |values: &[f64]| -> Vec<f64> {
-            let (in_phase, differences) = values.split_at(M::LINKS);
+            let (in_phase, differences) = values.split_at(models.0.links());
             let differences = differences.iter().map(|value| size * value);
             in_phase.iter().copied().chain(differences).collect()
         };
@@ -137,7 +137,7 @@ fn errors_have_the_orders_that_they_have_without_torques() {
 #[test]
 fn without_differences_it_is_the_motion_in_phase() {
     let model = TwiceSmall::new();
-    let links = <TwiceSmall as Pendulum<f64>>::LINKS;
+    let links = TwiceSmall::LINKS;
     let mut random = Random::new(32);
     for _ in 0..100 {
         let [theta, omega, torques] = [3.0, 9.0, 0.3].map(|size| random.array::<3>(-size, size));

@@ -2,7 +2,6 @@
 //! many states at once.
 
 use super::*;
-use branched_pendulum::Cast;
 use branched_pendulum::scalar::{Dual, Lanes};
 
 /// Rounding errors of sums over generations.
@@ -13,7 +12,7 @@ fn scales<M: Scales<f64>>() -> std::ops::Range<usize> {
 }
 
 fn closes<M: Energy<f64> + Scales<f64>>(model: &M) {
-    for sample in samples(M::LINKS, if M::LINKS > 31 { 2 } else { 20 }) {
+    for sample in samples(model.links(), if model.links() > 31 { 2 } else { 20 }) {
         let own = budget(model, &sample);
         let (kinetic, potential) = (
             model.kinetic_energy_of(&sample.theta, &sample.omega),
@@ -57,9 +56,9 @@ where
     D: Scales<Dual<f64, 1>>,
 {
     let mut worst = 0.0_f64;
-    for sample in samples(M::LINKS, if M::LINKS > 31 { 2 } else { 20 }) {
+    for sample in samples(model.links(), if model.links() > 31 { 2 } else { 20 }) {
         let own = budget(model, &sample);
-        let mut alpha = vec![0.0; M::LINKS];
+        let mut alpha = vec![0.0; model.links()];
         let Sample {
             time,
             theta,
@@ -89,7 +88,7 @@ where
             worst = worst.max(error.abs() / size);
         }
     }
-    println!("{} links: {worst:.1e}", M::LINKS);
+    println!("{} links: {worst:.1e}", model.links());
     let generations = M::COPIES.len() as f64;
     assert!(worst < 10.0 * generations * ROUNDING, "{worst:e}");
 }

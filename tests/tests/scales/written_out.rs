@@ -18,14 +18,13 @@ struct Written {
 }
 
 impl Written {
-    fn new<M: Pendulum<f64> + Scales<f64>>(text: &str) -> Self {
+    fn new<M: Pendulum<f64> + Scales<f64>>(model: &M, text: &str) -> Self {
         let stages = stages_of(&format!(
             "#[branched_pendulum(gravity = 9.80665, code = unrolled, \
              emit(forces, budget(parseval, matrix)), {text})] struct Sample;"
         ));
         let links = &stages.scene.links;
-        let name = |index: usize| M::link_name(index).unwrap().to_string();
-        let names: Vec<String> = (0..M::LINKS).map(name).collect();
+        let names = model.link_names();
         let find = |name: &str| names.iter().position(|other| other == name).unwrap();
         let order: Vec<usize> = links.iter().map(|link| find(&link.name)).collect();
         let depth = |mut link: usize| {
@@ -104,9 +103,9 @@ fn agree<M>(model: &M, text: &str, count: usize)
 where
     M: Pendulum<f64> + Scales<f64>,
 {
-    let written = Written::new::<M>(text);
+    let written = Written::new(model, text);
     let mut worst = [0.0_f64; 4];
-    for sample in samples(M::LINKS, count) {
+    for sample in samples(model.links(), count) {
         let (sums, transfers) = written.budget(&sample);
         let own = budget(model, &sample);
         assert_eq!(own.scales(), sums.len());
@@ -148,7 +147,7 @@ where
     println!(
         "{} links: energies {energies:.1e}, transfers {transfers:.1e}, powers {powers:.1e}, \
          sectors {sectors:.1e}",
-        M::LINKS
+        model.links()
     );
     assert!(worst.iter().all(|&error| error < 1e-13), "{worst:?}");
 }

@@ -113,10 +113,10 @@ pub fn irregular() -> Vec<Row> {
 }
 
 fn row<P: Pendulum<f64>>(model: &P, links: &[table::Link]) -> Row {
-    let mut states = States::new(P::LINKS);
+    let mut states = States::new(model.links());
     let mut recursion = Articulated::new(links);
     Row {
-        links: P::LINKS,
+        links: model.links(),
         sines: states.sines(),
         one: states.loops(model),
         two: None,

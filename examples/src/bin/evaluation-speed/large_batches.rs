@@ -6,7 +6,7 @@ use std::time::Instant;
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::{Cast, Pendulum, branched_pendulum};
+use branched_pendulum::{Pendulum, branched_pendulum};
 
 use super::large::{Bush127, Bush500, Loops127, Loops1023};
 use super::measure::states_of;
@@ -66,8 +66,8 @@ pub fn all() -> Vec<Row> {
     ]
 }
 
-fn row<P: Cast<f64>, Q: Cast<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
-    let links = <P as Pendulum<f64>>::LINKS;
+fn row<P: Pendulum<f64>, Q: Pendulum<f32>>(scene: &'static str, model: &P, narrow: &Q) -> Row {
+    let links = model.links();
     let states = states_of(links);
     let theta = random(SEEDS[0], links, states, std::f64::consts::PI);
     let omega = random(SEEDS[1], links, states, 9.0);
@@ -107,7 +107,7 @@ fn row<P: Cast<f64>, Q: Cast<f32>>(scene: &'static str, model: &P, narrow: &Q) -
 }
 
 /// A pass over all states.
-fn pass<P: Cast<T>, T: Lane>(
+fn pass<P: Pendulum<T>, T: Lane>(
     model: &P,
     theta: &[Vec<f64>],
     omega: &[Vec<f64>],

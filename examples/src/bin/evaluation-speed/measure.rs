@@ -3,9 +3,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;
 use branched_pendulum::scalar::Lane;
-use branched_pendulum::{Cast, Pendulum};
 
 use super::articulated::Articulated;
 use super::by_hand::ByHand;
@@ -197,17 +197,17 @@ fn one_by_one<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     }))
 }
 
-fn doubles<const N: usize>(model: impl Cast<f64> + 'static) -> Pass {
+fn doubles<const N: usize>(model: impl Pendulum<f64> + 'static) -> Pass {
     Box::new(batch::<N, _, _>(model, |x| x))
 }
 
-fn singles<const N: usize>(model: impl Cast<f32> + 'static) -> Pass {
+fn singles<const N: usize>(model: impl Pendulum<f32> + 'static) -> Pass {
     Box::new(batch::<N, _, _>(model, |x| x as f32))
 }
 
 fn batch<const N: usize, P, T>(model: P, convert: fn(f64) -> T) -> impl FnMut() + 'static
 where
-    P: Cast<T> + 'static,
+    P: Pendulum<T> + 'static,
     T: Lane,
 {
     let (theta, omega) = inputs::<N>();

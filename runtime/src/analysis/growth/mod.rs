@@ -109,8 +109,9 @@ const FINER: f64 = 0.01;
 /// zero, in hertz: of all its links turned as one, by Rayleigh's quotient, so that it is
 /// exact for one link. NaN where they do not oscillate.
 pub fn frequency_at_rest<P: Transverse<f64>>(ode: &TransverseOde<P>) -> f64 {
-    let mut angles = vec![0.0; P::LINKS];
-    angles.resize(P::LINKS + ode.sector().links, 1.0);
+    let all = ode.dimension() / 2;
+    let mut angles = vec![0.0; all - ode.sector().links];
+    angles.resize(all, 1.0);
     let state = State::at_rest(0.0, &angles);
     let mut rates = vec![0.0; state.values.len()];
     ode.rates(0.0, &state.values, &mut rates);
@@ -127,7 +128,8 @@ struct DifferenceRanges {
 }
 
 fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> DifferenceRanges {
-    let (motion, all) = (P::LINKS, P::LINKS + ode.sector().links);
+    let all = ode.dimension() / 2;
+    let motion = all - ode.sector().links;
     DifferenceRanges {
         angles: motion..all,
         rates: all + motion..2 * all,

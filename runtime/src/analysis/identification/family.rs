@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::model::ParameterError;
 use crate::scalar::{Dual, Scalar, at};
-use crate::system::{AbsoluteAngles, Ode, Parametric};
+use crate::system::{AbsoluteAngles, Model, Ode, Parametric};
 
 /// Equations of motion with named parameters. Models of the attribute are such by
 /// [`FamilyOf`]; equations of one's own, torques from outside for example, implement it.
@@ -67,8 +67,9 @@ impl<M: Parametric<f64>> Family for FamilyOf<M> {
     }
 
     fn links(&self) -> Vec<String> {
-        let name = |index| M::link_name(index).map_or(String::new(), |name| name.to_string());
-        (0..M::LINKS).map(name).collect()
+        // Names are the same whatever the values.
+        let model = M::with_parameters(|_| f64::NAN);
+        model.link_names()
     }
 
     fn equations<T: Scalar>(&self, values: &[T]) -> Self::Equations<T> {

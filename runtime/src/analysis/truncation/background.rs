@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::error::{TruncationError, check_length};
 use super::small_coordinates;
 use crate::integrate::{Options, Verner98};
-use crate::system::{Pendulum, State, SymmetricCoordinates};
+use crate::system::{State, SymmetricCoordinates};
 use crate::transfer_forms::TransferForms;
 
 /// Bounds of the background: random states have every coordinate and rate
@@ -20,10 +20,10 @@ pub struct Background {
 }
 
 impl Background {
-    /// Equal bounds for every coordinate: `angle` in rad, `rate` in rad/s.
+    /// Equal bounds for every coordinate of a model: `angle` in rad, `rate` in rad/s.
     #[must_use]
-    pub fn uniform<M: TransferForms<f64>>(angle: f64, rate: f64) -> Self {
-        let n = <M as Pendulum<f64>>::LINKS;
+    pub fn uniform<M: TransferForms<f64>>(model: &M, angle: f64, rate: f64) -> Self {
+        let n = model.links();
         Self {
             angles: vec![angle; n],
             rates: vec![rate; n],
@@ -42,10 +42,10 @@ impl Background {
         release: &[f64],
         duration: f64,
     ) -> Result<Self, TruncationError> {
-        let n = <M as Pendulum<f64>>::LINKS;
+        let n = model.links();
         check_length("coordinates of the release", n, release)?;
         let mut start = release.to_vec();
-        small_coordinates::<M>().for_each(|index| start[index] = 0.0);
+        small_coordinates(model).for_each(|index| start[index] = 0.0);
         let mut largest = start.iter().map(|value| value.abs()).collect::<Vec<_>>();
         largest.resize(2 * n, 0.0);
         Verner98::new(Options::with_tolerance(1e-10)).integrate(

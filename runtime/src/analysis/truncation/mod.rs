@@ -68,7 +68,6 @@ pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};
 pub use trajectories::AlongTrajectories;
 
-use crate::system::Pendulum;
 use crate::transfer_forms::TransferForms;
 
 /// `count` values from `low` to `high`, both positive, with equal ratios.
@@ -81,8 +80,9 @@ pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
 }
 
 /// Indices of the coordinates that are small differences.
-fn small_coordinates<M: TransferForms<f64>>() -> impl Iterator<Item = usize> {
+fn small_coordinates<M: TransferForms<f64>>(model: &M) -> impl Iterator<Item = usize> + use<M> {
+    let links = model.links();
     let sectors = M::SMALL_SECTORS.iter();
     let indices = sectors.flat_map(|sector| sector.coordinates).copied();
-    indices.filter(|&index| index < <M as Pendulum<f64>>::LINKS)
+    indices.filter(move |&index| index < links)
 }

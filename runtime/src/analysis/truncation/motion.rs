@@ -2,7 +2,6 @@
 
 use super::error::TruncationError;
 use crate::model::Transfer;
-use crate::system::Pendulum;
 use crate::transfer_forms::{TransferForm, TransferForms};
 
 /// Difference at which the restoring acceleration is measured, rad: emitted
@@ -18,7 +17,7 @@ const SMALL: f64 = 1e-5;
 ///
 /// [`TruncationError::NoFrequency`] if the mean square is not positive.
 pub fn sector_frequencies<M: TransferForms<f64>>(model: &M) -> Result<Vec<f64>, TruncationError> {
-    let n = <M as Pendulum<f64>>::LINKS;
+    let n = model.links();
     let (mut coordinates, rates) = (vec![0.0; n], vec![0.0; n]);
     let mut accelerations = vec![0.0; n];
     let mut frequencies = Vec::new();
@@ -93,7 +92,7 @@ impl<'m, M: TransferForms<f64>> Powers<'m, M> {
         let receivers = M::RECEIVERS.len();
         Ok(Self {
             model,
-            momenta: vec![0.0; <M as Pendulum<f64>>::LINKS],
+            momenta: vec![0.0; model.links()],
             found: vec![Transfer::default(); receivers],
             exact: vec![0.0; receivers],
             truncated: vec![0.0; receivers * indices.len()],

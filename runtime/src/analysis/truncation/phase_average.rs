@@ -8,7 +8,6 @@ use super::error::{TruncationError, check_amplitudes, check_bounds, check_positi
 use super::motion::{Powers, sector_frequencies};
 use super::small_coordinates;
 use crate::analysis::random::Random;
-use crate::system::Pendulum;
 use crate::transfer_forms::TransferForms;
 
 /// Relative error over random states: the background anywhere within its
@@ -49,12 +48,12 @@ impl PhaseAverage {
         let mut powers = Powers::new(model)?;
         let unit = self.unit_states(model)?;
         let mut all = Vec::with_capacity(self.amplitudes.len());
-        let n = <M as Pendulum<f64>>::LINKS;
+        let n = model.links();
         let mut state = vec![0.0; 2 * n];
         for &amplitude in &self.amplitudes {
             let mut sums = SquareSums::new(M::RECEIVERS.len(), powers.forms().len());
             for unit in unit.chunks_exact(2 * n) {
-                scale::<M>(unit, amplitude, &mut state);
+                scale(model, unit, amplitude, &mut state);
                 let (coordinates, rates) = state.split_at(n);
                 powers.evaluate(coordinates, rates);
                 sums.add(&powers.exact, &powers.truncated);
@@ -77,10 +76,10 @@ impl PhaseAverage {
     ) -> Result<Vec<CanonicalState>, TruncationError> {
         check_positive("an amplitude", amplitude)?;
         let unit = self.unit_states(model)?;
-        let n = <M as Pendulum<f64>>::LINKS;
+        let n = model.links();
         let canonical = |unit: &[f64]| {
             let mut coordinates = vec![0.0; 2 * n];
-            scale::<M>(unit, amplitude, &mut coordinates);
+            scale(model, unit, amplitude, &mut coordinates);
             let rates = coordinates.split_off(n);
             let mut momenta = vec![0.0; n];
             model.symmetric_momenta_into(&coordinates, &rates, &mut momenta);
@@ -92,12 +91,12 @@ impl PhaseAverage {
     /// States of the amplitude 1 rad, coordinates and rates of one after those
     /// of the other.
     fn unit_states<M: TransferForms<f64>>(&self, model: &M) -> Result<Vec<f64>, TruncationError> {
-        let n = <M as Pendulum<f64>>::LINKS;
+        let n = model.links();
         let Background { angles, rates } = &self.background;
         check_bounds("bounds of the angles", n, angles)?;
         check_bounds("bounds of the rates", n, rates)?;
         let frequencies = sector_frequencies(model)?;
-        let small: Vec<usize> = small_coordinates::<M>().collect();
+        let small: Vec<usize> = small_coordinates(model).collect();
         let mut random = Random::new(self.seed);
         let mut states = Vec::with_capacity(2 * n * self.states);
         for _ in 0..self.states {
@@ -122,10 +121,10 @@ impl PhaseAverage {
 }
 
 /// A unit state with its small differences made `amplitude` times as large.
-fn scale<M: TransferForms<f64>>(unit: &[f64], amplitude: f64, out: &mut [f64]) {
+fn scale<M: TransferForms<f64>>(model: &M, unit: &[f64], amplitude: f64, out: &mut [f64]) {
     out.copy_from_slice(unit);
-    for index in small_coordinates::<M>() {
+    for index in small_coordinates(model) {
         out[index] *= amplitude;
-        out[<M as Pendulum<f64>>::LINKS + index] *= amplitude;
+        out[model.links() + index] *= amplitude;
     }
 }

@@ -5,7 +5,7 @@ use super::error::{TruncationError, check_amplitudes, check_length, check_positi
 use super::motion::{Powers, amplitude, sector_frequencies};
 use super::small_coordinates;
 use crate::integrate::{Options, Tolerance, Verner98};
-use crate::system::{Pendulum, State, SymmetricCoordinates};
+use crate::system::{State, SymmetricCoordinates};
 use crate::transfer_forms::TransferForms;
 
 /// Relative error along motions that are released from rest, by the amplitude
@@ -51,7 +51,7 @@ impl AlongTrajectories {
         &self,
         model: &M,
     ) -> Result<Vec<ErrorCurve>, TruncationError> {
-        let n = <M as Pendulum<f64>>::LINKS;
+        let n = model.links();
         check_length("coordinates of the release", n, &self.release)?;
         check_positive("the duration", self.duration)?;
         check_positive("the number of samples per second", self.sampling)?;
@@ -74,7 +74,7 @@ impl AlongTrajectories {
         let method = Verner98::new(options);
         for &disturbance in &self.disturbances {
             let mut start = self.release.clone();
-            small_coordinates::<M>().for_each(|index| start[index] = disturbance);
+            small_coordinates(model).for_each(|index| start[index] = disturbance);
             let start = State::at_rest(0.0, &start);
             let visit = |_: f64, state: &[f64]| {
                 let (coordinates, rates) = state.split_at(n);

@@ -100,7 +100,7 @@ pub enum InputError<T> {
         found: usize,
     },
     /// A system of an ensemble in lanes has not as many constants as the first
-    /// one: [`Cast`](crate::system::Cast) says what it takes.
+    /// one: [`Pendulum`](crate::system::Pendulum) says what it takes.
     Constants {
         /// Constants of the first one.
         expected: usize,

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::scalar::{Dual, Real, Scalar};
-use crate::system::{Cast, Pendulum, Workspace};
+use crate::system::{Pendulum, Workspace};
 
 /// Longest sub-step of any model, s.
 const LONGEST: f64 = 0.01;
@@ -43,10 +43,10 @@ const COUNTED: usize = 8;
 /// let sub_step = longest_sub_step(&Reed::new());
 /// assert!((1.0 / sub_step - 949.0).abs() < 1.0);
 /// ```
-pub fn longest_sub_step<T: Real, P: Cast<T>>(model: &P) -> T {
+pub fn longest_sub_step<T: Real, P: Pendulum<T>>(model: &P) -> T {
     let dual = model.cast(Dual::<T, 1>::constant);
     let mut largest = T::ZERO;
-    let mut slopes = SlopeMemory::new(P::LINKS);
+    let mut slopes = SlopeMemory::new(model.links());
     for configuration in 0..CONFIGURATIONS {
         let angle = |link: usize| match configuration {
             0 => 0.0,

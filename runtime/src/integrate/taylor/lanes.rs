@@ -19,7 +19,7 @@ use crate::scalar::Lane;
 use crate::scalar::two_sum;
 use crate::simd::Simd;
 use crate::simd::{Part, Quad, outlined};
-use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
+use crate::system::{AbsoluteAngles, Model, Ode, Pendulum, State, TaylorPendulum};
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<T> {
     type Steps<'a, R: Simd<T>> = TaylorInLanes<'a, P, T, R>;
@@ -37,7 +37,7 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
     }
 
     fn steps<'a, R: Simd<T>>(&'a self, system: &AbsoluteAngles<P>) -> TaylorInLanes<'a, P, T, R> {
-        let (n, order) = (2 * P::LINKS, self.order());
+        let (n, order) = (system.dimension(), self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
         TaylorInLanes {
@@ -70,7 +70,7 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
 
     #[inline(always)]
     fn part(&self, (time, state, coefficients, work): Expansion<'a, R>) {
-        let Some((theta, omega)) = state.split_at_checked(P::LINKS) else {
+        let Some((theta, omega)) = state.split_at_checked(self.registers.links()) else {
             return;
         };
         P::taylor_coefficients_of(&self.registers, time, theta, omega, coefficients, work);
@@ -78,7 +78,7 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
 }
 
 /// The method at work: its polynomials, and what it works on.
-pub struct TaylorInLanes<'a, P: Cast<T>, T: Lane, R: Simd<T>> {
+pub struct TaylorInLanes<'a, P: Pendulum<T>, T: Lane, R: Simd<T>> {
     models: Models<AbsoluteAngles<P>, T, R>,
     options: &'a Options<T>,
     order: usize,
@@ -100,18 +100,27 @@ pub struct TaylorInLanes<'a, P: Cast<T>, T: Lane, R: Simd<T>> {
     finite: Numbers<T>,
 }
 
-impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
+impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
     /// Zero in lanes where all these numbers are finite, NaN in others.
     #[inline(always)]
     fn check(values: &[R]) -> Numbers<T> {
         numbers(check_finite(R::from_f64(0.0), values))
     }
 
+    /// Returns the number of components, as a constant where the compiler knows it.
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        match P::KNOWN_LINKS {
+            Some(links) => 2 * links,
+            None => self.start.len(),
+        }
+    }
+
     /// Sizes of the last two terms in units of their tolerances: the largest of
     /// all components.
     #[inline(always)]
     fn last_two(&self) -> [R; 2] {
-        let n = 2 * P::LINKS;
+        let n = self.dimension();
         let last_two = &self.coefficients[(self.order - 1) * n..][..2 * n];
         let (before, last) = last_two.split_at(n);
         let zero = R::from_f64(0.0);
@@ -129,7 +138,7 @@ impl<P: Cast<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
     /// even k apart.
     #[inline(always)]
     fn increment(&self, i: usize, tau: R) -> R {
-        let n = 2 * P::LINKS;
+        let n = self.dimension();
         let square = tau * tau;
         let zero = R::from_f64(0.0);
         let (mut odd, mut even) = (zero, zero);
@@ -201,7 +210,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
                 self.work.as_mut_slice(),
             ),
         );
-        let n = 2 * P::LINKS;
+        let n = self.dimension();
         let finite = Self::check(&self.coefficients[(self.order - 1) * n..]);
         let [before, last] = self.last_two().map(numbers);
         let roots = least_inverse_roots::<T, WIDEST>(
@@ -247,7 +256,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
     #[inline(always)]
     fn attempt(&mut self, span: StepSpan<R>, _size: R) {
         self.step = span.step;
-        for i in 0..2 * P::LINKS {
+        for i in 0..self.dimension() {
             let change = self.increment(i, span.step);
             if self.options.compensated {
                 let change = change + self.start_residue[i];
@@ -292,7 +301,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
 
     #[inline(always)]
     fn advance(&mut self, accepted: R::Mask) {
-        let n = 2 * P::LINKS;
+        let n = self.dimension();
         for (start, &end) in self.start.iter_mut().zip(&self.end).take(n) {
             *start = end.choose(*start, accepted);
         }

@@ -21,8 +21,7 @@ pub(super) fn under_in_fused<T: Scalar, P: Forced<T>>(
     alpha: &mut [T],
 ) -> bool {
     let pushed = Pushed { pendulum, torques };
-    P::LINKS <= MOST_LINKS
-        && torques.len() == P::LINKS
+    P::KNOWN_LINKS.is_some_and(|links| links <= MOST_LINKS && torques.len() == links)
         && in_fused::<T, OneStateUnder<'_, P, T>>(&pushed, time, theta, omega, alpha)
 }
 
@@ -38,7 +37,10 @@ struct OneStateUnder<'a, P, T>(PhantomData<&'a (P, T)>);
 impl<'a, T: Scalar, P: Forced<T>> StateKernel<T> for OneStateUnder<'a, P, T> {
     type Model = Pushed<'a, P, T>;
 
-    const LINKS: usize = P::LINKS;
+    const LINKS: usize = match P::KNOWN_LINKS {
+        Some(links) => links,
+        None => 0,
+    };
 
     #[inline(always)]
     fn run<V: Simd<T>>(
@@ -51,14 +53,14 @@ impl<'a, T: Scalar, P: Forced<T>> StateKernel<T> for OneStateUnder<'a, P, T> {
         let zero = V::splat(T::from_f64(0.0));
         let mut numbers = [[zero; MOST_LINKS]; 3];
         for (numbers, slice) in numbers.iter_mut().zip([theta, omega, pushed.torques]) {
-            for (link, number) in numbers.iter_mut().take(P::LINKS).enumerate() {
+            for (link, number) in numbers.iter_mut().take(Self::LINKS).enumerate() {
                 *number = V::splat(at(slice, link));
             }
         }
-        let [theta, omega, torques] = numbers.each_ref().map(|all| all.get(..P::LINKS));
+        let [theta, omega, torques] = numbers.each_ref().map(|all| all.get(..Self::LINKS));
         let mut result = [zero; MOST_LINKS];
         let (Some(theta), Some(omega), Some(torques), Some(result)) =
-            (theta, omega, torques, result.get_mut(..P::LINKS))
+            (theta, omega, torques, result.get_mut(..Self::LINKS))
         else {
             return;
         };

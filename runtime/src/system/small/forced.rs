@@ -2,11 +2,11 @@
 
 use core::fmt;
 
-use super::{SmallDifferences, differences};
+use super::{SmallDifferences, differences, dimension};
 use crate::scalar::Scalar;
 use crate::system::by_reference::by_reference;
 use crate::system::forced::under;
-use crate::system::{Forced, LaneOde, LaneTorques, Ode, Torques};
+use crate::system::{Forced, LaneOde, LaneTorques, Model, Ode, Torques};
 
 /// A model of [`SmallDifferences`] that takes torques from outside: `emit(small)` with
 /// `emit(forces)`.
@@ -130,17 +130,17 @@ impl<P: fmt::Debug, F> fmt::Debug for SmallUnderTorques<P, F> {
 
 impl<T: Scalar, P: ForcedDifferences<T>, F: Torques<T>> Ode<T> for SmallUnderTorques<P, F> {
     fn dimension(&self) -> usize {
-        2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL))
+        2 * (self.model.links() + differences(P::TRANSVERSE, P::SMALL))
     }
 
     #[inline]
     fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
         let Self { model, torques } = self;
-        let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
+        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
         if let Some((given, out)) = under(half, torques, time, state, rates) {
             let ([theta, omega], [first, second]) = (given, out);
-            let (angles, rates) = (parts(P::LINKS, theta), parts(P::LINKS, omega));
-            let torques = parts(P::LINKS, first);
+            let (angles, rates) = (parts(model.links(), theta), parts(model.links(), omega));
+            let torques = parts(model.links(), first);
             model.small_accelerations_under_into(time, angles, rates, torques, second);
             first.copy_from_slice(omega);
         }
@@ -150,7 +150,7 @@ impl<T: Scalar, P: ForcedDifferences<T>, F: Torques<T>> Ode<T> for SmallUnderTor
 impl<T: Scalar, P: ForcedDifferences<T>, F: LaneTorques<T>> LaneOde<T> for SmallUnderTorques<P, F> {
     type Of<S: Scalar> = SmallUnderTorques<P::Of<S>, F::Of<S>>;
 
-    const DIMENSION: Option<usize> = Some(2 * (P::LINKS + differences(P::TRANSVERSE, P::SMALL)));
+    const DIMENSION: Option<usize> = dimension(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
         SmallUnderTorques {
@@ -162,11 +162,11 @@ impl<T: Scalar, P: ForcedDifferences<T>, F: LaneTorques<T>> LaneOde<T> for Small
     #[inline(always)]
     fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
         let SmallUnderTorques { model, torques } = system;
-        let half = P::LINKS + differences(P::TRANSVERSE, P::SMALL);
+        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
         if let Some((given, out)) = under(half, torques, time, state, rates) {
             let ([theta, omega], [first, second]) = (given, out);
-            let (angles, rates) = (parts(P::LINKS, theta), parts(P::LINKS, omega));
-            let torques = parts(P::LINKS, first);
+            let (angles, rates) = (parts(model.links(), theta), parts(model.links(), omega));
+            let torques = parts(model.links(), first);
             P::small_accelerations_under_of(model, time, angles, rates, torques, second);
             first.copy_from_slice(omega);
         }

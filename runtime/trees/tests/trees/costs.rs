@@ -3,6 +3,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
 use branched_pendulum_trees::PendulumTree;
 

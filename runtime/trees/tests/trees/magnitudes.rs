@@ -1,6 +1,7 @@
 //! Values that are finite and that no pendulum has: refused in texts and as parameters, so that
 //! what is accepted has finite accelerations.
 
+use branched_pendulum::prelude::*;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 use crate::text::Random;

@@ -5,8 +5,8 @@ use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::integrate::{DenseStep, Projected, Rk4};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::{LinkPoint, Workspace};
-use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeUnderTorques};
+use branched_pendulum::system::{LinkPoint, TotalEnergy, UnderTorques};
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 /// Everything that a link can have.
 pub(crate) const BENT: &str = "gravity = 9.80665,
@@ -41,11 +41,11 @@ fn the_rate_of_the_energy_is_the_power_of_all_forces() {
     let torques = [0.03, -0.02, 0.01, 0.0, 0.005];
     let time = 0.7;
     let mut alpha = [0.0; 5];
-    let given = [&THETA[..], &OMEGA, &torques];
-    tree.accelerations_under_with(&mut Workspace::new(), time, given, &mut alpha);
+    tree.accelerations_under_into(time, &THETA, &OMEGA, &torques, &mut alpha);
     let mut slopes = [0.0; 10];
     let state: Vec<f64> = THETA.into_iter().chain(OMEGA).collect();
-    FirstIntegral::evaluate(&tree, &state, &mut slopes);
+    let energy: f64 = TotalEnergy::new(&tree).evaluate(&state, &mut slopes);
+    assert_eq!(energy, tree.energy_of(&THETA, &OMEGA));
     let rates = OMEGA.iter().chain(&alpha);
     let rate: f64 = slopes
         .iter()
@@ -78,7 +78,7 @@ fn momenta_are_the_mass_matrix_times_the_velocities() {
         near(product, *momentum, 1e-13);
     }
     let kinetic: f64 = momenta.iter().zip(&OMEGA).map(|(p, w)| 0.5 * p * w).sum();
-    near(kinetic, tree.kinetic_energy(&THETA, &OMEGA), 1e-13);
+    near(kinetic, tree.kinetic_energy_of(&THETA, &OMEGA), 1e-13);
 }
 
 /// The centres of mass fall as the potential energy rises, and forces on them do the work
@@ -99,7 +99,7 @@ fn forces_work_as_their_torques_do() {
     }
     let lengths = tree.points(LinkPoint::End, &[0.0; 5]);
     near(lengths[0][1], -0.5, 1e-15);
-    assert!(tree.link_properties(5).is_none());
+    assert!(tree.properties_of(5).is_none());
 }
 
 #[test]
@@ -154,12 +154,13 @@ fn methods_agree() {
         ControlFlow::Continue(())
     }
     let options = Options::with_tolerance(1e-12);
+    let system = AbsoluteAngles(&tree);
     let ends = [
-        Dop853::new(options.clone()).integrate(&tree, &start, 2.0, run_on),
-        Verner98::new(options.clone()).integrate(&tree, &start, 2.0, run_on),
-        Dopri5::new(options).integrate(&tree, &start, 2.0, run_on),
-        Gauss::new(GaussOrder::Six, 1e-3).integrate(&tree, &start, 2.0, run_on),
-        Rk4::new(1e-4).integrate(&tree, &start, 2.0, run_on),
+        Dop853::new(options.clone()).integrate(&system, &start, 2.0, run_on),
+        Verner98::new(options.clone()).integrate(&system, &start, 2.0, run_on),
+        Dopri5::new(options).integrate(&system, &start, 2.0, run_on),
+        Gauss::new(GaussOrder::Six, 1e-3).integrate(&system, &start, 2.0, run_on),
+        Rk4::new(1e-4).integrate(&system, &start, 2.0, run_on),
     ];
     let ends = ends.map(|end| end.unwrap().state);
     for end in &ends[1..] {
@@ -167,9 +168,9 @@ fn methods_agree() {
             assert!((own - first).abs() < 1e-8, "{own} {first}");
         }
     }
-    let held = Projected::new(Gauss::new(GaussOrder::Two, 0.01), tree.clone());
-    let end = held.integrate(&tree, &start, 2.0, run_on).unwrap().state;
-    let energy = |state: &State<f64>| tree.energy(state.positions(), state.velocities());
+    let held = Projected::new(Gauss::new(GaussOrder::Two, 0.01), TotalEnergy::new(&tree));
+    let end = held.integrate(&system, &start, 2.0, run_on).unwrap().state;
+    let energy = |state: &State<f64>| tree.energy_of(state.positions(), state.velocities());
     near(energy(&end), energy(&start), 1e-13);
 }
 
@@ -180,8 +181,9 @@ fn ensembles_in_lanes_compute_what_one_thread_computes() {
         .map(|i| State::at_rest(0.0, &THETA.map(|angle| angle * (1.0 + 0.01 * f64::from(i)))))
         .collect();
     let method = Dop853::new(Options::with_tolerance(1e-11));
-    let lanes = Ensemble::new().integrate_in_lanes(&method, &tree, &starts, 1.0);
-    let plain = Ensemble::new().integrate(&method, &tree, &starts, 1.0);
+    let system = AbsoluteAngles(&tree);
+    let lanes = Ensemble::new().integrate_in_lanes(&method, &system, &starts, 1.0);
+    let plain = Ensemble::new().integrate(&method, &system, &starts, 1.0);
     for (lane, plain) in lanes.iter().zip(&plain) {
         let [lane, plain] = [lane, plain].map(|end| &end.as_ref().unwrap().state.values);
         for (lane, plain) in lane.iter().zip(plain) {
@@ -189,9 +191,9 @@ fn ensembles_in_lanes_compute_what_one_thread_computes() {
         }
     }
     // Trees that differ in a mass.
-    let releases: Vec<(PendulumTree, State<f64>)> = (1..10)
+    let releases: Vec<(AbsoluteAngles<PendulumTree>, State<f64>)> = (1..10)
         .map(|i| tree.with("m", 0.02 * f64::from(i)).unwrap())
-        .map(|tree| (tree, starts[0].clone()))
+        .map(|tree| (AbsoluteAngles(tree), starts[0].clone()))
         .collect();
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 1.0);
     for (lane, (tree, start)) in lanes.iter().zip(&releases) {
@@ -209,8 +211,8 @@ fn ensembles_in_lanes_compute_what_one_thread_computes() {
             c: rod(mass = 1, length = 1) [d: rod(mass = 1, length = 1) [e: rod(mass = 1, length = 1)]]]]",
     );
     let mixed = [
-        (tree.clone(), starts[0].clone()),
-        (other.unwrap(), starts[0].clone()),
+        (AbsoluteAngles(tree.clone()), starts[0].clone()),
+        (AbsoluteAngles(other.unwrap()), starts[0].clone()),
     ];
     let ends = Ensemble::new().integrate_models_in_lanes(&method, &mixed, 1.0);
     assert!(ends.iter().any(Result::is_err));
@@ -229,7 +231,7 @@ fn a_vector_of_torques_holds_a_tree() {
         .iter()
         .map(|row| -row.iter().zip(&alpha).map(|(m, a)| m * a).sum::<f64>())
         .collect();
-    let held = TreeUnderTorques::new(tree_at_rest, holding);
+    let held = UnderTorques::of(tree_at_rest, holding);
     let mut rates = [0.0; 10];
     let state = State::at_rest(0.0, &still);
     held.rates(0.0, &state.values, &mut rates);
@@ -250,8 +252,7 @@ fn a_single_link_takes_its_drive() {
     near(alpha, expected, 1e-14);
     // A torque from outside adds to the drive's.
     let mut more = [0.0];
-    let given = [&[0.4][..], &[1.0], &[0.01]];
-    rod.accelerations_under_with(&mut Workspace::new(), 2.0, given, &mut more);
+    rod.accelerations_under_into(2.0, &[0.4], &[1.0], &[0.01], &mut more);
     near(more[0] - alpha, 0.01 / inertia, 1e-12);
 }
 
@@ -263,7 +264,7 @@ fn slices_of_another_length_give_nan() {
             .iter()
             .all(|a| a.is_nan())
     );
-    assert!(tree.kinetic_energy(&THETA, &[0.0]).is_nan());
+    assert!(tree.kinetic_energy_of(&THETA, &[0.0]).is_nan());
     assert!(tree.momenta(&THETA, &[]).iter().all(|p| p.is_nan()));
     assert!(tree.momenta(&[], &OMEGA).iter().all(|p| p.is_nan()));
     let matrices = [
@@ -279,7 +280,7 @@ fn slices_of_another_length_give_nan() {
     );
     assert!(tree.modes(&[0.0; 2]).is_err());
     let mut rates = [0.0; 3];
-    tree.rates(0.0, &[0.0; 10], &mut rates);
+    AbsoluteAngles(&tree).rates(0.0, &[0.0; 10], &mut rates);
     assert!(rates.iter().all(|rate| rate.is_nan()));
 }
 

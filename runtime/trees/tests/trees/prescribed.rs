@@ -4,9 +4,9 @@ use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{
-    LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, Workspace,
+    LaneCourses, LinkCourse, LinkCourses, PrescribedMotion, PrescribedOde, Workspace,
 };
-use branched_pendulum_trees::{PendulumTree, PrescribedTree, TreeDescription};
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 use super::mechanics::{BENT, OMEGA, THETA, bent, near};
 
@@ -28,7 +28,10 @@ fn reactions_make_the_free_tree_move_so() {
     let named =
         |names: &[&str]| -> Vec<usize> { names.iter().filter_map(|name| place(name)).collect() };
     let sets = [named(&["bough"]), named(&["twig_2", "limb", "shoot"])];
-    assert_eq!(held.prescribed_sets(), sets);
+    for (number, set) in sets.iter().enumerate() {
+        assert_eq!(held.prescribed_links(number), Some(set.as_slice()));
+    }
+    assert_eq!(held.prescribed_links(2), None);
     let (time, torques) = (0.7, [0.03, -0.02, 0.01, 0.0, 0.005]);
     let same = held.accelerations(time, &THETA, &OMEGA);
     assert_eq!(same, free.accelerations(time, &THETA, &OMEGA));
@@ -41,17 +44,22 @@ fn reactions_make_the_free_tree_move_so() {
             prescribed,
         };
         let (mut alpha, mut reactions) = (vec![0.0; 5], vec![0.0; set.len()]);
-        let results = [&mut alpha[..], &mut reactions];
         let workspace = &mut Workspace::new();
-        held.accelerations_prescribed_with(workspace, number, time, motion, results);
+        held.accelerations_prescribed_with(
+            workspace,
+            number,
+            time,
+            motion,
+            &mut alpha,
+            &mut reactions,
+        );
         let mut all = torques;
         for ((&link, &given), reaction) in set.iter().zip(prescribed).zip(&reactions) {
             assert_eq!(alpha[link], given);
             all[link] += reaction;
         }
         let mut answer = vec![0.0; 5];
-        let given = [&THETA[..], &OMEGA, &all];
-        free.accelerations_under_with(workspace, time, given, &mut answer);
+        free.accelerations_under_with(workspace, time, &THETA, &OMEGA, &all, &mut answer);
         for (own, other) in alpha.iter().zip(&answer) {
             near(*own, *other, 1e-11);
         }
@@ -71,8 +79,7 @@ fn a_single_link_is_held_against_its_drive() {
         prescribed: &[2.0],
     };
     let (mut alpha, mut reaction) = ([0.0], [0.0]);
-    let results = [&mut alpha[..], &mut reaction];
-    tree.accelerations_prescribed_with(&mut Workspace::new(), 0, 0.0, motion, results);
+    tree.accelerations_prescribed_into(0, 0.0, motion, &mut alpha, &mut reaction);
     let weight = 0.3 * 9.81 * 0.2 * 0.5_f64.sin();
     near(
         reaction[0],
@@ -91,9 +98,9 @@ fn held_trees_in_lanes() {
         from: THETA[1],
         rate: OMEGA[1],
     };
-    assert!(PrescribedTree::of(tree.clone(), 1, course).is_none());
-    assert!(PrescribedTree::of(bent(), 0, course).is_none());
-    let system = PrescribedTree::of(tree.clone(), 0, course).unwrap();
+    assert!(PrescribedOde::of(tree.clone(), 1, course).is_none());
+    assert!(PrescribedOde::of(bent(), 0, course).is_none());
+    let system = PrescribedOde::of(tree.clone(), 0, course).unwrap();
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes =
         Ensemble::new().integrate_in_lanes(&method, &system, std::slice::from_ref(&start), 0.8);

@@ -1,7 +1,7 @@
 //! Budgets by scale: energies sum up, and change as transfers and powers tell.
 
+use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::system::Workspace;
 use branched_pendulum_trees::PendulumTree;
 
 /// A tree by rule with all that links can have, in an order of its own.
@@ -27,7 +27,7 @@ fn energies_sum_up() {
         let [theta, omega, _] = state(&tree);
         let budget = tree.budget_by_scale(0.4, [&theta, &omega, &[]]).unwrap();
         let sum: f64 = (0..budget.scales()).map(|scale| budget.energy(scale)).sum();
-        let energy = tree.energy(&theta, &omega);
+        let energy = tree.energy_of(&theta, &omega);
         assert!(
             (sum - energy).abs() < 1e-14 * energy.abs(),
             "{sum} {energy}"
@@ -44,7 +44,7 @@ fn energies_change_as_the_budget_tells() {
     let mut alpha = vec![0.0; tree.links()];
     let time = 0.4;
     let given = [&theta[..], &omega, &torques];
-    tree.accelerations_under_with(&mut Workspace::new(), time, given, &mut alpha);
+    tree.accelerations_under_into(time, &theta, &omega, &torques, &mut alpha);
     let dual = tree.cast(Dual::<f64, 1>::constant);
     let along = |values: &[f64], rates: &[f64]| -> Vec<Dual<f64, 1>> {
         let pairs = values.iter().zip(rates);

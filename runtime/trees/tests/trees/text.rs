@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use branched_pendulum::prelude::*;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 fn message(text: &str) -> String {

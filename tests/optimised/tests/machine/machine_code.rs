@@ -3,7 +3,7 @@
 //! state, for batches and for trajectories in lanes, written out and in loops, in fused
 //! instructions.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::batch::Batch;
 use branched_pendulum::prelude::*;
 use branched_pendulum_tests::promised;
@@ -89,8 +89,8 @@ fn the_kernel_is_straight_arithmetic() {
 }
 
 /// One state, a batch and trajectories in lanes.
-fn runs_in_kernels<P: Cast<f64> + Sync>(model: &P) {
-    let links = P::LINKS;
+fn runs_in_kernels<P: Pendulum<f64> + Sync>(model: &P) {
+    let links = model.links();
     let columns = black_box(vec![vec![0.1; 20]; links]);
     let mut alpha = vec![vec![0.0; 20]; links];
     let done = Batch::new(model).accelerations(0.0, &columns, &columns, &mut alpha);

@@ -15,7 +15,7 @@ struct Million;
 #[test]
 fn a_million_links_keep_their_energy() {
     let model = Million::<f64>::new();
-    let n = <Million as Pendulum<f64>>::LINKS;
+    let n = Million::LINKS;
     assert_eq!(n, 1_048_575);
     let mut random = Random::new(5);
     let theta: Vec<f64> = (0..n).map(|_| random.array::<1>(-1.0, 1.0)[0]).collect();

@@ -25,14 +25,14 @@ struct Odd;
 fn threads_agree<P: Pendulum<f64>>(model: &mut P, set: impl Fn(&mut P, NonZeroUsize)) {
     let mut random = Random::new(3);
     let mut numbers = |size: f64| -> Vec<f64> {
-        (0..P::LINKS)
+        (0..model.links())
             .map(|_| random.array::<1>(-size, size)[0])
             .collect()
     };
     let (theta, omega) = (numbers(3.0), numbers(2.0));
     let mut results = [1, 2, 3].map(|threads| {
         set(model, NonZeroUsize::new(threads).unwrap());
-        let mut alpha = vec![f64::NAN; P::LINKS];
+        let mut alpha = vec![f64::NAN; model.links()];
         model.accelerations_into(0.0, &theta, &omega, &mut alpha);
         alpha.into_iter().map(f64::to_bits).collect::<Vec<u64>>()
     });
@@ -63,7 +63,7 @@ struct Broad;
 #[test]
 fn links_left_over_are_computed_like_the_others() {
     threads_agree(&mut Broad::<f64>::new(), Broad::set_threads);
-    let n = <Broad as Pendulum<f64>>::LINKS;
+    let n = Broad::LINKS;
     let mut random = Random::new(13);
     let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 2.0));
     let mut alpha = vec![0.0; n];

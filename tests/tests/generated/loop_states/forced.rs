@@ -1,7 +1,7 @@
 //! Driven trees, those with offsets whose energies are asked for, and those with
 //! children at several places.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Dual, Lanes};
 use branched_pendulum_compiler_tests::random::Random;
@@ -136,7 +136,7 @@ fn driven_trees_that_differ_in_lanes() {
     let mut release = |i: u32| {
         let start = State {
             time: 0.1 * f64::from(i),
-            values: random.around_zero(2 * <Bush as Pendulum<f64>>::LINKS, 0.4),
+            values: random.around_zero(2 * Bush::LINKS, 0.4),
         };
         (AbsoluteAngles(bush(0.1 * f64::from(i))), start)
     };
@@ -166,18 +166,18 @@ fn dual_numbers_of_cast_forced_models() {
 }
 
 /// ∂ω̇/∂t by dual numbers, against differences.
-fn drives_vary<P: Cast<f64>>(model: &P) {
+fn drives_vary<P: Pendulum<f64>>(model: &P) {
     let mut random = Random::new(5);
     let (theta, omega) = (
-        random.around_zero(P::LINKS, 3.0),
-        random.around_zero(P::LINKS, 9.0),
+        random.around_zero(model.links(), 3.0),
+        random.around_zero(model.links(), 9.0),
     );
     let at = |time: f64| {
-        let mut alpha = vec![0.0; P::LINKS];
+        let mut alpha = vec![0.0; model.links()];
         model.accelerations_into(time, &theta, &omega, &mut alpha);
         alpha
     };
-    let mut rates = vec![f64::NAN; P::LINKS];
+    let mut rates = vec![f64::NAN; model.links()];
     model.cast(Dual::<f64, 1>::constant).evaluate(
         Dual::variable(TIME, 0),
         |i| Dual::constant(theta[i]),
@@ -204,12 +204,14 @@ fn dual_numbers_of_drives() {
 
 /// The energies of a cast model: the same bits in lanes, and in dual numbers
 /// dE/dt along the motion, which is the power of the forces.
-fn energies_go_along<P: Cast<f64> + Energy<f64>>(model: &P, power: impl Fn(&[f64], &[f64]) -> f64)
-where
+fn energies_go_along<P: Pendulum<f64> + Energy<f64>>(
+    model: &P,
+    power: impl Fn(&[f64], &[f64]) -> f64,
+) where
     P::Of<Lanes<f64, 2>>: Energy<Lanes<f64, 2>>,
     P::Of<Dual<f64, 1>>: Energy<Dual<f64, 1>>,
 {
-    let (n, mut random) = (P::LINKS, Random::new(5));
+    let (n, mut random) = (model.links(), Random::new(5));
     let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 9.0));
     let lanes = model.cast(|number| Lanes([number; 2]));
     let splat = |numbers: &[f64]| -> Vec<_> { numbers.iter().map(|&x| Lanes([x; 2])).collect() };

@@ -2,7 +2,7 @@
 
 mod forced;
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Dual, InstructionSet, Lane, Lanes};
 use branched_pendulum_compiler_tests::random::Random;
@@ -96,7 +96,7 @@ fn state<T: Copy>(columns: &[Vec<T>], state: usize) -> Vec<T> {
 
 /// One state alone: by the model's own loops, which fuse where the machine can; by
 /// those of the model in numbers that never do for the build's own instructions.
-fn alone<T: Lane, P: Cast<T>>(
+fn alone<T: Lane, P: Pendulum<T>>(
     model: &P,
     plain: &P::Of<Lanes<T, 1>>,
     set: InstructionSet,
@@ -117,8 +117,8 @@ fn alone<T: Lane, P: Cast<T>>(
     alpha.into_iter().map(|Lanes([number])| number).collect()
 }
 
-fn batch_agrees<T: Lane, P: Cast<T>>(model: &P, bits: fn(&T) -> u64) {
-    let (links, zero) = (P::LINKS, T::from_f64(0.0));
+fn batch_agrees<T: Lane, P: Pendulum<T>>(model: &P, bits: fn(&T) -> u64) {
+    let (links, zero) = (model.links(), T::from_f64(0.0));
     let plain = model.cast(|number| Lanes([number]));
     let mut random = Random::new(11);
     for set in InstructionSet::ALL {
@@ -178,12 +178,12 @@ fn batches_of_tables_have_the_bits_of_single_states() {
 
 /// Trajectories in lanes end where the plain method does, but for rounding, and where
 /// they end does not depend on the company.
-fn lanes_meet_the_plain_method<P: Cast<f64> + Sync>(model: &P) {
+fn lanes_meet_the_plain_method<P: Pendulum<f64> + Sync>(model: &P) {
     let mut random = Random::new(3);
     let starts: Vec<State<f64>> = (0..19)
         .map(|_| State {
             time: 0.0,
-            values: random.around_zero(2 * P::LINKS, 0.4),
+            values: random.around_zero(2 * model.links(), 0.4),
         })
         .collect();
     let (method, end) = (Dop853::new(Options::with_tolerance(1e-9)), 0.3);
@@ -211,8 +211,8 @@ fn trajectories_of_large_trees_in_lanes() {
 }
 
 /// ∂ω̇/∂θ of one link by dual numbers of a cast model, against differences.
-fn derivatives_agree<P: Cast<f64>>(model: &P, link: usize) {
-    let links = P::LINKS;
+fn derivatives_agree<P: Pendulum<f64>>(model: &P, link: usize) {
+    let links = model.links();
     let mut random = Random::new(5);
     let (theta, omega) = (
         random.around_zero(links, 3.0),

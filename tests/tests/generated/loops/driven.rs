@@ -95,7 +95,7 @@ struct Many;
 
 #[test]
 fn a_large_driven_tree_is_the_same_in_other_scalars_and_on_more_threads() {
-    let n = <Many as Pendulum<f64>>::LINKS;
+    let n = Many::LINKS;
     assert_eq!(n, 32_767);
     let mut model = Many::new(ManyParameters {
         g: 9.8125,

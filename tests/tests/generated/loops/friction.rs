@@ -1,6 +1,6 @@
 //! Coulomb and quadratic friction and drag in loops.
 
-use branched_pendulum::Cast;
+use branched_pendulum::Pendulum;
 use branched_pendulum::prelude::*;
 
 use super::{Powered, agree, array, balance, pair, powered};
@@ -46,11 +46,11 @@ fn braked_tables_agree_with_code_written_out_and_with_the_oracle() {
 /// Several states at once, in registers, as one by one.
 #[test]
 fn batches_agree_with_single_states() {
-    fn check<P: Cast<f64>>(model: &P) {
-        let states: Vec<super::State> = super::states(P::LINKS, 9).collect();
+    fn check<P: Pendulum<f64>>(model: &P) {
+        let states: Vec<super::State> = super::states(model.links(), 9).collect();
         let columns = |of: fn(&super::State) -> &Vec<f64>| -> Vec<Vec<f64>> {
             let column = |link: usize| states.iter().map(|state| of(state)[link]).collect();
-            (0..P::LINKS).map(column).collect()
+            (0..model.links()).map(column).collect()
         };
         let (theta, omega) = (columns(|state| &state.theta), columns(|state| &state.omega));
         let mut found = columns(|state| &state.theta);
@@ -58,7 +58,7 @@ fn batches_agree_with_single_states() {
         let done = batch.accelerations(0.3, &theta, &omega, &mut found);
         done.expect("as many numbers as links and states");
         for (index, state) in states.iter().enumerate() {
-            let mut alone = vec![0.0; P::LINKS];
+            let mut alone = vec![0.0; model.links()];
             model.accelerations_into(0.3, &state.theta, &state.omega, &mut alone);
             let size = alone.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
             for (found, alone) in found.iter().zip(&alone) {

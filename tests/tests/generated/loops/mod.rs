@@ -109,13 +109,12 @@ fn scene_of(text: &str) -> Scene {
     source::stages_of(&format!("#[branched_pendulum({text})] struct Sample;")).scene
 }
 
-/// Index in `L` of each link of `U`, by name.
-fn order<L: Pendulum<f64>, U: Pendulum<f64>>() -> Vec<usize> {
-    assert_eq!(L::LINKS, U::LINKS);
-    let name = |index: usize| L::link_name(index).unwrap().to_string();
-    let names: Vec<String> = (0..L::LINKS).map(name).collect();
-    let find = |name: &&str| names.iter().position(|other| other == name).unwrap();
-    U::LINK_NAMES.iter().map(find).collect()
+/// Index in the first model of each link of the second, by name.
+fn order<L: Pendulum<f64>, U: Pendulum<f64>>(loops: &L, unrolled: &U) -> Vec<usize> {
+    assert_eq!(loops.links(), unrolled.links());
+    let names = loops.link_names();
+    let find = |name: &String| names.iter().position(|other| other == name).unwrap();
+    unrolled.link_names().iter().map(find).collect()
 }
 
 fn placed(order: &[usize], numbers: &[f64]) -> Vec<f64> {
@@ -158,8 +157,8 @@ fn states(n: usize, count: usize) -> impl Iterator<Item = State> {
 /// Accelerations within roundings of the conditioning bound of the code written
 /// out, and of the oracle; energies of the code written out.
 fn agree<L: Energy<f64>, U: Energy<f64>>(loops: &L, unrolled: &U, text: &str, parts: [bool; 2]) {
-    let n = U::LINKS;
-    let order = order::<L, U>();
+    let n = unrolled.links();
+    let order = order(loops, unrolled);
     let tree = bodies_of(&scene_of(text));
     let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
     for State { time, theta, omega } in states(n, 100) {
@@ -202,8 +201,8 @@ fn agree<L: Energy<f64>, U: Energy<f64>>(loops: &L, unrolled: &U, text: &str, pa
 /// The powers of the code written out; and they are dE/dt, by differences along
 /// the motion.
 fn balance<L: Powered, U: Powered>(loops: &L, unrolled: &U) {
-    let n = U::LINKS;
-    let order = order::<L, U>();
+    let n = unrolled.links();
+    let order = order(loops, unrolled);
     for State { time, theta, omega } in states(n, 50) {
         let (own_theta, own_omega) = (placed(&order, &theta), placed(&order, &omega));
         let power = loops.power(time, &own_theta, &own_omega);

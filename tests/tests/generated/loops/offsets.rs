@@ -96,8 +96,8 @@ struct Named;
 struct Bent;
 
 fn alike<A: Energy<f64>, B: Energy<f64>>(one: &A, other: &B) {
-    for super::State { time, theta, omega } in super::states(A::LINKS, 20) {
-        let (mut own, mut right) = (vec![0.0; A::LINKS], vec![0.0; A::LINKS]);
+    for super::State { time, theta, omega } in super::states(one.links(), 20) {
+        let (mut own, mut right) = (vec![0.0; one.links()], vec![0.0; one.links()]);
         one.accelerations_into(time, &theta, &omega, &mut own);
         other.accelerations_into(time, &theta, &omega, &mut right);
         let size = right.iter().fold(0.0, |size: f64, x| size.max(x.abs()));

@@ -67,7 +67,7 @@ fn rules_in_one_pivot_agree_with_code_written_out_and_with_the_oracle() {
 /// Constants are exact in 106 bits too.
 #[test]
 fn a_table_with_places_is_that_of_code_written_out_in_more_digits() {
-    let n = <MobileTable as Pendulum<f64>>::LINKS;
+    let n = MobileTable::LINKS;
     let wide = |numbers: &[f64]| -> Vec<Double> {
         numbers.iter().copied().map(Double::from_f64).collect()
     };

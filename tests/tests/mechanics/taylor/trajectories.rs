@@ -2,7 +2,7 @@
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::{Cast, TaylorPendulum};
+use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum_tests::scenes::damped_series::DampedSeries;
 use branched_pendulum_tests::scenes::driven_series::DrivenSeries;
 use branched_pendulum_tests::scenes::series::Series;

@@ -1,7 +1,7 @@
 //! A pendulum with all that a description may ask for, and places without answer.
 
 use crate::scalar::Scalar;
-use crate::system::{AbsoluteAngles, Cast, Pendulum, TaylorPendulum};
+use crate::system::{AbsoluteAngles, LinkName, Model, Pendulum, TaylorPendulum};
 use crate::taylor::{self, Connectivity, KnownOrder, LinkConstants, Quad, Start};
 
 /// Two lopsided links with friction, the first driven.
@@ -55,17 +55,17 @@ impl<T: Scalar> Lopsided<T> {
     }
 }
 
-impl<T: Scalar> Pendulum<T> for Lopsided<T> {
-    const LINKS: usize = 2;
-    const LINK_NAMES: &'static [&'static str] = &["first", "second"];
-
-    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        Cast::accelerate(self, time, theta, omega, alpha);
-    }
-}
-
-impl<T: Scalar> Cast<T> for Lopsided<T> {
+impl<T: Scalar> Model<T> for Lopsided<T> {
     type Of<S: Scalar> = Lopsided<S>;
+    const KNOWN_LINKS: Option<usize> = Some(2);
+
+    fn links(&self) -> usize {
+        2
+    }
+
+    fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+        LinkName::in_list(&["first", "second"], index)
+    }
 
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Lopsided<S> {
         Lopsided {
@@ -76,7 +76,9 @@ impl<T: Scalar> Cast<T> for Lopsided<T> {
             lateral: convert(self.lateral),
         }
     }
+}
 
+impl<T: Scalar> Pendulum<T> for Lopsided<T> {
     /// Σ_j M_ij α_j = Σ_j M'_ij ω_j² − …, M_01 = a cos(θ_0 − θ_1) + b sin(θ_0 − θ_1).
     #[inline(always)]
     fn evaluate(

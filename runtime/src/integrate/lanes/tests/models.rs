@@ -11,7 +11,7 @@ use super::{outcomes, plain, starts, times, with_each};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, InputError, IntegrationError, Options, StopReason};
 use crate::scalar::{InstructionSet, Lane, Scalar};
-use crate::system::{Cast, Pendulum, State};
+use crate::system::{LinkName, Model, Pendulum, State};
 
 /// Models no two of which are the same, from the starts of the other tests.
 fn releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
@@ -145,22 +145,24 @@ fn ends_and_samples_stand_in_the_order_of_the_releases() {
 /// A rod that says it has so many constants.
 struct Uneven<T>(Vec<T>);
 
-impl<T: Scalar> Pendulum<T> for Uneven<T> {
-    const LINKS: usize = 1;
-    const LINK_NAMES: &'static [&'static str] = &["rod"];
-
-    fn accelerations_into(&self, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
-        Cast::accelerate(self, time, theta, omega, alpha);
-    }
-}
-
-impl<T: Scalar> Cast<T> for Uneven<T> {
+impl<T: Scalar> Model<T> for Uneven<T> {
     type Of<S: Scalar> = Uneven<S>;
+    const KNOWN_LINKS: Option<usize> = Some(1);
+
+    fn links(&self) -> usize {
+        1
+    }
+
+    fn link_name(&self, index: usize) -> Option<LinkName<'_>> {
+        LinkName::in_list(&["rod"], index)
+    }
 
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Uneven<S> {
         Uneven(self.0.iter().copied().map(convert).collect())
     }
+}
 
+impl<T: Scalar> Pendulum<T> for Uneven<T> {
     #[inline(always)]
     fn evaluate(
         &self,
