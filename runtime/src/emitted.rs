@@ -9,7 +9,9 @@ pub use crate::requirements::{
 };
 pub use crate::scalar::Turns;
 pub use crate::simd::{Part, Simd, outlined};
-pub use crate::system::positions::{arrays, fill, properties, unknown, write, write_both};
+pub use crate::system::positions::{
+    arrays, fill, no_answer, properties, unknown, write, write_both,
+};
 pub use crate::system::{WholeMotion, WholeOrbit};
 
 /// The recurrences of Taylor coefficients.

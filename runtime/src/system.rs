@@ -15,9 +15,12 @@ mod derivatives;
 mod energy;
 mod first_integral;
 mod forced;
+mod function;
+mod fused;
 mod lane_ode;
 mod link_name;
 mod model;
+mod motion;
 mod ode;
 mod parametric;
 mod patterns;
@@ -33,15 +36,17 @@ mod workspace;
 
 pub use canonical::{Canonical, CanonicalVariables};
 pub use cast_ode::CastOde;
-pub use coordinates::{AbsoluteAngles, SymmetricCoordinates, SymmetricPendulum};
+pub use coordinates::{AbsoluteAngles, Symmetric, SymmetricCoordinates, SymmetricPendulum};
 #[doc(hidden)]
 pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
-pub use forced::{Forced, LaneTorques, Torques, UnderTorques};
+pub use forced::{Forced, LaneTorques, Pushed, Torques, UnderTorques};
+pub use function::{At, Computes, functions};
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;
+pub use motion::{CastSecondOrder, Motion, SecondOrder};
 pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;
 pub use patterns::{DifferencePatterns, PatternError};
@@ -50,14 +55,14 @@ pub use pendulum::InRegisters;
 pub use pendulum::Pendulum;
 pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use prescribed::{
-    LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
+    Held, LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
 };
-#[doc(hidden)]
-pub use prescribed::{course_room, on_course};
-pub use small::{ForcedDifferences, SmallDifferences, SmallOde, SmallUnderTorques};
+pub use small::{
+    ForcedDifferences, Nearly, NearlyPushed, SmallDifferences, SmallOde, SmallUnderTorques,
+};
 pub use state::{LengthMismatch, State};
 pub use taylor::{RatesOnly, TaylorOde, TaylorPendulum};
-pub use transverse::{InPhaseMotion, Transverse, TransverseOde, TransverseSector};
+pub use transverse::{Beside, InPhaseMotion, Transverse, TransverseOde, TransverseSector};
 pub use whole_tree::{WholeLengthError, WholeTree};
 #[doc(hidden)]
 pub use whole_tree::{WholeMotion, WholeOrbit};
@@ -67,8 +72,9 @@ pub use workspace::Workspace;
 mod tests {
     use alloc::string::ToString;
 
+    use super::functions::SymmetricAccelerations;
     use super::{
-        AbsoluteAngles, LinkName, Model, Ode, Pendulum, State, SymmetricCoordinates,
+        AbsoluteAngles, At, Computes, LinkName, Model, Ode, Pendulum, State, SymmetricCoordinates,
         SymmetricPendulum,
     };
     use crate::scalar::Scalar;
@@ -108,9 +114,19 @@ mod tests {
 
     impl<T: Scalar> SymmetricPendulum<T> for Uncoupled {
         const COORDINATE_NAMES: &'static [&'static str] = &["mean", "difference"];
+    }
 
-        fn symmetric_accelerations_into(&self, _time: T, _q: &[T], rates: &[T], out: &mut [T]) {
-            out.copy_from_slice(rates);
+    impl<T: Scalar> Computes<SymmetricAccelerations, T> for Uncoupled {
+        type On<S: Scalar> = Uncoupled;
+
+        fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> Uncoupled {
+            Uncoupled
+        }
+
+        fn compute(&self, _: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+            if let (&[_, rates], [out]) = (given, results) {
+                out.copy_from_slice(rates);
+            }
         }
     }
 

@@ -120,13 +120,8 @@ impl Emission<'_> {
 
     /// The drive as the tree takes it.
     pub(super) fn drive_at_time(&self) -> TokenStream {
-        self.drive_of(&quote!(self))
-    }
-
-    /// The drive of a model.
-    pub(super) fn drive_of(&self, model: &TokenStream) -> TokenStream {
         match self.mechanics.drive {
-            Some(_) => quote!(::core::option::Option::Some(#model.root_drive(time))),
+            Some(_) => quote!(::core::option::Option::Some(self.root_drive(time))),
             None => quote!(::core::option::Option::None),
         }
     }

@@ -2,6 +2,7 @@
 //! entry point, the runtime's traits, and the docs that carry the formulas.
 
 mod budget;
+mod computes;
 mod constants;
 mod doc_text;
 mod docs;

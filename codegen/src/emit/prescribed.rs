@@ -1,6 +1,7 @@
 //! Links whose motion is handed over: docs, and the runtime's trait.
 
 use super::Emission;
+use super::computes::SliceFunction;
 use super::docs::wrapped_names;
 use crate::functions::Purpose;
 use crate::scene::PrescribedSet;
@@ -46,100 +47,60 @@ impl Emission<'_> {
         if sets.is_empty() {
             return None;
         }
-        if self.scene.in_loops() {
-            return Some(self.prescribed_in_loops());
-        }
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.prescribed_sets();
-        let outputs = ["alpha", "reactions"];
-        let arms = (0..sets.len()).map(|number| {
-            let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
-            let written = self.fill_both(outputs, &pattern, purpose);
-            let number = Literal::usize_unsuffixed(number);
-            quote!(#number => #written,)
-        });
-        let unknown = self.unknown(&outputs);
-        let accelerations = self.on_any_scalar(
-            ["Prescribed", "accelerations_prescribed", "pendulum"],
-            &quote!(set, time, motion, alpha, reactions),
-            |time, t| {
-                quote! {
-                    set: usize, #time: #t, motion: #runtime::system::PrescribedMotion<'_, #t>,
-                    alpha: &mut [#t], reactions: &mut [#t]
-                }
-            },
-            &quote! {
-                let #runtime::system::PrescribedMotion { theta, omega, torques, prescribed } =
-                    motion;
-                match set {
-                    #(#arms)*
-                    _ => #unknown
-                }
-            },
-        );
+        let function = SliceFunction {
+            name: "AccelerationsOfHeldLinks",
+            given: &["theta", "omega", "torques", "prescribed"],
+            results: &["alpha", "reactions"],
+            index: Some("set"),
+        };
+        let accelerations = match self.scene.in_loops() {
+            true => {
+                let drive = self.drive_at_time();
+                let motion = quote! {
+                    let links = #runtime::Prescribed::prescribed_links(self, set);
+                    let motion =
+                        #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
+                };
+                self.computes(
+                    &function,
+                    &quote! {
+                        #motion
+                        self.tree.evaluate_prescribed(#drive, links, motion, [alpha, reactions]);
+                    },
+                    Some(&quote! {
+                        #motion
+                        self.tree.accelerations_prescribed_with(
+                            workspace, #drive, links, motion, [alpha, reactions],
+                        );
+                    }),
+                )
+            }
+            false => {
+                let outputs = ["alpha", "reactions"];
+                let arms = (0..sets.len()).map(|number| {
+                    let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
+                    let written = self.fill_both(outputs, &pattern, purpose);
+                    let number = Literal::usize_unsuffixed(number);
+                    quote!(#number => #written,)
+                });
+                let unknown = self.unknown(&outputs);
+                let body = quote! {
+                    match set {
+                        #(#arms)*
+                        _ => #unknown
+                    }
+                };
+                self.computes(&function, &body, None)
+            }
+        };
         Some(quote! {
+            #accelerations
+
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 #links
-
-                #accelerations
             }
         })
-    }
-
-    /// The function of a tree in loops.
-    fn prescribed_in_loops(&self) -> TokenStream {
-        let (name, runtime, time) = (&self.item.ident, self.runtime(), self.time_name());
-        let (links, other) = (self.prescribed_sets(), super::other_scalar(name));
-        let drive = self.drive_at_time();
-        let drive_of = self.drive_of(&quote!(pendulum));
-        quote! {
-            impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
-                #links
-
-                fn accelerations_prescribed_into(
-                    &self,
-                    set: usize,
-                    time: T,
-                    motion: #runtime::system::PrescribedMotion<'_, T>,
-                    alpha: &mut [T],
-                    reactions: &mut [T],
-                ) {
-                    let mut workspace = #runtime::system::Workspace::new();
-                    #runtime::Prescribed::accelerations_prescribed_with(
-                        self, &mut workspace, set, time, motion, alpha, reactions,
-                    );
-                }
-
-                fn accelerations_prescribed_with(
-                    &self,
-                    workspace: &mut #runtime::system::Workspace<T>,
-                    set: usize,
-                    #time: T,
-                    motion: #runtime::system::PrescribedMotion<'_, T>,
-                    alpha: &mut [T],
-                    reactions: &mut [T],
-                ) {
-                    let links = #runtime::Prescribed::prescribed_links(self, set);
-                    self.tree.accelerations_prescribed_with(
-                        workspace, #drive, links, motion, [alpha, reactions],
-                    );
-                }
-
-                #[inline(always)]
-                fn accelerations_prescribed_of<#other: #runtime::Scalar>(
-                    pendulum: &#name<#other>,
-                    set: usize,
-                    #time: #other,
-                    motion: #runtime::system::PrescribedMotion<'_, #other>,
-                    alpha: &mut [#other],
-                    reactions: &mut [#other],
-                ) {
-                    let links = #runtime::Prescribed::prescribed_links(pendulum, set);
-                    pendulum.tree.evaluate_prescribed(
-                        #drive_of, links, motion, [alpha, reactions],
-                    );
-                }
-            }
-        }
     }
 }

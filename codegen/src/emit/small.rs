@@ -1,6 +1,7 @@
 //! Small differences that act back: names, docs, formulas and the runtime's trait.
 
 use super::Emission;
+use super::computes::SliceFunction;
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::SmallMechanics;
 use crate::mechanics::expression::NamedFormula;
@@ -88,33 +89,23 @@ impl Emission<'_> {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let sectors = self.scene.requests.small.iter();
         let sectors = sectors.map(|&sector| Literal::usize_unsuffixed(sector));
-        let accelerations = self.on_any_scalar(
-            ["SmallDifferences", "small_accelerations", "model"],
-            &quote!(
-                time,
-                theta,
-                omega,
-                difference,
-                difference_rate,
-                accelerations
-            ),
-            |time, t| {
-                quote! {
-                    #time: #t, theta: &[#t], omega: &[#t], difference: &[#t],
-                    difference_rate: &[#t], accelerations: &mut [#t]
-                }
-            },
-            &self.fill("accelerations", Purpose::SmallAccelerations),
-        );
+        let function = SliceFunction {
+            name: "SmallDifferences",
+            given: &["theta", "omega", "difference", "difference_rate"],
+            results: &["accelerations"],
+            index: None,
+        };
+        let body = self.fill("accelerations", Purpose::SmallAccelerations);
+        let accelerations = self.computes(&function, &body, None);
         let energy = self.value_at_slices(Purpose::SmallEnergy);
         let forced = self.forced_differences();
         Some(quote! {
             #forced
 
+            #accelerations
+
             impl<T: #runtime::Scalar> #runtime::SmallDifferences<T> for #name<T> {
                 const SMALL: &'static [usize] = &[#(#sectors),*];
-
-                #accelerations
 
                 #[inline]
                 fn small_energy_of(
@@ -130,32 +121,24 @@ impl Emission<'_> {
         })
     }
 
-    /// `impl ForcedDifferences`, where torques are asked for; NaN for slices of a wrong
+    /// The accelerations under torques, where these are asked for; NaN for slices of a wrong
     /// length.
     fn forced_differences(&self) -> Option<TokenStream> {
         self.entry(Purpose::SmallAccelerationsUnder)?;
-        let (name, runtime) = (&self.item.ident, self.runtime());
-        let accelerations = self.fill("accelerations", Purpose::SmallAccelerationsUnder);
-        let accelerations = self.on_any_scalar(
-            ["ForcedDifferences", "small_accelerations_under", "model"],
-            &quote!(time, angles, rates, torques, accelerations),
-            |time, t| {
-                quote! {
-                    #time: #t, angles: [&[#t]; 2], rates: [&[#t]; 2], torques: [&[#t]; 2],
-                    accelerations: &mut [#t]
-                }
-            },
-            &quote! {
-                let [theta, difference] = angles;
-                let [omega, difference_rate] = rates;
-                let [torques, difference_torques] = torques;
-                #accelerations
-            },
-        );
-        Some(quote! {
-            impl<T: #runtime::Scalar> #runtime::ForcedDifferences<T> for #name<T> {
-                #accelerations
-            }
-        })
+        let function = SliceFunction {
+            name: "SmallDifferencesUnderTorques",
+            given: &[
+                "theta",
+                "omega",
+                "difference",
+                "difference_rate",
+                "torques",
+                "difference_torques",
+            ],
+            results: &["accelerations"],
+            index: None,
+        };
+        let body = self.fill("accelerations", Purpose::SmallAccelerationsUnder);
+        Some(self.computes(&function, &body, None))
     }
 }

@@ -25,6 +25,8 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let functions = functions(&naming, runtime);
     let taylor = taylor(description, runtime);
     let prescribed = prescribed(&naming, name, runtime);
+    let computed = ["AccelerationsUnderTorques", "SymmetricAccelerations"]
+        .map(|function| computed(name, runtime, function));
     quote! {
         #(#attrs)*
         #vis struct #name<T = f64>(::core::marker::PhantomData<T>);
@@ -77,8 +79,9 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
 
         impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
             const COORDINATE_NAMES: &'static [&'static str] = &[];
-            fn symmetric_accelerations_into(&self, _: T, _: &[T], _: &[T], _: &mut [T]) {}
         }
+
+        #(#computed)*
 
         impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
             const TRANSFER_FORMS: &'static [#runtime::TransferForm] = &[];
@@ -86,14 +89,6 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             const SMALL_SECTORS: &'static [#runtime::transfer_forms::SmallSector] = &[];
             fn transfers_into(&self, _: usize, _: &[T], _: &[T], _: &mut [#runtime::Transfer<T>]) {}
             fn symmetric_momenta_into(&self, _: &[T], _: &[T], _: &mut [T]) {}
-        }
-
-        impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
-            fn accelerations_under_into(&self, _: T, _: &[T], _: &[T], _: &[T], _: &mut [T]) {}
-            fn accelerations_under_of<#other: #runtime::Scalar>(
-                _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &[#other],
-                _: &mut [#other],
-            ) {}
         }
 
         impl<T: #runtime::Scalar> #runtime::Positions<T> for #name<T> {
@@ -193,24 +188,33 @@ fn functions(naming: &Naming, runtime: &TokenStream) -> TokenStream {
     functions.collect()
 }
 
+/// A function of a state.
+fn computed(name: &Ident, runtime: &TokenStream, function: &str) -> TokenStream {
+    let (other, function) = (super::other_scalar(name), format_ident!("{function}"));
+    quote! {
+        impl<T: #runtime::Scalar> #runtime::system::Computes<
+            #runtime::system::functions::#function, T,
+        > for #name<T> {
+            type On<#other: #runtime::Scalar> = #name<#other>;
+            fn on<#other: #runtime::Scalar>(
+                &self, _: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> { ::core::unimplemented!() }
+            fn compute(&self, _: #runtime::system::At<T>, _: &[&[T]], _: &mut [&mut [T]]) {}
+        }
+    }
+}
+
 /// The trait of prescribed links.
 fn prescribed(naming: &Naming, name: &Ident, runtime: &TokenStream) -> Option<TokenStream> {
     (!naming.prescribed.is_empty()).then(|| {
-        let other = super::other_scalar(name);
+        let computed = computed(name, runtime, "AccelerationsOfHeldLinks");
         quote! {
+            #computed
+
             impl<T: #runtime::Scalar> #runtime::Prescribed<T> for #name<T> {
                 fn prescribed_links(&self, _: usize) -> ::core::option::Option<&[usize]> {
                     ::core::option::Option::None
                 }
-                fn accelerations_prescribed_into(
-                    &self, _: usize, _: T, _: #runtime::system::PrescribedMotion<'_, T>,
-                    _: &mut [T], _: &mut [T],
-                ) {}
-                fn accelerations_prescribed_of<#other: #runtime::Scalar>(
-                    _: &#name<#other>, _: usize, _: #other,
-                    _: #runtime::system::PrescribedMotion<'_, #other>,
-                    _: &mut [#other], _: &mut [#other],
-                ) {}
             }
         }
     })

@@ -2,11 +2,11 @@
 //! wrong one yields NaN, which integrators report at once.
 
 use super::Emission;
-use super::tokens::ident;
+use super::computes::SliceFunction;
 use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 impl Emission<'_> {
     pub(super) fn traits(&self) -> TokenStream {
@@ -118,52 +118,19 @@ impl Emission<'_> {
         }
     }
 
+    /// The accelerations under torques; NaN for slices of a wrong length.
     fn forced(&self) -> TokenStream {
-        let (name, runtime) = (&self.item.ident, self.runtime());
-        let accelerations = self.on_any_scalar(
-            ["Forced", "accelerations_under", "pendulum"],
-            &quote!(time, theta, omega, torques, alpha),
-            |time, t| {
-                quote! {
-                    #time: #t, theta: &[#t], omega: &[#t], torques: &[#t], alpha: &mut [#t]
-                }
-            },
+        let function = SliceFunction {
+            name: "AccelerationsUnderTorques",
+            given: &["theta", "omega", "torques"],
+            results: &["alpha"],
+            index: None,
+        };
+        self.computes(
+            &function,
             &self.fill("alpha", Purpose::AccelerationsUnder),
-        );
-        quote! {
-            impl<T: #runtime::Scalar> #runtime::Forced<T> for #name<T> {
-                #accelerations
-            }
-        }
-    }
-
-    /// A function of a trait on slices: `…_into` of the model, with `body`, and `…_of` a
-    /// model on any other scalar, which calls that one. `parameters` are the arguments with
-    /// their types, by the name of the time and the scalar.
-    pub(super) fn on_any_scalar(
-        &self,
-        [capability, function, model]: [&str; 3],
-        arguments: &TokenStream,
-        parameters: impl Fn(Ident, Ident) -> TokenStream,
-        body: &TokenStream,
-    ) -> TokenStream {
-        let (name, runtime) = (&self.item.ident, self.runtime());
-        let other = super::other_scalar(name);
-        let [capability, model] = [capability, model].map(ident);
-        let [into, of] = ["into", "of"].map(|end| format_ident!("{function}_{end}"));
-        let own = parameters(self.time_name(), ident("T"));
-        let others = parameters(ident("time"), other.clone());
-        quote! {
-            #[inline(always)]
-            fn #into(&self, #own,) {
-                #body
-            }
-
-            #[inline(always)]
-            fn #of<#other: #runtime::Scalar>(#model: &#name<#other>, #others,) {
-                #runtime::#capability::#into(#model, #arguments,);
-            }
-        }
+            None,
+        )
     }
 
     /// `impl Canonical`; NaN for slices of a wrong length.
@@ -217,22 +184,19 @@ impl Emission<'_> {
     fn symmetric_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let names = coordinate_names(self.mechanics);
+        let function = SliceFunction {
+            name: "SymmetricAccelerations",
+            given: &["coordinates", "rates"],
+            results: &["accelerations"],
+            index: None,
+        };
         let body = self.fill("accelerations", Purpose::SymmetricAccelerations);
-        let time = self.time_name();
+        let accelerations = self.computes(&function, &body, None);
         quote! {
+            #accelerations
+
             impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
                 const COORDINATE_NAMES: &'static [&'static str] = &[#(#names),*];
-
-                #[inline]
-                fn symmetric_accelerations_into(
-                    &self,
-                    #time: T,
-                    coordinates: &[T],
-                    rates: &[T],
-                    accelerations: &mut [T],
-                ) {
-                    #body
-                }
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Small differences beside an in-phase motion: docs, formulas and the runtime's trait.
 
 use super::Emission;
+use super::computes::SliceFunction;
 use crate::functions::Purpose;
 use crate::mechanics::TransverseFormulas;
 use crate::mechanics::expression::{Expr, NamedFormula};
@@ -134,24 +135,16 @@ impl Emission<'_> {
         let motion = quote! {
             let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
-        let both = self.on_any_scalar(
-            ["Transverse", "transverse_motion", "model"],
-            &quote!(
-                sector,
-                time,
-                [theta, omega],
-                [difference, difference_rate],
-                accelerations
-            ),
-            |time, t| {
-                quote! {
-                    sector: usize, #time: #t, [theta, omega]: [&[#t]; 2],
-                    [difference, difference_rate]: [&[#t]; 2], accelerations: &mut [#t]
-                }
-            },
-            &motion_accelerations,
-        );
+        let function = SliceFunction {
+            name: "LinearDifferences",
+            given: &["theta", "omega", "difference", "difference_rate"],
+            results: &["accelerations"],
+            index: Some("sector"),
+        };
+        let both = self.computes(&function, &motion_accelerations, None);
         Some(quote! {
+            #both
+
             impl<T: #runtime::Scalar> #runtime::Transverse<T> for #name<T> {
                 const TRANSVERSE: &'static [#runtime::system::TransverseSector] =
                     &[#(#sectors),*];
@@ -170,7 +163,6 @@ impl Emission<'_> {
                     #accelerations
                 }
 
-                #both
 
                 #[inline]
                 fn transverse_energy_of(

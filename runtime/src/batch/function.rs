@@ -7,7 +7,7 @@ use crate::model::Transfer;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
 use crate::simd::{Kernel, Simd, dispatch};
-use crate::system::{Forced, Model, Pendulum};
+use crate::system::{At, Computes, Forced, Model, Pendulum, functions};
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
 /// number for each link: [`state_function!`](crate::state_function) writes it.
@@ -235,7 +235,7 @@ impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
         let lengths = alpha.iter_mut().map(|s| s.as_mut().len());
         super::check(self.pendulum.links(), count, "alpha", found, lengths)?;
         let states = FunctionOfStates {
-            function: PhantomData::<Under>,
+            function: PhantomData::<Applied<functions::AccelerationsUnderTorques, 3>>,
             pendulum: self.pendulum,
             time,
             count,
@@ -248,11 +248,17 @@ impl<P: Pendulum<T>, T: Lane> Batch<'_, P, T> {
 }
 
 /// A function of states in registers.
-trait RegisterFunction<P: Pendulum<T>, T: Scalar> {
+trait RegisterFunction<P, T: Scalar> {
+    /// The model on another scalar.
+    type On<S: Scalar>;
+
+    /// Takes the model to another scalar.
+    fn on<S: Scalar>(pendulum: &P, convert: impl Fn(T) -> S) -> Self::On<S>;
+
     /// Tells the values with their indices; `alpha` is room for one number a link. None
     /// where there are fewer arguments than it takes.
     fn tell<S: Scalar>(
-        pendulum: &P::Of<S>,
+        pendulum: &Self::On<S>,
         time: S,
         arguments: &[S],
         alpha: &mut [S],
@@ -269,6 +275,13 @@ where
     T: Scalar,
     F: StateFunction<P, T, A>,
 {
+    type On<S: Scalar> = P::Of<S>;
+
+    #[inline(always)]
+    fn on<S: Scalar>(pendulum: &P, convert: impl Fn(T) -> S) -> P::Of<S> {
+        pendulum.cast(convert)
+    }
+
     #[inline(always)]
     fn tell<S: Scalar>(
         pendulum: &P::Of<S>,
@@ -282,21 +295,31 @@ where
     }
 }
 
-/// Accelerations under torques.
-struct Under;
+/// A function `F` of a model, of `A` arguments with a number for each link.
+struct Applied<F, const A: usize>(PhantomData<F>);
 
-impl<P: Forced<T>, T: Scalar> RegisterFunction<P, T> for Under {
+impl<F, P: Computes<F, T>, T: Scalar, const A: usize> RegisterFunction<P, T> for Applied<F, A> {
+    type On<S: Scalar> = P::On<S>;
+
+    #[inline(always)]
+    fn on<S: Scalar>(pendulum: &P, convert: impl Fn(T) -> S) -> P::On<S> {
+        pendulum.on(convert)
+    }
+
     #[inline(always)]
     fn tell<S: Scalar>(
-        pendulum: &P::Of<S>,
+        pendulum: &P::On<S>,
         time: S,
         arguments: &[S],
         alpha: &mut [S],
         put: &mut impl FnMut(usize, S),
     ) -> Option<()> {
-        let (theta, others) = arguments.split_at_checked(pendulum.links())?;
-        let (omega, torques) = others.split_at_checked(pendulum.links())?;
-        P::accelerations_under_of(pendulum, time, theta, omega, torques, alpha);
+        let mut rest = arguments;
+        let mut given: [&[S]; A] = [&[]; A];
+        for own in &mut given {
+            (*own, rest) = rest.split_at_checked(pendulum.links())?;
+        }
+        pendulum.compute(At::time(time), &given, &mut [alpha]);
         for (link, &value) in alpha.iter().enumerate() {
             put(link, value);
         }
@@ -334,9 +357,9 @@ where
     /// it would not be full.
     #[inline(always)]
     fn run<R: Simd<T>>(self) {
-        let pendulum = self.pendulum.cast(R::splat);
+        let pendulum = F::on(self.pendulum, R::splat);
+        let links = self.pendulum.links();
         let time = R::splat(self.time);
-        let links = pendulum.links();
         let mut arguments = alloc::vec![R::splat(T::from_f64(0.0)); A * links];
         let mut alpha = alloc::vec![R::splat(T::from_f64(0.0)); links];
         // Where there are fewer states than lanes.

@@ -299,10 +299,20 @@ fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
 /// Returns memory of plain numbers as wide ones, from where the first one would lie;
 /// none of a type that is not its numbers alone.
 #[allow(unsafe_code)]
-pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
+pub(crate) fn wide_slice_mut<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
     if size_of::<V>() != V::LANES * size_of::<T>() {
         return None;
     }
     // SAFETY: a wide number is its lanes, and no more by its size; any numbers are lanes.
     Some(unsafe { numbers.align_to_mut().1 })
+}
+
+/// Returns memory of plain numbers as wide ones, likewise.
+#[allow(unsafe_code)]
+pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &[T]) -> Option<&[V]> {
+    if size_of::<V>() != V::LANES * size_of::<T>() {
+        return None;
+    }
+    // SAFETY: as above.
+    Some(unsafe { numbers.align_to().1 })
 }

@@ -1,7 +1,8 @@
 //! Pendulums as first-order systems.
 
-use super::by_reference::by_reference;
+use super::function::{At, Computes, compute_in, functions};
 use super::model::twice;
+use super::motion::{CastSecondOrder, Motion, SecondOrder};
 use super::ode::halves;
 use super::pendulum::put;
 use super::{CastOde, LaneOde, Model, Ode, Pendulum, Workspace};
@@ -43,7 +44,9 @@ impl<T: Scalar, P: Pendulum<T>> Ode<T> for AbsoluteAngles<P> {
     message = "`{Self}` has no symmetric coordinates in `{T}`",
     note = "a tree with identical siblings has them with `emit(symmetric)` in its attribute"
 )]
-pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
+pub trait SymmetricPendulum<T: Scalar>:
+    Pendulum<T> + Computes<functions::SymmetricAccelerations, T>
+{
     /// Names of the coordinates, in order.
     const COORDINATE_NAMES: &'static [&'static str];
 
@@ -51,45 +54,76 @@ pub trait SymmetricPendulum<T: Scalar>: Pendulum<T> {
     /// `coordinates` (rad) and `rates` (rad/s) at `time` (s).
     ///
     /// Lengths as in [`Pendulum::accelerations_into`].
+    #[inline]
     fn symmetric_accelerations_into(
         &self,
         time: T,
         coordinates: &[T],
         rates: &[T],
         accelerations: &mut [T],
-    );
+    ) {
+        let at = At::time(time);
+        let given = [coordinates, rates];
+        self.compute_with(&mut Workspace::new(), at, &given, &mut [accelerations]);
+    }
 }
 
-by_reference! {
-    impl<T: Scalar> SymmetricPendulum<T> for &P {
-        const COORDINATE_NAMES: &'static [&'static str];
-        fn symmetric_accelerations_into(
-            &self, time: T, coordinates: &[T], rates: &[T], accelerations: &mut [T]
-        );
-    }
+impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
+    const COORDINATE_NAMES: &'static [&'static str] = P::COORDINATE_NAMES;
 }
 
 /// A pendulum as a first-order system in symmetric coordinates: the state is
 /// the coordinates followed by their rates. Holds a pendulum, or a reference to one.
-#[derive(Clone, Copy, Debug)]
-pub struct SymmetricCoordinates<P>(pub P);
+pub type SymmetricCoordinates<P> = Motion<Symmetric<P>>;
 
-impl<T: Scalar, P: SymmetricPendulum<T>> Ode<T> for SymmetricCoordinates<P> {
-    fn dimension(&self) -> usize {
-        2 * self.0.links()
+/// A model in symmetric coordinates: [`SymmetricCoordinates`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Symmetric<P>(P);
+
+/// Returns a pendulum, or a reference to one, in symmetric coordinates as a first-order system.
+#[allow(non_snake_case)]
+pub const fn SymmetricCoordinates<P>(pendulum: P) -> SymmetricCoordinates<P> {
+    Motion(Symmetric(pendulum))
+}
+
+impl<T: Scalar, P: Computes<functions::SymmetricAccelerations, T>> SecondOrder<T> for Symmetric<P> {
+    fn coordinates(&self) -> usize {
+        self.0.links()
     }
 
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        second_order(
-            self.0.links(),
-            state,
-            rates,
-            |coordinates, velocities, accelerations| {
-                self.0
-                    .symmetric_accelerations_into(time, coordinates, velocities, accelerations);
-            },
+    #[inline(always)]
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        [coordinates, velocities]: [&[T]; 2],
+        [rates, accelerations]: [&mut [T]; 2],
+    ) {
+        rates.copy_from_slice(velocities);
+        let given = [coordinates, velocities];
+        compute_in(
+            &self.0,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [accelerations],
         );
+    }
+}
+
+impl<T: Scalar, P: Computes<functions::SymmetricAccelerations, T>> CastSecondOrder<T>
+    for Symmetric<P>
+{
+    type On<S: Scalar> = Symmetric<P::On<S>>;
+
+    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Symmetric(self.0.on(convert))
+    }
+
+    fn shape(&self) -> usize {
+        self.0.shape()
     }
 }
 
@@ -133,18 +167,6 @@ impl<T: Scalar, P: Pendulum<T>> LaneOde<T> for AbsoluteAngles<P> {
 
     fn shape(&self) -> usize {
         self.0.shape()
-    }
-}
-
-impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SymmetricCoordinates<P>
-where
-    P: SymmetricPendulum<T>,
-    P::Of<S>: SymmetricPendulum<S>,
-{
-    type Of = SymmetricCoordinates<P::Of<S>>;
-
-    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
-        SymmetricCoordinates(self.0.cast(convert))
     }
 }
 

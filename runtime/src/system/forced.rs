@@ -1,25 +1,21 @@
 //! Pendulums under torques from outside.
 
-mod fused;
-
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::by_reference::by_reference;
-use super::model::twice;
-use super::ode::{StateHalves, halves};
-use super::{LaneOde, Model, Ode, Pendulum, Workspace};
+use super::function::{At, Computes, compute_in, functions};
+use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// Equations of motion with torques that the caller hands over: wind, a hand, a motor,
-/// contact. Emitted code implements it where `emit(forces)` asks for it.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` takes no torques from outside",
-    note = "a model takes them with `emit(forces)` in its attribute"
-)]
-pub trait Forced<T: Scalar>: Pendulum<T> {
+/// contact. Models have them with `emit(forces)`; what computes
+/// [`AccelerationsUnderTorques`](functions::AccelerationsUnderTorques) implements this.
+pub trait Forced<T: Scalar>:
+    Pendulum<T> + Computes<functions::AccelerationsUnderTorques, T>
+{
     /// Writes the angular accelerations, in rad/s², as
-    /// [`Pendulum::accelerations_into`](super::Pendulum::accelerations_into) does, with
+    /// [`Pendulum::accelerations_into`] does, with
     /// generalized torques Q (N m) on top of all others: M θ̈ + b = Q. Their power is Q·ω. All
     /// slices have one number for each [link](super::Model::links); for others the results are NaN.
     ///
@@ -27,6 +23,7 @@ pub trait Forced<T: Scalar>: Pendulum<T> {
     /// [`Positions`](super::Positions) tells. On a link that stands for several of a
     /// whole tree it is the sum of the torques on these:
     /// [`WholeTree::torques`](super::WholeTree::torques).
+    #[inline]
     fn accelerations_under_into(
         &self,
         time: T,
@@ -34,12 +31,13 @@ pub trait Forced<T: Scalar>: Pendulum<T> {
         omega: &[T],
         torques: &[T],
         alpha: &mut [T],
-    );
+    ) {
+        let workspace = &mut Workspace::new();
+        self.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
+    }
 
     /// Writes the same accelerations, in memory that the caller keeps, as
-    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with): models in
-    /// `f64` and `f32` of up to 64 links fuse products with sums where the machine can.
-    /// Integrators call this one.
+    /// [`Pendulum::accelerations_with`].
     #[inline]
     fn accelerations_under_with(
         &self,
@@ -50,41 +48,14 @@ pub trait Forced<T: Scalar>: Pendulum<T> {
         torques: &[T],
         alpha: &mut [T],
     ) {
-        let _ = workspace;
-        if !fused::under_in_fused(self, time, [theta, omega, torques], alpha) {
-            self.accelerations_under_into(time, theta, omega, torques, alpha);
-        }
+        let given = [theta, omega, torques];
+        self.compute_with(workspace, At::time(time), &given, &mut [alpha]);
     }
-
-    /// Writes the accelerations of this pendulum on other scalars, in their arithmetic:
-    /// of as many states at a time as a vector register holds.
-    ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
-    fn accelerations_under_of<S: Scalar>(
-        pendulum: &Self::Of<S>,
-        time: S,
-        theta: &[S],
-        omega: &[S],
-        torques: &[S],
-        alpha: &mut [S],
-    );
 }
 
-by_reference! {
-    impl<T: Scalar> Forced<T> for &P {
-        for fn accelerations_under_of<S: Scalar>(
-            pendulum: &Self::Of<S>, time: S, theta: &[S], omega: &[S], torques: &[S],
-            alpha: &mut [S]
-        );
-        fn accelerations_under_with(
-            &self, workspace: &mut Workspace<T>, time: T, theta: &[T], omega: &[T],
-            torques: &[T], alpha: &mut [T]
-        );
-        fn accelerations_under_into(
-            &self, time: T, theta: &[T], omega: &[T], torques: &[T], alpha: &mut [T]
-        );
-    }
+impl<T: Scalar, P> Forced<T> for P where
+    P: Pendulum<T> + Computes<functions::AccelerationsUnderTorques, T>
+{
 }
 
 /// Generalized torques from outside, as a function of time, angles and velocities.
@@ -213,114 +184,104 @@ pub trait LaneTorques<T: Scalar>: Torques<T> {
 /// assert!(end.state.values[0] > 0.1);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
+pub type UnderTorques<P, F> = Motion<Pushed<P, F>>;
+
+/// A pendulum and the torques on it: [`UnderTorques`].
 #[derive(Clone, Copy)]
-pub struct UnderTorques<P, F> {
+pub struct Pushed<P, F> {
     pendulum: P,
     torques: F,
 }
 
-impl<P, F> UnderTorques<P, F> {
+impl<P, F> Motion<Pushed<P, F>> {
     /// The pendulum, or a reference to one, under the torques that
     /// `torques(time, theta, omega, out)` writes.
     pub fn new<T>(pendulum: P, torques: F) -> Self
     where
         F: Fn(T, &[T], &[T], &mut [T]),
     {
-        Self { pendulum, torques }
+        Self::of(pendulum, torques)
     }
 
     /// The pendulum, or a reference to one, under [`Torques`] of a type of their own, or
     /// under a vector of those that stay as they are.
     pub fn of(pendulum: P, torques: F) -> Self {
-        Self { pendulum, torques }
+        Motion(Pushed { pendulum, torques })
     }
 
     /// The torques.
     pub fn torques(&self) -> &F {
-        &self.torques
+        &self.0.torques
     }
 
     /// The torques, to change them: a vector between two frames of
     /// [`Frames`](crate::integrate::Frames), for example.
     pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.torques
+        &mut self.0.torques
     }
 }
 
-impl<P: fmt::Debug, F> fmt::Debug for UnderTorques<P, F> {
+impl<P: fmt::Debug, F> fmt::Debug for Pushed<P, F> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             pendulum,
             torques: _,
         } = self;
         formatter
-            .debug_struct("UnderTorques")
+            .debug_struct("Pushed")
             .field("pendulum", pendulum)
             .finish_non_exhaustive()
     }
 }
 
-impl<T: Scalar, P: Forced<T>, F: Torques<T>> Ode<T> for UnderTorques<P, F> {
-    fn dimension(&self) -> usize {
-        2 * self.pendulum.links()
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        self.rates_with(&mut Workspace::new(), time, state, rates);
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        let Self { pendulum, torques } = self;
-        if let Some((given, out)) = under(pendulum.links(), torques, time, state, rates) {
-            let ([theta, omega], [velocities, alpha]) = (given, out);
-            pendulum.accelerations_under_with(workspace, time, theta, omega, velocities, alpha);
-            velocities.copy_from_slice(omega);
-        }
-    }
-}
-
-impl<T: Scalar, P: Forced<T>, F: LaneTorques<T>> LaneOde<T> for UnderTorques<P, F> {
-    type Of<S: Scalar> = UnderTorques<P::Of<S>, F::Of<S>>;
-
-    const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        UnderTorques {
-            pendulum: self.pendulum.cast(&convert),
-            torques: self.torques.on_scalar(&convert),
-        }
+impl<T: Scalar, P, F> SecondOrder<T> for Pushed<P, F>
+where
+    P: Computes<functions::AccelerationsUnderTorques, T>,
+    F: Torques<T>,
+{
+    fn coordinates(&self) -> usize {
+        self.pendulum.links()
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        let UnderTorques { pendulum, torques } = system;
-        if let Some((given, out)) = under(pendulum.links(), torques, time, state, rates) {
-            let ([theta, omega], [velocities, alpha]) = (given, out);
-            P::accelerations_under_of(pendulum, time, theta, omega, velocities, alpha);
-            velocities.copy_from_slice(omega);
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        [theta, omega]: [&[T]; 2],
+        [velocities, alpha]: [&mut [T]; 2],
+    ) {
+        // Torques stand where the velocities will.
+        self.torques.torques_into(time, theta, omega, velocities);
+        let given = [theta, omega, velocities];
+        compute_in(
+            &self.pendulum,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [alpha],
+        );
+        velocities.copy_from_slice(omega);
+    }
+}
+
+impl<T: Scalar, P, F> CastSecondOrder<T> for Pushed<P, F>
+where
+    P: Computes<functions::AccelerationsUnderTorques, T>,
+    F: LaneTorques<T>,
+{
+    type On<S: Scalar> = Pushed<P::On<S>, F::Of<S>>;
+
+    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Pushed {
+            pendulum: self.pendulum.on(&convert),
+            torques: self.torques.on_scalar(&convert),
         }
     }
 
     fn shape(&self) -> usize {
         self.pendulum.shape()
     }
-}
-
-/// Angles and angular velocities of a state of so many angles, and the places of their
-/// rates: where the velocities will stand are the torques now. None where lengths do not
-/// fit.
-#[inline(always)]
-pub(super) fn under<'s, 'r, T: Scalar>(
-    angles: usize,
-    torques: &impl Torques<T>,
-    time: T,
-    state: &'s [T],
-    rates: &'r mut [T],
-) -> Option<StateHalves<'s, 'r, T>> {
-    let (given, out) = halves(angles, state, rates)?;
-    let ([theta, omega], [first, second]) = (given, out);
-    torques.torques_into(time, theta, omega, first);
-    Some((given, [first, second]))
 }

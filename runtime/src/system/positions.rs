@@ -296,6 +296,13 @@ pub fn unknown<C: Copy + Unknown>(output: &mut [C]) {
     output.fill(C::unknown());
 }
 
+/// Fills slices with NaN.
+pub fn no_answer<C: Copy + Unknown>(outputs: &mut [&mut [C]]) {
+    for output in outputs {
+        unknown(output);
+    }
+}
+
 /// Writes values to a slice; NaN where lengths differ.
 #[inline(always)]
 pub fn write<C: Copy + Unknown>(output: &mut [C], values: &[C]) {

@@ -3,10 +3,9 @@
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::by_reference::by_reference;
-use super::model::twice;
-use super::ode::halves;
-use super::{Forced, LaneOde, Model, Ode, Workspace};
+use super::function::{At, Computes, compute_in, functions};
+use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::{Forced, Workspace};
 use crate::scalar::Scalar;
 
 /// A state, and what acts on it from outside.
@@ -22,6 +21,36 @@ pub struct PrescribedMotion<'a, T> {
     pub prescribed: &'a [T],
 }
 
+impl<'a, T> PrescribedMotion<'a, T> {
+    /// The slices of [`AccelerationsOfHeldLinks`](functions::AccelerationsOfHeldLinks).
+    #[inline(always)]
+    fn slices(self) -> [&'a [T]; 4] {
+        let Self {
+            theta,
+            omega,
+            torques,
+            prescribed,
+        } = self;
+        [theta, omega, torques, prescribed]
+    }
+
+    /// The motion that slices are.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn of(slices: &[&'a [T]]) -> Option<Self> {
+        let &[theta, omega, torques, prescribed] = slices else {
+            return None;
+        };
+        Some(Self {
+            theta,
+            omega,
+            torques,
+            prescribed,
+        })
+    }
+}
+
 /// A model of which some links can be moved as the caller says: a hand holds them, a
 /// motor turns them. `prescribed(LINK, …)` in the description; each such entry is a set of
 /// links, which move together, and the model moves by itself all the same wherever it is
@@ -30,7 +59,9 @@ pub struct PrescribedMotion<'a, T> {
     message = "no link of `{Self}` has a prescribed motion",
     note = "a model has some with `prescribed(LINK)` in its attribute"
 )]
-pub trait Prescribed<T: Scalar>: Forced<T> {
+pub trait Prescribed<T: Scalar>:
+    Forced<T> + Computes<functions::AccelerationsOfHeldLinks, T>
+{
     /// Returns the indices of the links of a set, if there is one of that number: sets count in
     /// the order of the description.
     fn prescribed_links(&self, set: usize) -> Option<&[usize]>;
@@ -39,6 +70,7 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
     /// given, and the reactions: the torques (N m) on these links that make them move so,
     /// beyond those from outside. Their power is that of the reactions times the
     /// velocities of their links. NaN where lengths do not fit or there is no such set.
+    #[inline]
     fn accelerations_prescribed_into(
         &self,
         set: usize,
@@ -46,11 +78,13 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
         motion: PrescribedMotion<'_, T>,
         alpha: &mut [T],
         reactions: &mut [T],
-    );
+    ) {
+        let workspace = &mut Workspace::new();
+        self.accelerations_prescribed_with(workspace, set, time, motion, alpha, reactions);
+    }
 
     /// Writes the same, in memory that the caller keeps, as
-    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with). Integrators
-    /// call this one.
+    /// [`Pendulum::accelerations_with`](super::Pendulum::accelerations_with).
     #[inline]
     fn accelerations_prescribed_with(
         &self,
@@ -61,40 +95,19 @@ pub trait Prescribed<T: Scalar>: Forced<T> {
         alpha: &mut [T],
         reactions: &mut [T],
     ) {
-        let _ = workspace;
-        self.accelerations_prescribed_into(set, time, motion, alpha, reactions);
+        Computes::<functions::AccelerationsOfHeldLinks, T>::compute_with(
+            self,
+            workspace,
+            At { time, index: set },
+            &motion.slices(),
+            &mut [alpha, reactions],
+        );
     }
-
-    /// Writes the same of this pendulum on other scalars, in their arithmetic: of as many
-    /// states at a time as a vector register holds.
-    ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
-    fn accelerations_prescribed_of<S: Scalar>(
-        pendulum: &Self::Of<S>,
-        set: usize,
-        time: S,
-        motion: PrescribedMotion<'_, S>,
-        alpha: &mut [S],
-        reactions: &mut [S],
-    );
 }
 
-by_reference! {
-    impl<T: Scalar> Prescribed<T> for &P {
-        for fn accelerations_prescribed_of<S: Scalar>(
-            pendulum: &Self::Of<S>, set: usize, time: S, motion: PrescribedMotion<'_, S>,
-            alpha: &mut [S], reactions: &mut [S]
-        );
-        fn accelerations_prescribed_with(
-            &self, workspace: &mut Workspace<T>, set: usize, time: T,
-            motion: PrescribedMotion<'_, T>, alpha: &mut [T], reactions: &mut [T]
-        );
-        fn accelerations_prescribed_into(
-            &self, set: usize, time: T, motion: PrescribedMotion<'_, T>, alpha: &mut [T],
-            reactions: &mut [T]
-        );
-        fn prescribed_links(&self, set: usize) -> Option<&[usize]>;
+impl<T: Scalar, P: Prescribed<T>> Prescribed<T> for &P {
+    fn prescribed_links(&self, set: usize) -> Option<&[usize]> {
+        (**self).prescribed_links(set)
     }
 }
 
@@ -169,15 +182,18 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+pub type PrescribedOde<P, F> = Motion<Held<P, F>>;
+
+/// A pendulum and the course of some of its links: [`PrescribedOde`].
 #[derive(Clone)]
-pub struct PrescribedOde<P, F> {
+pub struct Held<P, F> {
     pendulum: P,
-    index: usize,
-    held: Vec<usize>,
+    set: usize,
+    links: Vec<usize>,
     course: F,
 }
 
-impl<P, F> PrescribedOde<P, F> {
+impl<P, F> Motion<Held<P, F>> {
     /// The pendulum, or a reference to one, of which the links of that set move as
     /// `course(time, out)` writes; `None` without such a set.
     pub fn new<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
@@ -195,18 +211,18 @@ impl<P, F> PrescribedOde<P, F> {
         P: Prescribed<T>,
         F: LinkCourses<T>,
     {
-        let held = pendulum.prescribed_links(set)?.to_vec();
-        Some(Self {
+        let links = pendulum.prescribed_links(set)?.to_vec();
+        Some(Motion(Held {
             pendulum,
-            index: set,
-            held,
+            set,
+            links,
             course,
-        })
+        }))
     }
 
     /// Returns the indices of the prescribed links.
     pub fn held_links(&self) -> &[usize] {
-        &self.held
+        &self.0.links
     }
 
     /// Writes the reactions (N m) on the links of the set in a state at `time`: the
@@ -216,136 +232,131 @@ impl<P, F> PrescribedOde<P, F> {
         P: Prescribed<T>,
         F: LinkCourses<T>,
     {
-        let nan = T::from_f64(f64::NAN);
-        if reactions.len() != self.held.len() {
+        let (Self(held), nan) = (self, T::from_f64(f64::NAN));
+        let links = held.pendulum.links();
+        if reactions.len() != held.links.len() || state.len() != 2 * links {
             return reactions.fill(nan);
         }
         let mut rates = alloc::vec![nan; state.len()];
-        let mut workspace = Workspace::new();
-        let (room, workspace) =
-            workspace.with_inner(course_room(self.pendulum.links(), self.held.len()));
-        let held = (&*self.held, &self.course);
-        let moved = on_course(self.pendulum.links(), held, time, state, &mut rates, room);
-        let Some((motion, [alpha, _])) = moved else {
-            return reactions.fill(nan);
-        };
-        self.pendulum
-            .accelerations_prescribed_with(workspace, self.index, time, motion, alpha, reactions);
+        let rates = rates.split_at_mut(links).into();
+        let workspace = Some(&mut Workspace::new());
+        held.write(
+            workspace,
+            time,
+            state.split_at(links).into(),
+            rates,
+            Some(reactions),
+        );
     }
 }
 
-/// Returns how many numbers [`on_course`] takes room for.
-pub fn course_room(links: usize, held: usize) -> usize {
-    3 * links + 5 * held
-}
-
-/// The motion of a state of so many links, of which some are on a course, and the places of
-/// the accelerations and of the reactions; the rates of the angles are written. None where
-/// lengths do not fit.
-#[inline(always)]
-pub fn on_course<'r, T: Scalar>(
-    links: usize,
-    (held, course): (&[usize], &impl LinkCourses<T>),
-    time: T,
-    state: &[T],
-    rates: &'r mut [T],
-    room: &'r mut [T],
-) -> Option<(PrescribedMotion<'r, T>, [&'r mut [T]; 2])> {
-    let (_, [velocities, alpha]) = halves(links, state, rates)?;
-    let (all, own) = room.split_at_mut(3 * links);
-    let (motion, torques) = all.split_at_mut(2 * links);
-    let (courses, others) = own.split_at_mut(3 * held.len());
-    let (prescribed, reactions) = others.split_at_mut(held.len());
-    torques.fill(T::from_f64(0.0));
-    motion.copy_from_slice(state);
-    let (theta, omega) = motion.split_at_mut(links);
-    let (courses, _) = courses.as_chunks_mut::<3>();
-    course.courses_into(time, courses);
-    for ((&link, &mut [angle, rate, alpha]), prescribed) in
-        held.iter().zip(courses).zip(&mut *prescribed)
+impl<P, F> Held<P, F> {
+    /// Writes velocities and accelerations, and reactions for whom asks for them.
+    #[inline(always)]
+    fn write<T: Scalar>(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        [theta, omega]: [&[T]; 2],
+        [velocities, alpha]: [&mut [T]; 2],
+        asked: Option<&mut [T]>,
+    ) where
+        P: Computes<functions::AccelerationsOfHeldLinks, T>,
+        F: LinkCourses<T>,
     {
-        *prescribed = alpha;
-        if let (Some(theta), Some(omega)) = (theta.get_mut(link), omega.get_mut(link)) {
-            (*theta, *omega) = (angle, rate);
+        let (links, held) = (theta.len(), self.links.len());
+        let mut own = Workspace::new();
+        let is_kept = workspace.is_some();
+        let (room, inner) = workspace
+            .unwrap_or(&mut own)
+            .with_inner(3 * links + 5 * held);
+        let (all, rest) = room.split_at_mut(3 * links);
+        let (motion, torques) = all.split_at_mut(2 * links);
+        let (courses, rest) = rest.split_at_mut(3 * held);
+        let (prescribed, reactions) = rest.split_at_mut(held);
+        let (angles, rates) = motion.split_at_mut(links);
+        torques.fill(T::from_f64(0.0));
+        angles.copy_from_slice(theta);
+        rates.copy_from_slice(omega);
+        let (courses, _) = courses.as_chunks_mut::<3>();
+        self.course.courses_into(time, courses);
+        for ((&link, &mut [angle, rate, alpha]), prescribed) in
+            self.links.iter().zip(courses).zip(&mut *prescribed)
+        {
+            *prescribed = alpha;
+            if let (Some(own_angle), Some(own_rate)) = (angles.get_mut(link), rates.get_mut(link)) {
+                (*own_angle, *own_rate) = (angle, rate);
+            }
         }
+        velocities.copy_from_slice(rates);
+        let at = At {
+            time,
+            index: self.set,
+        };
+        let given: [&[T]; 4] = [angles, rates, torques, prescribed];
+        let results = &mut [alpha, asked.unwrap_or(reactions)];
+        compute_in(
+            &self.pendulum,
+            is_kept.then_some(inner),
+            at,
+            &given,
+            results,
+        );
     }
-    velocities.copy_from_slice(omega);
-    let motion = PrescribedMotion {
-        theta,
-        omega,
-        torques,
-        prescribed,
-    };
-    Some((motion, [alpha, reactions]))
 }
 
-impl<P: fmt::Debug, F> fmt::Debug for PrescribedOde<P, F> {
+impl<P: fmt::Debug, F> fmt::Debug for Held<P, F> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             pendulum,
-            index: _,
-            held,
+            set: _,
+            links,
             course: _,
         } = self;
         formatter
-            .debug_struct("PrescribedOde")
+            .debug_struct("Held")
             .field("pendulum", pendulum)
-            .field("held", held)
+            .field("links", links)
             .finish_non_exhaustive()
     }
 }
 
-impl<T: Scalar, P: Prescribed<T>, F: LinkCourses<T>> Ode<T> for PrescribedOde<P, F> {
-    fn dimension(&self) -> usize {
-        2 * self.pendulum.links()
-    }
-
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        self.rates_with(&mut Workspace::new(), time, state, rates);
-    }
-
-    #[inline]
-    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
-        let (room, workspace) =
-            workspace.with_inner(course_room(self.pendulum.links(), self.held.len()));
-        let held = (&*self.held, &self.course);
-        let moved = on_course(self.pendulum.links(), held, time, state, rates, room);
-        if let Some((motion, [alpha, reactions])) = moved {
-            self.pendulum.accelerations_prescribed_with(
-                workspace, self.index, time, motion, alpha, reactions,
-            );
-        }
-    }
-}
-
-impl<T: Scalar, P: Prescribed<T>, F: LaneCourses<T>> LaneOde<T> for PrescribedOde<P, F> {
-    type Of<S: Scalar> = PrescribedOde<P::Of<S>, F::Of<S>>;
-
-    const DIMENSION: Option<usize> = twice(P::KNOWN_LINKS);
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        PrescribedOde {
-            pendulum: self.pendulum.cast(&convert),
-            index: self.index,
-            held: self.held.clone(),
-            course: self.course.on_scalar(&convert),
-        }
+impl<T: Scalar, P, F> SecondOrder<T> for Held<P, F>
+where
+    P: Computes<functions::AccelerationsOfHeldLinks, T>,
+    F: LinkCourses<T>,
+{
+    fn coordinates(&self) -> usize {
+        self.pendulum.links()
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        let PrescribedOde {
-            pendulum,
-            index,
-            held,
-            course,
-        } = system;
-        let links = pendulum.links();
-        let mut room = alloc::vec![S::from_f64(0.0); course_room(links, held.len())];
-        let held = (held.as_slice(), course);
-        let moved = on_course(links, held, time, state, rates, &mut room);
-        if let Some((motion, [alpha, reactions])) = moved {
-            P::accelerations_prescribed_of(pendulum, *index, time, motion, alpha, reactions);
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        state: [&[T]; 2],
+        rates: [&mut [T]; 2],
+    ) {
+        self.write(workspace, time, state, rates, None);
+    }
+}
+
+impl<T: Scalar, P, F> CastSecondOrder<T> for Held<P, F>
+where
+    P: Computes<functions::AccelerationsOfHeldLinks, T>,
+    F: LaneCourses<T>,
+{
+    type On<S: Scalar> = Held<P::On<S>, F::Of<S>>;
+
+    const COORDINATES: Option<usize> = P::KNOWN_LINKS;
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Held {
+            pendulum: self.pendulum.on(&convert),
+            set: self.set,
+            links: self.links.clone(),
+            course: self.course.on_scalar(&convert),
         }
     }
 

@@ -2,11 +2,13 @@
 
 mod forced;
 
-pub use forced::{ForcedDifferences, SmallUnderTorques};
+pub use forced::{ForcedDifferences, NearlyPushed, SmallUnderTorques};
 
 use super::by_reference::by_reference;
-use super::transverse::with_differences;
-use super::{CastOde, LaneOde, Model, Ode, Transverse, TransverseSector};
+use super::function::{At, Computes, functions};
+use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::transverse::{parts, with_differences};
+use super::{Transverse, TransverseSector, Workspace};
 use crate::scalar::Scalar;
 
 /// A model of copies in phase whose small differences act back on the motion: `in_phase(…)`
@@ -26,13 +28,16 @@ use crate::scalar::Scalar;
 /// end.
 ///
 /// Values are NaN for slices of other lengths.
-pub trait SmallDifferences<T: Scalar>: Transverse<T> {
+pub trait SmallDifferences<T: Scalar>:
+    Transverse<T> + Computes<functions::SmallDifferences, T>
+{
     /// The sectors that act back, by their index in
     /// [`TRANSVERSE`](Transverse::TRANSVERSE): differences stand in this order.
     const SMALL: &'static [usize];
 
     /// Writes the second time derivatives (in rad/s²) of the angles in phase and, behind
     /// them, of the differences.
+    #[inline]
     fn small_accelerations_into(
         &self,
         time: T,
@@ -41,22 +46,16 @@ pub trait SmallDifferences<T: Scalar>: Transverse<T> {
         difference: &[T],
         difference_rate: &[T],
         accelerations: &mut [T],
-    );
-
-    /// Writes those of this model on other scalars, in their arithmetic: of as many
-    /// motions at a time as a vector register holds.
-    ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
-    fn small_accelerations_of<S: Scalar>(
-        model: &Self::Of<S>,
-        time: S,
-        theta: &[S],
-        omega: &[S],
-        difference: &[S],
-        difference_rate: &[S],
-        accelerations: &mut [S],
-    );
+    ) {
+        let given = [theta, omega, difference, difference_rate];
+        Computes::<functions::SmallDifferences, T>::compute_with(
+            self,
+            &mut Workspace::new(),
+            At::time(time),
+            &given,
+            &mut [accelerations],
+        );
+    }
 
     /// Returns the energy (in J) of the whole tree through second order in the
     /// differences, kinetic and potential.
@@ -79,14 +78,14 @@ pub(super) const fn differences(sectors: &[TransverseSector], small: &[usize]) -
     count
 }
 
-/// Returns the number of components of a state, where that of links is known.
-pub(super) const fn dimension(
+/// Returns the number of angles and differences, where that of links is known.
+pub(super) const fn coordinates(
     links: Option<usize>,
     sectors: &[TransverseSector],
     small: &[usize],
 ) -> Option<usize> {
     match links {
-        Some(links) => Some(2 * (links + differences(sectors, small))),
+        Some(links) => Some(links + differences(sectors, small)),
         None => None,
     }
 }
@@ -125,90 +124,80 @@ pub(super) const fn dimension(
 /// assert!((reaction(2e-3) / reaction(1e-3) - 1.0).abs() < 1e-3);
 /// # }
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SmallOde<P>(pub P);
+pub type SmallOde<P> = Motion<Nearly<P>>;
 
-impl<P> SmallOde<P> {
+/// A model nearly in phase: [`SmallOde`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearly<P> {
+    model: P,
+    differences: usize,
+}
+
+/// Returns the angles in phase and the small differences of a model, or of a reference to one,
+/// as a first-order system.
+#[allow(non_snake_case)]
+pub fn SmallOde<T: Scalar, P: SmallDifferences<T>>(model: P) -> SmallOde<P> {
+    Motion(Nearly {
+        model,
+        differences: differences(P::TRANSVERSE, P::SMALL),
+    })
+}
+
+impl<P> Motion<Nearly<P>> {
     /// Returns the energy (in J) of a state; NaN for one of another length.
     pub fn energy<T: Scalar>(&self, state: &[T]) -> T
     where
         P: SmallDifferences<T>,
     {
-        let Self(model) = self;
-        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
+        let Self(Nearly { model, differences }) = self;
+        let half = model.links() + differences;
         if state.len() != 2 * half {
             return T::from_f64(f64::NAN);
         }
         let (angles, velocities) = state.split_at(half);
-        let (theta, difference) = angles.split_at(model.links());
-        let (omega, difference_rate) = velocities.split_at(model.links());
+        let [theta, difference] = parts(model.links(), angles);
+        let [omega, difference_rate] = parts(model.links(), velocities);
         model.small_energy_of(theta, omega, difference, difference_rate)
     }
 }
 
-impl<T: Scalar, P: SmallDifferences<T>> Ode<T> for SmallOde<P> {
-    fn dimension(&self) -> usize {
-        2 * (self.0.links() + differences(P::TRANSVERSE, P::SMALL))
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let Self(model) = self;
-        let differences = differences(P::TRANSVERSE, P::SMALL);
-        let lengths = (model.links(), differences);
-        if let Some((given, second)) = with_differences(lengths, state, rates) {
-            let [theta, omega, difference, rate] = given;
-            model.small_accelerations_into(time, theta, omega, difference, rate, second);
-        }
-    }
-}
-
-impl<T: Scalar, S: Scalar, P> CastOde<T, S> for SmallOde<P>
-where
-    P: SmallDifferences<T>,
-    P::Of<S>: SmallDifferences<S>,
-{
-    type Of = SmallOde<P::Of<S>>;
-
-    fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
-        let Self(model) = self;
-        SmallOde(model.cast(convert))
-    }
-}
-
-impl<T: Scalar, P: SmallDifferences<T>> LaneOde<T> for SmallOde<P> {
-    type Of<S: Scalar> = SmallOde<P::Of<S>>;
-
-    const DIMENSION: Option<usize> = dimension(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        let Self(model) = self;
-        SmallOde(model.cast(convert))
+impl<T: Scalar, P: Computes<functions::SmallDifferences, T>> SecondOrder<T> for Nearly<P> {
+    fn coordinates(&self) -> usize {
+        self.model.links() + self.differences
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        let SmallOde(model) = system;
-        let differences = differences(P::TRANSVERSE, P::SMALL);
-        let lengths = (model.links(), differences);
-        if let Some((given, second)) = with_differences(lengths, state, rates) {
-            let [theta, omega, difference, rate] = given;
-            P::small_accelerations_of(model, time, theta, omega, difference, rate, second);
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        state: [&[T]; 2],
+        rates: [&mut [T]; 2],
+    ) {
+        with_differences(&self.model, workspace, At::time(time), state, rates);
+    }
+}
+
+impl<T: Scalar, P: SmallDifferences<T>> CastSecondOrder<T> for Nearly<P> {
+    type On<S: Scalar> = Nearly<<P as Computes<functions::SmallDifferences, T>>::On<S>>;
+
+    const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Nearly {
+            model: Computes::<functions::SmallDifferences, T>::on(&self.model, convert),
+            differences: self.differences,
         }
+    }
+
+    fn shape(&self) -> usize {
+        self.model.shape()
     }
 }
 
 by_reference! {
     impl<T: Scalar> SmallDifferences<T> for &P {
         const SMALL: &'static [usize];
-        for fn small_accelerations_of<S: Scalar>(
-            model: &Self::Of<S>, time: S, theta: &[S], omega: &[S], difference: &[S],
-            difference_rate: &[S], accelerations: &mut [S]
-        );
-        fn small_accelerations_into(
-            &self, time: T, theta: &[T], omega: &[T], difference: &[T],
-            difference_rate: &[T], accelerations: &mut [T]
-        );
         fn small_energy_of(
             &self, theta: &[T], omega: &[T], difference: &[T], difference_rate: &[T]
         ) -> T;

@@ -1,8 +1,9 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::ode::halves;
-use super::{LaneOde, Model, Ode, Pendulum};
+use super::function::{At, Computes, compute_in, functions};
+use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
 /// Copies that move in phase, whose small differences follow equations of their own.
@@ -44,7 +45,7 @@ pub struct InPhaseMotion<'a, T> {
 ///
 /// Sectors are counted in the order of [`TRANSVERSE`](Self::TRANSVERSE). Values are NaN
 /// for a sector that does not exist and for slices of other lengths.
-pub trait Transverse<T: Scalar>: Pendulum<T> {
+pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDifferences, T> {
     /// The sectors.
     const TRANSVERSE: &'static [TransverseSector];
 
@@ -62,28 +63,22 @@ pub trait Transverse<T: Scalar>: Pendulum<T> {
 
     /// Writes the angular accelerations of the in-phase motion and after them those of the
     /// differences, with what both need formed once.
+    #[inline]
     fn transverse_motion_into(
         &self,
         sector: usize,
         time: T,
-        angles_and_velocities: [&[T]; 2],
-        differences_and_rates: [&[T]; 2],
+        [theta, omega]: [&[T]; 2],
+        [differences, rates]: [&[T]; 2],
         accelerations: &mut [T],
-    );
-
-    /// Writes those of this model on other scalars, in their arithmetic: of as many
-    /// motions at a time as a vector register holds.
-    ///
-    /// Write `#[inline(always)]`: the caller chooses the instructions that this is
-    /// compiled for.
-    fn transverse_motion_of<S: Scalar>(
-        model: &Self::Of<S>,
-        sector: usize,
-        time: S,
-        angles_and_velocities: [&[S]; 2],
-        differences_and_rates: [&[S]; 2],
-        accelerations: &mut [S],
-    );
+    ) {
+        let at = At {
+            time,
+            index: sector,
+        };
+        let given = [theta, omega, differences, rates];
+        self.compute_with(&mut Workspace::new(), at, &given, &mut [accelerations]);
+    }
 
     /// Returns the energy (in J) of the differences in the copies under one link, with
     /// the potential energy of links that hang: quadratic.
@@ -161,82 +156,70 @@ pub trait Transverse<T: Scalar>: Pendulum<T> {
 /// assert!(growth(42.0).unwrap() < 10.0 && growth(44.0).unwrap() > 10.0);
 /// # }
 /// ```
+pub type TransverseOde<P> = Motion<Beside<P>>;
+
+/// A model and one of its sectors: [`TransverseOde`].
 #[derive(Clone, Copy, Debug)]
-pub struct TransverseOde<P> {
+pub struct Beside<P> {
     model: P,
     index: usize,
     sector: TransverseSector,
 }
 
-impl<P> TransverseOde<P> {
+impl<P> Motion<Beside<P>> {
     /// The differences of the sector with that index beside the motion of a model, or
     /// of a reference to one; `None` without such a sector.
     pub fn new<T: Scalar>(model: P, sector: usize) -> Option<Self>
     where
         P: Transverse<T>,
     {
-        Some(Self {
+        Some(Motion(Beside {
             model,
             index: sector,
             sector: *P::TRANSVERSE.get(sector)?,
-        })
+        }))
     }
 
     /// The sector.
     pub fn sector(&self) -> &TransverseSector {
-        &self.sector
+        &self.0.sector
     }
 }
 
-impl<T: Scalar, P: Transverse<T>> Ode<T> for TransverseOde<P> {
-    fn dimension(&self) -> usize {
-        2 * (self.model.links() + self.sector.links)
-    }
-
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let Self {
-            model,
-            index,
-            sector,
-        } = self;
-        let lengths = (model.links(), sector.links);
-        if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
-            let [theta, omega, difference, rate] = given;
-            let (motion, differences) = ([theta, omega], [difference, rate]);
-            model.transverse_motion_into(*index, time, motion, differences, accelerations);
-        }
-    }
-}
-
-impl<T: Scalar, P: Transverse<T>> LaneOde<T> for TransverseOde<P> {
-    type Of<S: Scalar> = TransverseOde<P::Of<S>>;
-
-    const DIMENSION: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
-        (Some(motion), Some(links)) => Some(2 * (motion + links)),
-        _ => None,
-    };
-
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        TransverseOde {
-            model: self.model.cast(convert),
-            index: self.index,
-            sector: self.sector,
-        }
+impl<T: Scalar, P: Computes<functions::LinearDifferences, T>> SecondOrder<T> for Beside<P> {
+    fn coordinates(&self) -> usize {
+        self.model.links() + self.sector.links
     }
 
     #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        let TransverseOde {
-            model,
-            index,
-            sector,
-        } = system;
-        let lengths = (model.links(), sector.links);
-        if let Some((given, accelerations)) = with_differences(lengths, state, rates) {
-            let [theta, omega, difference, rate] = given;
-            let (motion, differences) = ([theta, omega], [difference, rate]);
-            P::transverse_motion_of(model, *index, time, motion, differences, accelerations);
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        state: [&[T]; 2],
+        rates: [&mut [T]; 2],
+    ) {
+        let at = At {
+            time,
+            index: self.index,
+        };
+        with_differences(&self.model, workspace, at, state, rates);
+    }
+}
+
+impl<T: Scalar, P: Transverse<T>> CastSecondOrder<T> for Beside<P> {
+    type On<S: Scalar> = Beside<<P as Computes<functions::LinearDifferences, T>>::On<S>>;
+
+    const COORDINATES: Option<usize> = match (P::KNOWN_LINKS, common_links(P::TRANSVERSE)) {
+        (Some(motion), Some(links)) => Some(motion + links),
+        _ => None,
+    };
+
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        Beside {
+            model: self.model.on(convert),
+            index: self.index,
+            sector: self.sector,
         }
     }
 
@@ -260,37 +243,35 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
     }
 }
 
-/// Angles, angular velocities, differences and their rates in a state of so many links and
-/// so many differences, and the place of the accelerations of all; the rates of the angles
-/// are written. None where lengths do not fit.
-///
-/// What accelerates is no closure that this calls: the compiler may leave those without the
-/// instructions of the registers.
+/// Writes the rates of angles and differences, and of their velocities, by a function of
+/// angles, angular velocities, differences and their rates.
 #[inline(always)]
-pub(super) fn with_differences<'s, 'r, T: Scalar>(
-    (links, differences): (usize, usize),
-    state: &'s [T],
-    rates: &'r mut [T],
-) -> Option<([&'s [T]; 4], &'r mut [T])> {
-    let half = links + differences;
-    let ([angles, velocities], [angle_rates, accelerations]) = halves(half, state, rates)?;
+pub(super) fn with_differences<F, T: Scalar, P: Computes<F, T>>(
+    model: &P,
+    workspace: Option<&mut Workspace<T>>,
+    at: At<T>,
+    [angles, velocities]: [&[T]; 2],
+    [angle_rates, accelerations]: [&mut [T]; 2],
+) {
     angle_rates.copy_from_slice(velocities);
-    let (theta, difference) = angles.split_at(links);
-    let (omega, difference_rate) = velocities.split_at(links);
-    Some(([theta, omega, difference, difference_rate], accelerations))
+    let ([theta, difference], [omega, rate]) = (
+        parts(model.links(), angles),
+        parts(model.links(), velocities),
+    );
+    let given = [theta, omega, difference, rate];
+    compute_in(model, workspace, at, &given, &mut [accelerations]);
+}
+
+/// Returns the values of angles in phase, and those of differences.
+#[inline(always)]
+pub(super) fn parts<T>(links: usize, values: &[T]) -> [&[T]; 2] {
+    let (in_phase, differences) = values.split_at(links.min(values.len()));
+    [in_phase, differences]
 }
 
 by_reference! {
     impl<T: Scalar> Transverse<T> for &P {
         const TRANSVERSE: &'static [TransverseSector];
-        for fn transverse_motion_of<S: Scalar>(
-            model: &Self::Of<S>, sector: usize, time: S, angles_and_velocities: [&[S]; 2],
-            differences_and_rates: [&[S]; 2], accelerations: &mut [S]
-        );
-        fn transverse_motion_into(
-            &self, sector: usize, time: T, angles_and_velocities: [&[T]; 2],
-            differences_and_rates: [&[T]; 2], accelerations: &mut [T]
-        );
         fn transverse_accelerations_into(
             &self, sector: usize, time: T, motion: InPhaseMotion<'_, T>, difference: &[T],
             difference_rate: &[T], accelerations: &mut [T]

@@ -1,7 +1,8 @@
 //! Problems that come with their answers.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::LinkName;
+use branched_pendulum::system::functions::SymmetricAccelerations;
+use branched_pendulum::system::{At, Computes, LinkName};
 
 /// A system of any rates. Rates are called by their address, so that each method is compiled
 /// once for all such systems.
@@ -178,8 +179,19 @@ impl<T: Scalar> Pendulum<T> for BranchedDouble {
 /// M_2 α_d + sinθ_d [μ (cosΔ ω_1² − sinΔ α_1) + G_2 cosθ_m] = 0.
 impl<T: Scalar> SymmetricPendulum<T> for BranchedDouble {
     const COORDINATE_NAMES: &'static [&'static str] = &["theta_1", "theta_m", "theta_d"];
+}
 
-    fn symmetric_accelerations_into(&self, _time: T, q: &[T], rates: &[T], alpha: &mut [T]) {
+impl<T: Scalar> Computes<SymmetricAccelerations, T> for BranchedDouble {
+    type On<S: Scalar> = BranchedDouble;
+
+    fn on<S: Scalar>(&self, _: impl Fn(T) -> S) -> BranchedDouble {
+        *self
+    }
+
+    fn compute(&self, _: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+        let (&[q, rates], [alpha]) = (given, results) else {
+            return;
+        };
         let number = T::from_f64;
         let (m2, mu, g2, two) = (
             number(self.m2),

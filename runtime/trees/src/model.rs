@@ -1,10 +1,11 @@
 //! Trees as models: what compiled ones do, by the same names.
 
-use branched_pendulum::emitted::Simd;
+use branched_pendulum::emitted::{Simd, no_answer};
 use branched_pendulum::scalar::Scalar;
+use branched_pendulum::system::functions::AccelerationsUnderTorques;
 use branched_pendulum::system::{
-    Energy, Forced, InRegisters, LinkName, LinkPoint, LinkProperties, Model, Pendulum, Positions,
-    Workspace,
+    At, Computes, Energy, InRegisters, LinkName, LinkPoint, LinkProperties, Model, Pendulum,
+    Positions, Workspace,
 };
 
 use crate::tree::PendulumTree;
@@ -70,43 +71,34 @@ impl<T: Scalar> Pendulum<T> for PendulumTree<T> {
     }
 }
 
-impl<T: Scalar> Forced<T> for PendulumTree<T> {
-    fn accelerations_under_into(
-        &self,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        torques: &[T],
-        alpha: &mut [T],
-    ) {
-        let workspace = &mut Workspace::new();
-        self.accelerations_under_with(workspace, time, theta, omega, torques, alpha);
-    }
+impl<T: Scalar> Computes<AccelerationsUnderTorques, T> for PendulumTree<T> {
+    type On<S: Scalar> = PendulumTree<S>;
 
-    fn accelerations_under_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        time: T,
-        theta: &[T],
-        omega: &[T],
-        torques: &[T],
-        alpha: &mut [T],
-    ) {
-        let acting = self.acting(time, Some(torques));
-        self.accelerate(workspace, acting, [theta, omega], alpha);
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+        self.on_scalar(convert)
     }
 
     #[inline(always)]
-    fn accelerations_under_of<S: Scalar>(
-        tree: &PendulumTree<S>,
-        time: S,
-        theta: &[S],
-        omega: &[S],
-        torques: &[S],
-        alpha: &mut [S],
+    fn compute(&self, at: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+        let (&[theta, omega, torques], [alpha]) = (given, &mut *results) else {
+            return no_answer(results);
+        };
+        let acting = self.acting(at.time, Some(torques));
+        self.equations.evaluate_under(acting, [theta, omega], alpha);
+    }
+
+    fn compute_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        at: At<T>,
+        given: &[&[T]],
+        results: &mut [&mut [T]],
     ) {
-        let acting = tree.acting(time, Some(torques));
-        tree.equations.evaluate_under(acting, [theta, omega], alpha);
+        let (&[theta, omega, torques], [alpha]) = (given, &mut *results) else {
+            return no_answer(results);
+        };
+        let acting = self.acting(at.time, Some(torques));
+        self.accelerate(workspace, acting, [theta, omega], alpha);
     }
 }
 

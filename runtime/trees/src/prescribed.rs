@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use branched_pendulum::emitted::no_answer;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::system::{Prescribed, PrescribedMotion, Workspace};
-use branched_pendulum::tree::Tree;
+use branched_pendulum::system::functions::AccelerationsOfHeldLinks;
+use branched_pendulum::system::{At, Computes, Prescribed, PrescribedMotion, Workspace};
+use branched_pendulum::tree::{RootDrive, Tree};
 use branched_pendulum_codegen::scene::Scene;
 
 use crate::equations::HeldEquations;
@@ -46,69 +48,62 @@ impl<T: Scalar> Prescribed<T> for PendulumTree<T> {
         let held = self.held.as_ref()?;
         held.sets.get(set).map(Vec::as_slice)
     }
+}
 
-    fn accelerations_prescribed_into(
-        &self,
-        set: usize,
-        time: T,
-        motion: PrescribedMotion<'_, T>,
-        alpha: &mut [T],
-        reactions: &mut [T],
-    ) {
-        let workspace = &mut Workspace::new();
-        self.accelerations_prescribed_with(workspace, set, time, motion, alpha, reactions);
-    }
+impl<T: Scalar> Computes<AccelerationsOfHeldLinks, T> for PendulumTree<T> {
+    type On<S: Scalar> = PendulumTree<S>;
 
-    fn accelerations_prescribed_with(
-        &self,
-        workspace: &mut Workspace<T>,
-        set: usize,
-        time: T,
-        motion: PrescribedMotion<'_, T>,
-        alpha: &mut [T],
-        reactions: &mut [T],
-    ) {
-        let acting = self.acting(time, Some(motion.torques));
-        let (drive, mut sum) = (acting.drive, [T::from_f64(0.0)]);
-        let torques = acting.on_links(motion.torques.len(), &mut sum);
-        let torques = torques.unwrap_or_default();
-        let motion = PrescribedMotion { torques, ..motion };
-        match &self.held {
-            Some(HeldLinks { tree, sets }) => {
-                let links = sets.get(set).map(Vec::as_slice);
-                let results = [alpha, reactions];
-                tree.accelerations_prescribed_with(workspace, drive, links, motion, results);
-            }
-            None => {
-                alpha.fill(T::from_f64(f64::NAN));
-                reactions.fill(T::from_f64(f64::NAN));
-            }
-        }
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+        self.on_scalar(convert)
     }
 
     #[inline(always)]
-    fn accelerations_prescribed_of<S: Scalar>(
-        tree: &PendulumTree<S>,
-        set: usize,
-        time: S,
-        motion: PrescribedMotion<'_, S>,
-        alpha: &mut [S],
-        reactions: &mut [S],
+    fn compute(&self, at: At<T>, given: &[&[T]], results: &mut [&mut [T]]) {
+        self.hold(at, given, results, |tree, drive, links, motion, results| {
+            tree.evaluate_prescribed(drive, links, motion, results);
+        });
+    }
+
+    fn compute_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        at: At<T>,
+        given: &[&[T]],
+        results: &mut [&mut [T]],
     ) {
-        let acting = tree.acting(time, Some(motion.torques));
-        let (drive, mut sum) = (acting.drive, [S::from_f64(0.0)]);
+        self.hold(at, given, results, |tree, drive, links, motion, results| {
+            tree.accelerations_prescribed_with(workspace, drive, links, motion, results);
+        });
+    }
+}
+
+impl<T: Scalar> PendulumTree<T> {
+    /// Hands to `compute` what the equations of held links take.
+    #[inline(always)]
+    fn hold(
+        &self,
+        at: At<T>,
+        given: &[&[T]],
+        results: &mut [&mut [T]],
+        compute: impl FnOnce(
+            &Tree<HeldEquations, T>,
+            Option<RootDrive<T>>,
+            Option<&[usize]>,
+            PrescribedMotion<'_, T>,
+            [&mut [T]; 2],
+        ),
+    ) {
+        let (Some(held), Some(motion), [alpha, reactions]) =
+            (&self.held, PrescribedMotion::of(given), &mut *results)
+        else {
+            return no_answer(results);
+        };
+        let acting = self.acting(at.time, Some(motion.torques));
+        let mut sum = [T::from_f64(0.0)];
         let torques = acting.on_links(motion.torques.len(), &mut sum);
         let torques = torques.unwrap_or_default();
         let motion = PrescribedMotion { torques, ..motion };
-        match &tree.held {
-            Some(HeldLinks { tree, sets }) => {
-                let links = sets.get(set).map(Vec::as_slice);
-                tree.evaluate_prescribed(drive, links, motion, [alpha, reactions]);
-            }
-            None => {
-                alpha.fill(S::from_f64(f64::NAN));
-                reactions.fill(S::from_f64(f64::NAN));
-            }
-        }
+        let links = held.sets.get(at.index).map(Vec::as_slice);
+        compute(&held.tree, acting.drive, links, motion, [alpha, reactions]);
     }
 }

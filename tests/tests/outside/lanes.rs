@@ -4,7 +4,10 @@ use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::state_function;
-use branched_pendulum::system::{LaneOde, LaneTorques, Torques, TransverseOde, UnderTorques};
+use branched_pendulum::system::functions::AccelerationsUnderTorques;
+use branched_pendulum::system::{
+    At, Computes, LaneOde, LaneTorques, Torques, TransverseOde, UnderTorques,
+};
 use branched_pendulum_compiler_tests::random::Random;
 
 use super::balance::{ByGeneration, Irregular};
@@ -133,13 +136,12 @@ impl LaneOde<f64> for WithWork<f64> {
             .torques_into(time, theta, omega, &mut torques);
         rates[..LINKS].copy_from_slice(omega);
         let alpha = &mut rates[LINKS..2 * LINKS];
-        ByGeneration::<f64>::accelerations_under_of(
+        let given = [theta, omega, &torques];
+        Computes::<AccelerationsUnderTorques, S>::compute(
             &system.model,
-            time,
-            theta,
-            omega,
-            &torques,
-            alpha,
+            At::time(time),
+            &given,
+            &mut [alpha],
         );
         let outside = system.model.outside_power(omega, &torques);
         rates[2 * LINKS] = outside + system.model.friction_power(omega);

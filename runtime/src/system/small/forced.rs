@@ -2,11 +2,12 @@
 
 use core::fmt;
 
-use super::{SmallDifferences, differences, dimension};
+use super::{SmallDifferences, coordinates, differences};
 use crate::scalar::Scalar;
-use crate::system::by_reference::by_reference;
-use crate::system::forced::under;
-use crate::system::{Forced, LaneOde, LaneTorques, Model, Ode, Torques};
+use crate::system::function::{At, Computes, compute_in, functions};
+use crate::system::motion::{CastSecondOrder, Motion, SecondOrder};
+use crate::system::transverse::parts;
+use crate::system::{Forced, LaneTorques, Torques, Workspace};
 
 /// A model of [`SmallDifferences`] that takes torques from outside: `emit(small)` with
 /// `emit(forces)`.
@@ -17,42 +18,42 @@ use crate::system::{Forced, LaneOde, LaneTorques, Model, Ode, Torques};
 /// forms both. Their power on the model's energy is that of torques times rates, exactly.
 /// Torques on differences count as small as these: the errors are then of the orders that
 /// they have without torques.
-pub trait ForcedDifferences<T: Scalar>: SmallDifferences<T> + Forced<T> {
+pub trait ForcedDifferences<T: Scalar>:
+    SmallDifferences<T> + Forced<T> + Computes<functions::SmallDifferencesUnderTorques, T>
+{
     /// Writes the second time derivatives (in rad/s²) of the angles in phase and, behind
     /// them, of the differences, under torques (in N m): of angles, rates and torques those
     /// in phase and those of differences. NaN for slices of other lengths.
+    #[inline]
     fn small_accelerations_under_into(
         &self,
         time: T,
-        angles: [&[T]; 2],
-        rates: [&[T]; 2],
-        torques: [&[T]; 2],
+        [theta, difference]: [&[T]; 2],
+        [omega, difference_rate]: [&[T]; 2],
+        [torques, on_differences]: [&[T]; 2],
         accelerations: &mut [T],
-    );
-
-    /// Writes those of this model on other scalars, in their arithmetic, as
-    /// [`small_accelerations_of`](SmallDifferences::small_accelerations_of).
-    fn small_accelerations_under_of<S: Scalar>(
-        model: &Self::Of<S>,
-        time: S,
-        angles: [&[S]; 2],
-        rates: [&[S]; 2],
-        torques: [&[S]; 2],
-        accelerations: &mut [S],
-    );
-}
-
-by_reference! {
-    impl<T: Scalar> ForcedDifferences<T> for &P {
-        for fn small_accelerations_under_of<S: Scalar>(
-            model: &Self::Of<S>, time: S, angles: [&[S]; 2], rates: [&[S]; 2],
-            torques: [&[S]; 2], accelerations: &mut [S]
-        );
-        fn small_accelerations_under_into(
-            &self, time: T, angles: [&[T]; 2], rates: [&[T]; 2], torques: [&[T]; 2],
-            accelerations: &mut [T]
+    ) {
+        let given = [
+            theta,
+            omega,
+            difference,
+            difference_rate,
+            torques,
+            on_differences,
+        ];
+        Computes::<functions::SmallDifferencesUnderTorques, T>::compute_with(
+            self,
+            &mut Workspace::new(),
+            At::time(time),
+            &given,
+            &mut [accelerations],
         );
     }
+}
+
+impl<T: Scalar, P> ForcedDifferences<T> for P where
+    P: SmallDifferences<T> + Forced<T> + Computes<functions::SmallDifferencesUnderTorques, T>
+{
 }
 
 /// [`SmallOde`](super::SmallOde) under [`Torques`]: functions of the time, of angles and
@@ -90,92 +91,114 @@ by_reference! {
 /// assert!(one > other && other > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+pub type SmallUnderTorques<P, F> = Motion<NearlyPushed<P, F>>;
+
+/// A model nearly in phase and the torques on it: [`SmallUnderTorques`].
 #[derive(Clone, Copy)]
-pub struct SmallUnderTorques<P, F> {
+pub struct NearlyPushed<P, F> {
     model: P,
+    differences: usize,
     torques: F,
 }
 
-impl<P, F> SmallUnderTorques<P, F> {
+impl<P, F> Motion<NearlyPushed<P, F>> {
     /// The model, or a reference to one, under the torques that
     /// `torques(time, angles, rates, out)` writes.
-    pub fn new<T>(model: P, torques: F) -> Self
+    pub fn new<T: Scalar>(model: P, torques: F) -> Self
     where
+        P: SmallDifferences<T>,
         F: Fn(T, &[T], &[T], &mut [T]),
     {
-        Self { model, torques }
+        Self::of(model, torques)
     }
 
     /// The model, or a reference to one, under [`Torques`] of a type of their own, or
     /// under a vector of those that stay as they are.
-    pub fn of(model: P, torques: F) -> Self {
-        Self { model, torques }
+    pub fn of<T: Scalar>(model: P, torques: F) -> Self
+    where
+        P: SmallDifferences<T>,
+    {
+        Motion(NearlyPushed {
+            model,
+            differences: differences(P::TRANSVERSE, P::SMALL),
+            torques,
+        })
     }
 
     /// Returns the torques, to change them.
     pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.torques
+        &mut self.0.torques
     }
 }
 
-impl<P: fmt::Debug, F> fmt::Debug for SmallUnderTorques<P, F> {
+impl<P: fmt::Debug, F> fmt::Debug for NearlyPushed<P, F> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { model, torques: _ } = self;
+        let Self {
+            model,
+            differences: _,
+            torques: _,
+        } = self;
         formatter
-            .debug_struct("SmallUnderTorques")
+            .debug_struct("NearlyPushed")
             .field("model", model)
             .finish_non_exhaustive()
     }
 }
 
-impl<T: Scalar, P: ForcedDifferences<T>, F: Torques<T>> Ode<T> for SmallUnderTorques<P, F> {
-    fn dimension(&self) -> usize {
-        2 * (self.model.links() + differences(P::TRANSVERSE, P::SMALL))
+impl<T: Scalar, P, F> SecondOrder<T> for NearlyPushed<P, F>
+where
+    P: Computes<functions::SmallDifferencesUnderTorques, T>,
+    F: Torques<T>,
+{
+    fn coordinates(&self) -> usize {
+        self.model.links() + self.differences
     }
 
-    #[inline]
-    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
-        let Self { model, torques } = self;
-        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
-        if let Some((given, out)) = under(half, torques, time, state, rates) {
-            let ([theta, omega], [first, second]) = (given, out);
-            let (angles, rates) = (parts(model.links(), theta), parts(model.links(), omega));
-            let torques = parts(model.links(), first);
-            model.small_accelerations_under_into(time, angles, rates, torques, second);
-            first.copy_from_slice(omega);
-        }
+    #[inline(always)]
+    fn rates(
+        &self,
+        workspace: Option<&mut Workspace<T>>,
+        time: T,
+        [angles, velocities]: [&[T]; 2],
+        [first, second]: [&mut [T]; 2],
+    ) {
+        // Torques stand where the rates of the angles will.
+        self.torques.torques_into(time, angles, velocities, first);
+        let split = |values| parts(self.model.links(), values);
+        let ([theta, difference], [omega, rate]) = (split(angles), split(velocities));
+        let [torques, on_differences] = parts(self.model.links(), first);
+        let given = [theta, omega, difference, rate, torques, on_differences];
+        compute_in(
+            &self.model,
+            workspace,
+            At::time(time),
+            &given,
+            &mut [second],
+        );
+        first.copy_from_slice(velocities);
     }
 }
 
-impl<T: Scalar, P: ForcedDifferences<T>, F: LaneTorques<T>> LaneOde<T> for SmallUnderTorques<P, F> {
-    type Of<S: Scalar> = SmallUnderTorques<P::Of<S>, F::Of<S>>;
+impl<T: Scalar, P, F> CastSecondOrder<T> for NearlyPushed<P, F>
+where
+    P: ForcedDifferences<T>,
+    F: LaneTorques<T>,
+{
+    type On<S: Scalar> =
+        NearlyPushed<<P as Computes<functions::SmallDifferencesUnderTorques, T>>::On<S>, F::Of<S>>;
 
-    const DIMENSION: Option<usize> = dimension(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
+    const COORDINATES: Option<usize> = coordinates(P::KNOWN_LINKS, P::TRANSVERSE, P::SMALL);
 
-    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        SmallUnderTorques {
-            model: self.model.cast(&convert),
+    fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
+        let model = &self.model;
+        NearlyPushed {
+            model: Computes::<functions::SmallDifferencesUnderTorques, T>::on(model, &convert),
+            differences: self.differences,
             torques: self.torques.on_scalar(&convert),
         }
     }
 
-    #[inline(always)]
-    fn rates_of<S: Scalar>(system: &Self::Of<S>, time: S, state: &[S], rates: &mut [S]) {
-        let SmallUnderTorques { model, torques } = system;
-        let half = model.links() + differences(P::TRANSVERSE, P::SMALL);
-        if let Some((given, out)) = under(half, torques, time, state, rates) {
-            let ([theta, omega], [first, second]) = (given, out);
-            let (angles, rates) = (parts(model.links(), theta), parts(model.links(), omega));
-            let torques = parts(model.links(), first);
-            P::small_accelerations_under_of(model, time, angles, rates, torques, second);
-            first.copy_from_slice(omega);
-        }
+    fn shape(&self) -> usize {
+        self.model.shape()
     }
-}
-
-/// Returns the values of angles in phase, and those of differences.
-#[inline(always)]
-fn parts<T>(links: usize, values: &[T]) -> [&[T]; 2] {
-    let (in_phase, differences) = values.split_at(links.min(values.len()));
-    [in_phase, differences]
 }
