@@ -177,24 +177,38 @@ impl Emission<'_> {
             }),
             self.unknown(&["coefficients"]),
         );
-        let coefficients = self.on_any_scalar(
-            ["TaylorPendulum", "taylor_coefficients", "pendulum"],
-            &quote!(time, theta, omega, coefficients, work),
-            |time, t| {
-                quote! {
-                    #time: #t, theta: &[#t], omega: &[#t], coefficients: &mut [#t],
-                    work: &mut [#runtime::emitted::taylor::Quad<#t>]
-                }
-            },
-            &body,
-        );
+        let (time, other) = (self.time_name(), super::other_scalar(name));
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
                 fn taylor_workspace(order: usize) -> usize {
                     #runtime::emitted::taylor::workspace(#links, order) #rows
                 }
 
-                #coefficients
+                #[inline(always)]
+                fn taylor_coefficients_into(
+                    &self,
+                    #time: T,
+                    theta: &[T],
+                    omega: &[T],
+                    coefficients: &mut [T],
+                    work: &mut [#runtime::emitted::taylor::Quad<T>],
+                ) {
+                    #body
+                }
+
+                #[inline(always)]
+                fn taylor_coefficients_of<#other: #runtime::Scalar>(
+                    pendulum: &#name<#other>,
+                    time: #other,
+                    theta: &[#other],
+                    omega: &[#other],
+                    coefficients: &mut [#other],
+                    work: &mut [#runtime::emitted::taylor::Quad<#other>],
+                ) {
+                    #runtime::TaylorPendulum::taylor_coefficients_into(
+                        pendulum, time, theta, omega, coefficients, work,
+                    );
+                }
             }
         }
     }
