@@ -18,12 +18,13 @@ pub use purpose::Purpose;
 /// model.
 #[rustfmt::skip]
 const OTHER_METHODS: &[&str] = &[
-    "accelerations_into", "accelerations_under_into", "accelerations_under_of", "cast",
-    "check_parameters", "children", "clone", "default", "degrees_of_freedom", "eq", "evaluate",
-    "fmt", "from", "from_parameters_unchecked", "into", "kinetic_energy_of", "link_body", "new",
-    "part", "point_torques_into", "point_velocities_into", "points_into", "potential_energy_of",
-    "properties_of", "small_accelerations_into", "small_accelerations_of",
-    "small_accelerations_under_into", "small_accelerations_under_of", "small_energy_of",
+    "accelerations_into", "accelerations_under_into", "cast", "check_parameters", "children",
+    "clone", "compute", "compute_with", "default", "degrees_of_freedom", "energy_of", "eq",
+    "evaluate", "fmt", "from", "from_parameters_unchecked", "into", "kinetic_energy_of",
+    "link_body", "link_name", "link_names", "links", "new", "on", "part", "point_torques",
+    "point_torques_into", "point_velocities", "point_velocities_into", "points", "points_into",
+    "potential_energy_of", "prescribed_links", "properties_of", "small_accelerations_into",
+    "small_accelerations_under_into", "small_energy_of", "stands",
     "symmetric_accelerations_into", "symmetric_momenta_into", "taylor_coefficients_into",
     "taylor_coefficients_of", "taylor_workspace", "transfers_into", "with_parameters",
 ];

@@ -6,12 +6,14 @@
 //! the compiler derived and wrote for one link with all its properties left open; they are
 //! part of this crate, and the runtime takes them through any tree.
 //!
-//! Accelerations, energies, momenta, linear modes, positions, forces, links that are held, drives, every
-//! integrator, ensembles in lanes and, of trees by rule, budgets by scale are there. Other
-//! energy transfers, symmetric coordinates, observables and Taylor series are derived for
-//! one tree and stay with compiled models, as does the speed of code that is written out:
-//! `docs/run-time-trees.md`.
+//! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
+//! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
+//! variables, drives, every integrator, batches, ensembles in lanes. Momenta, linear modes and, of
+//! trees by rule, budgets by scale are there too. Other energy transfers, symmetric coordinates,
+//! observables and Taylor series are derived for one tree and stay with compiled models, as does
+//! the speed of code that is written out: `docs/run-time-trees.md`.
 
+mod canonical;
 mod description;
 mod drive;
 mod energies;

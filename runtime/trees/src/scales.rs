@@ -130,6 +130,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// The paper's tree: scale 1 is its antiphase mode.
     ///
     /// ```
+    /// use branched_pendulum::Energy;
     /// use branched_pendulum_trees::PendulumTree;
     ///
     /// let tree = PendulumTree::parse(
@@ -142,7 +143,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// let (theta, omega) = ([0.8, 0.1, -0.1], [-3.0, 1.0, 2.0]);
     /// let budget = tree.budget_by_scale(0.0, [&theta, &omega, &[]]).unwrap();
     /// let sum = budget.energy(0) + budget.energy(1);
-    /// assert!((sum - tree.energy(&theta, &omega)).abs() < 1e-15);
+    /// assert!((sum - tree.energy_of(&theta, &omega)).abs() < 1e-15);
     /// assert_eq!(budget.transfer(0, 1), -budget.transfer(1, 0));
     /// # Ok::<(), branched_pendulum_trees::TreeError>(())
     /// ```

@@ -20,10 +20,9 @@ use crate::scales::ByRule;
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
 ///
-/// As a system of first-order equations ([`Ode`](branched_pendulum::system::Ode)) its
-/// state is the angles followed by the angular velocities, as that of
-/// [`AbsoluteAngles`](branched_pendulum::system::AbsoluteAngles): every method integrates
-/// it, and ensembles take it into lanes.
+/// It is a [`Model`] like a compiled one, whose number of links no type tells:
+/// [`AbsoluteAngles(&tree)`](branched_pendulum::system::AbsoluteAngles) is its system of
+/// equations, which every method integrates and ensembles take into lanes.
 ///
 /// The equations are those of one link, derived and written by the compiler; a tree holds
 /// their constants. Links stand as those of a model that is compiled from the text do.
@@ -43,8 +42,9 @@ use crate::scales::ByRule;
 /// assert_eq!(tree.names(), ["parent", "child_1", "child_2"]);
 /// let start = State::at_rest(0.0, &[0.8, 0.1, -0.1]);
 /// let method = Dop853::new(Options::with_tolerance(1e-12));
-/// let end = method.integrate(&tree, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
-/// let energy = |state: &State<f64>| tree.energy(state.positions(), state.velocities());
+/// let system = AbsoluteAngles(&tree);
+/// let end = method.integrate(&system, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// let energy = |state: &State<f64>| tree.energy_of(state.positions(), state.velocities());
 /// assert!((energy(&end) - energy(&start)).abs() < 1e-10 * energy(&start));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,6 +1,7 @@
 //! Trees that are described at run time: what can be told without the compiler.
 
 mod costs;
+mod forms;
 mod magnitudes;
 mod mechanics;
 mod prescribed;

@@ -1,0 +1,137 @@
+//! Forms of a described tree that it has as a model.
+
+use branched_pendulum::integrate::Frames;
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::system::{CastOde, LaneTorques, Torques, UnderTorques};
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
+
+use super::mechanics::{BENT, OMEGA, THETA, bent, near};
+
+/// Rates in canonical variables are those of the motion in angles.
+#[test]
+fn canonical_rates_are_those_of_the_motion() {
+    for tree in [bent(), bent().with("m", 0.3).unwrap()] {
+        let momenta = tree.momenta(&THETA, &OMEGA);
+        let (mut velocities, mut rates) = ([0.0; 5], [0.0; 5]);
+        tree.canonical_rates(0.7, &THETA, &momenta, &mut velocities, &mut rates);
+        for (own, omega) in velocities.iter().zip(OMEGA) {
+            near(*own, omega, 1e-11);
+        }
+        // By central differences along the motion.
+        let alpha = tree.accelerations(0.7, &THETA, &OMEGA);
+        let step = 1e-5;
+        let at = |side: f64| {
+            let moved = |values: &[f64], rates: &[f64]| -> Vec<f64> {
+                let pairs = values.iter().zip(rates);
+                pairs
+                    .map(|(value, rate)| value + side * step * rate)
+                    .collect()
+            };
+            tree.momenta(&moved(&THETA, &OMEGA), &moved(&OMEGA, &alpha))
+        };
+        for ((more, less), rate) in at(1.0).iter().zip(at(-1.0)).zip(rates) {
+            near((more - less) / (2.0 * step), rate, 1e-7);
+        }
+    }
+    let mut answers = [[0.0; 5]; 2];
+    let [q_rates, p_rates] = &mut answers;
+    bent().canonical_rates(0.0, &THETA, &[0.0; 4], q_rates, p_rates);
+    assert!(answers.as_flattened().iter().all(|rate| rate.is_nan()));
+}
+
+/// Many states in registers have the bits of each alone, whatever the form of the equations.
+#[test]
+fn batches_compute_what_one_state_computes() {
+    let texts = [
+        BENT,
+        "gravity = 9.81, a: rod(mass = 0.1, length = m) [b: rod(mass = 0.2, length = 0.3) * 2]",
+        "gravity = 9.81, tree: generations(count = 7, branching = 2, shape = rod, mass = m,
+            length = 0.3, friction = 1e-3)",
+        "gravity = 9.81, rod: rod(mass = m, length = 0.5), drive(torque = 0.03 * t, x = 0.5 * t^2)",
+    ];
+    for text in texts {
+        let tree: PendulumTree = TreeDescription::parse(text)
+            .unwrap()
+            .tree(&[("m", 0.07)])
+            .unwrap();
+        let links = tree.links();
+        let column = |link: usize, factor: f64| -> Vec<f64> {
+            let number = |state: usize| (factor * (1 + link) as f64 + 0.1 * state as f64).sin();
+            (0..21).map(number).collect()
+        };
+        let [theta, omega, torques] =
+            [1.3, 4.1, 0.7].map(|factor| (0..links).map(|link| column(link, factor)).collect());
+        let (theta, omega, torques): (Vec<Vec<f64>>, Vec<Vec<f64>>, Vec<Vec<f64>>) =
+            (theta, omega, torques);
+        let mut alpha = vec![vec![0.0; 21]; links];
+        let mut under = alpha.clone();
+        let mut batch = Batch::new(&tree);
+        batch
+            .accelerations(0.4, &theta, &omega, &mut alpha)
+            .unwrap();
+        let given = [&theta[..], &omega, &torques];
+        batch.accelerations_under(0.4, given, &mut under).unwrap();
+        for state in 0..21 {
+            let row = |columns: &[Vec<f64>]| -> Vec<f64> {
+                columns.iter().map(|column| column[state]).collect()
+            };
+            let (theta, omega, torques) = (row(&theta), row(&omega), row(&torques));
+            let mut alone = vec![0.0; links];
+            tree.accelerations_into(0.4, &theta, &omega, &mut alone);
+            assert_eq!(row(&alpha), alone, "{text}");
+            tree.accelerations_under_into(0.4, &theta, &omega, &torques, &mut alone);
+            assert_eq!(row(&under), alone, "{text}");
+        }
+    }
+}
+
+/// Under torques, in double-double numbers and in frames.
+#[test]
+fn systems_of_a_tree_go_to_other_scalars() {
+    let wind = |_: f64, _: &[f64], omega: &[f64], torques: &mut [f64]| {
+        for (torque, omega) in torques.iter_mut().zip(omega) {
+            *torque = 0.01 - 1e-3 * omega;
+        }
+    };
+    let start = State::from_positions_and_velocities(0.0, &THETA, &OMEGA).unwrap();
+    let pushed = UnderTorques::new(bent(), wind);
+    let method = Dop853::new(Options::with_tolerance(1e-11));
+    let end = method.integrate(&pushed, &start, 0.5, |_| ControlFlow::Continue(()));
+    let end = end.unwrap().state;
+    let steady = UnderTorques::of(bent(), Steady(0.02));
+    let precise = CastOde::<f64, Double>::cast(&steady, Double::from_f64);
+    let wide = start.values.iter().copied().map(Double::from_f64);
+    let wide: Vec<Double> = wide.collect();
+    let (mut rates, mut more) = ([0.0; 10], [Double::from_f64(0.0); 10]);
+    steady.rates(0.3, &start.values, &mut rates);
+    precise.rates(Double::from_f64(0.3), &wide, &mut more);
+    for (rate, more) in rates.iter().zip(more) {
+        near(*rate, more.high(), 1e-12);
+    }
+    let mut frames = Frames::new(pushed, &start, 1e-3).unwrap();
+    for _ in 0..50 {
+        frames.advance(0.01);
+    }
+    for (own, other) in frames.state().iter().zip(&end.values) {
+        near(*own, *other, 1e-5);
+    }
+}
+
+/// The same torque on all links.
+#[derive(Clone, Copy)]
+struct Steady<T>(T);
+
+impl<T: Scalar> Torques<T> for Steady<T> {
+    fn torques_into(&self, _: T, _: &[T], _: &[T], torques: &mut [T]) {
+        torques.fill(self.0);
+    }
+}
+
+impl<T: Scalar> LaneTorques<T> for Steady<T> {
+    type Of<S: Scalar> = Steady<S>;
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Steady<S> {
+        Steady(convert(self.0))
+    }
+}
