@@ -3,7 +3,8 @@
 use core::marker::PhantomData;
 
 use super::{At, Computes};
-use crate::scalar::Scalar;
+use crate::scalar::kind::ByKind;
+use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
 use crate::simd::{Kernel, Simd, wide_slice, wide_slice_mut};
 
@@ -24,16 +25,17 @@ pub(super) fn in_fused_arithmetic<F, T: Scalar, M: Computes<F, T>>(
     given: &[&[T]],
     results: &mut [&mut [T]],
 ) {
-    match M::KNOWN_LINKS {
-        Some(..=MOST_LINKS) => in_fused_numbers(OneState {
-            function: PhantomData::<F>,
-            model,
-            at,
-            given,
-            results,
-        }),
-        _ => model.compute(at, given, results),
+    let is_small = matches!(M::KNOWN_LINKS, Some(..=MOST_LINKS));
+    if !is_small || given.len() > MOST_GIVEN || results.len() > MOST_RESULTS {
+        return model.compute(at, given, results);
     }
+    T::by_kind(OneState {
+        function: PhantomData::<F>,
+        model,
+        at,
+        given,
+        results,
+    });
 }
 
 /// A state of a model, and where the results go.
@@ -43,6 +45,23 @@ struct OneState<'a, 's, 'r, F, M, T> {
     at: At<T>,
     given: &'a [&'s [T]],
     results: &'a mut [&'r mut [T]],
+}
+
+impl<F, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, '_, '_, F, M, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn of_any(self) {
+        self.model.compute(self.at, self.given, self.results);
+    }
+
+    #[inline(always)]
+    fn of_plain(self)
+    where
+        T: Lane,
+    {
+        in_fused_numbers(self);
+    }
 }
 
 impl<F, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, '_, '_, F, M, T> {
