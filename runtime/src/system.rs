@@ -42,7 +42,7 @@ pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
 pub use forced::{Forced, LaneTorques, Pushed, Torques, UnderTorques};
-pub use function::{At, Computes, functions};
+pub use function::{At, Computes, Function, functions};
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;

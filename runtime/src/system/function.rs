@@ -29,36 +29,64 @@ impl<T> At<T> {
     }
 }
 
+/// A function of a state: how many slices it takes and writes.
+pub trait Function {
+    /// Number of slices that it takes.
+    const GIVEN: usize;
+
+    /// Number of slices that it writes.
+    const RESULTS: usize;
+}
+
+macro_rules! function {
+    ($(#[$docs:meta])* $name:ident: $given:literal -> $results:literal) => {
+        $(#[$docs])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+
+        impl super::Function for $name {
+            const GIVEN: usize = $given;
+            const RESULTS: usize = $results;
+        }
+    };
+}
+
 /// The functions.
 pub mod functions {
-    /// Angular accelerations (rad/s²) of angles (rad), angular velocities (rad/s) and torques
-    /// from outside (N m) on all links.
-    #[derive(Clone, Copy, Debug)]
-    pub struct AccelerationsUnderTorques;
+    function! {
+        /// Angular accelerations (rad/s²) of angles (rad), angular velocities (rad/s) and torques
+        /// from outside (N m) on all links.
+        AccelerationsUnderTorques: 3 -> 1
+    }
 
-    /// Angular accelerations (rad/s²) of all links and reactions (N m) on those of a set, of
-    /// angles, angular velocities and torques on all links and the angular accelerations of
-    /// that set.
-    #[derive(Clone, Copy, Debug)]
-    pub struct AccelerationsOfHeldLinks;
+    function! {
+        /// Angular accelerations (rad/s²) of all links and reactions (N m) on those of a set, of
+        /// angles, angular velocities and torques on all links and the angular accelerations of
+        /// that set.
+        AccelerationsOfHeldLinks: 4 -> 2
+    }
 
-    /// Accelerations of the motion in phase and, behind them, of the differences of a sector,
-    /// of angles, angular velocities, differences and their rates: linear in the differences.
-    #[derive(Clone, Copy, Debug)]
-    pub struct LinearDifferences;
+    function! {
+        /// Accelerations of the motion in phase and, behind them, of the differences of a sector,
+        /// of angles, angular velocities, differences and their rates: linear in the differences.
+        LinearDifferences: 4 -> 1
+    }
 
-    /// Accelerations of the angles in phase and, behind them, of small differences that act
-    /// back, of angles, angular velocities, differences and their rates.
-    #[derive(Clone, Copy, Debug)]
-    pub struct SmallDifferences;
+    function! {
+        /// Accelerations of the angles in phase and, behind them, of small differences that act
+        /// back, of angles, angular velocities, differences and their rates.
+        SmallDifferences: 4 -> 1
+    }
 
-    /// The same under torques: on the angles in phase, and on the differences.
-    #[derive(Clone, Copy, Debug)]
-    pub struct SmallDifferencesUnderTorques;
+    function! {
+        /// The same under torques: on the angles in phase, and on the differences.
+        SmallDifferencesUnderTorques: 6 -> 1
+    }
 
-    /// Second derivatives (rad/s²) of symmetric coordinates (rad), of these and their rates.
-    #[derive(Clone, Copy, Debug)]
-    pub struct SymmetricAccelerations;
+    function! {
+        /// Second derivatives (rad/s²) of symmetric coordinates (rad), of these and their rates.
+        SymmetricAccelerations: 2 -> 1
+    }
 }
 
 /// A model that has a function `F` of [`functions`]. Emitted code implements it: once, in the
@@ -69,7 +97,7 @@ pub mod functions {
     message = "`{Self}` has no function `{F}` in `{T}`",
     note = "torques from outside are asked for by `emit(forces)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
 )]
-pub trait Computes<F, T: Scalar>: Model<T> {
+pub trait Computes<F: Function, T: Scalar>: Model<T> {
     /// The model on other scalars, which has the function too.
     type On<S: Scalar>: Computes<F, S>;
 
@@ -99,7 +127,7 @@ pub trait Computes<F, T: Scalar>: Model<T> {
     }
 }
 
-impl<F, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
+impl<F: Function, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
     type On<S: Scalar> = M::On<S>;
 
     #[inline(always)]
@@ -126,7 +154,7 @@ impl<F, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
 
 /// Computes in memory that the caller keeps, or without any in the arithmetic of `T`.
 #[inline(always)]
-pub(super) fn compute_in<F, T: Scalar, M: Computes<F, T>>(
+pub(super) fn compute_in<F: Function, T: Scalar, M: Computes<F, T>>(
     model: &M,
     workspace: Option<&mut Workspace<T>>,
     at: At<T>,

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{At, Computes};
+use super::{At, Computes, Function};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
@@ -19,40 +19,54 @@ const MOST_RESULTS: usize = 2;
 /// Computes a function in fused arithmetic where the type and the machine have it, else in
 /// that of `T`.
 #[inline(always)]
-pub(super) fn in_fused_arithmetic<F, T: Scalar, M: Computes<F, T>>(
+pub(super) fn in_fused_arithmetic<F: Function, T: Scalar, M: Computes<F, T>>(
     model: &M,
     at: At<T>,
     given: &[&[T]],
     results: &mut [&mut [T]],
 ) {
+    const { assert!(F::GIVEN <= MOST_GIVEN && F::RESULTS <= MOST_RESULTS) }
     let is_small = matches!(M::KNOWN_LINKS, Some(..=MOST_LINKS));
-    if !is_small || given.len() > MOST_GIVEN || results.len() > MOST_RESULTS {
+    if !is_small || [given.len(), results.len()] != [F::GIVEN, F::RESULTS] {
         return model.compute(at, given, results);
     }
-    T::by_kind(OneState {
+    let mut state = OneState {
         function: PhantomData::<F>,
         model,
         at,
-        given,
-        results,
-    });
+        given: [&[]; MOST_GIVEN],
+        results: [&mut [], &mut []],
+    };
+    for (own, slice) in state.given.iter_mut().zip(given) {
+        *own = slice;
+    }
+    for (own, slice) in state.results.iter_mut().zip(results) {
+        *own = slice;
+    }
+    T::by_kind(state);
 }
 
-/// A state of a model, and where the results go.
-struct OneState<'a, 's, 'r, F, M, T> {
+/// A state of a model, and where the results go: as many slices as the function has, none
+/// behind them. By value, so that the code of each instruction set knows how many there are.
+struct OneState<'a, F, M, T> {
     function: PhantomData<F>,
     model: &'a M,
     at: At<T>,
-    given: &'a [&'s [T]],
-    results: &'a mut [&'r mut [T]],
+    given: [&'a [T]; MOST_GIVEN],
+    results: [&'a mut [T]; MOST_RESULTS],
 }
 
-impl<F, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, '_, '_, F, M, T> {
+impl<F: Function, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]
-    fn of_any(self) {
-        self.model.compute(self.at, self.given, self.results);
+    fn of_any(mut self) {
+        if let (Some(given), Some(results)) = (
+            self.given.get(..F::GIVEN),
+            self.results.get_mut(..F::RESULTS),
+        ) {
+            self.model.compute(self.at, given, results);
+        }
     }
 
     #[inline(always)]
@@ -64,32 +78,21 @@ impl<F, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, '_, '_, F, M, T
     }
 }
 
-impl<F, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, '_, '_, F, M, T> {
+impl<F: Function, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        let Self {
-            model,
-            at,
-            given,
-            results,
-            ..
-        } = self;
-        let mut wide: [&[V]; MOST_GIVEN] = [&[]; MOST_GIVEN];
-        let mut wide_results: [&mut [V]; MOST_RESULTS] =
-            core::array::from_fn(|_| <&mut [V]>::default());
-        let counts = (given.len(), results.len());
-        for (wide, slice) in wide.iter_mut().zip(given) {
-            *wide = wide_slice(slice).unwrap_or_default();
-        }
-        for (wide, slice) in wide_results.iter_mut().zip(results) {
-            *wide = wide_slice_mut(slice).unwrap_or_default();
-        }
-        if let (Some(given), Some(results)) =
-            (wide.get(..counts.0), wide_results.get_mut(..counts.1))
+        let given: [&[V]; MOST_GIVEN] = self
+            .given
+            .map(|slice| wide_slice(slice).unwrap_or_default());
+        let mut results: [&mut [V]; MOST_RESULTS] = self
+            .results
+            .map(|slice| wide_slice_mut(slice).unwrap_or_default());
+        if let (Some(given), Some(results)) = (given.get(..F::GIVEN), results.get_mut(..F::RESULTS))
         {
-            model.on(V::splat).compute(at.map(V::splat), given, results);
+            let model = self.model.on(V::splat);
+            model.compute(self.at.map(V::splat), given, results);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::function::{At, Computes, compute_in, functions};
+use super::function::{At, Computes, Function, compute_in, functions};
 use super::motion::{CastSecondOrder, Motion, SecondOrder};
 use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
@@ -246,7 +246,7 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
 /// Writes the rates of angles and differences, and of their velocities, by a function of
 /// angles, angular velocities, differences and their rates.
 #[inline(always)]
-pub(super) fn with_differences<F, T: Scalar, P: Computes<F, T>>(
+pub(super) fn with_differences<F: Function, T: Scalar, P: Computes<F, T>>(
     model: &P,
     workspace: Option<&mut Workspace<T>>,
     at: At<T>,
