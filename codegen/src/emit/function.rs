@@ -39,7 +39,8 @@ impl Emission<'_> {
             | Purpose::Prescribed(_)
             | Purpose::TransverseMotion(_)
             | Purpose::SmallAccelerations
-            | Purpose::SmallAccelerationsUnder => {
+            | Purpose::SmallAccelerationsUnder
+            | Purpose::SymmetricAccelerations => {
                 quote!(#[inline(always)])
             }
             Purpose::Drive if self.scene.in_loops() => quote!(#[inline(always)]),
