@@ -2,55 +2,15 @@
 
 mod solve;
 mod step;
-mod tables;
 
 pub(super) use self::step::GaussStep;
-use self::tables::GaussTable;
-use super::grid::{Grid, GridSteps};
+use super::grid::GridSteps;
+use super::place::Grid;
 use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
-use crate::scalar::{Real, Scalar};
+use crate::integrate::piece::GaussOrder;
+use crate::scalar::Real;
 use crate::system::{Ode, State};
-
-/// The order of a [`Gauss`] method: twice its number of stages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum GaussOrder {
-    /// One stage: the implicit midpoint rule.
-    Two,
-    /// Two stages.
-    Four,
-    /// Three stages.
-    Six,
-    /// Four stages.
-    Eight,
-}
-
-impl GaussOrder {
-    fn table(self) -> &'static GaussTable {
-        &tables::TABLES[match self {
-            Self::Two => 0,
-            Self::Four => 1,
-            Self::Six => 2,
-            Self::Eight => 3,
-        }]
-    }
-
-    /// Number of its stages.
-    #[cfg(feature = "serde")]
-    pub(in crate::integrate) fn stages(self) -> usize {
-        self.table().nodes.len()
-    }
-
-    /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
-    /// such node.
-    pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
-        let table = self.table();
-        let row = table.integrals.chunks_exact(table.nodes.len()).nth(j);
-        let coefficients = row.unwrap_or_default().iter().rev();
-        coefficients.fold(S::from_f64(0.0), |sum, &c| (sum + S::from_f64(c)) * x)
-    }
-}
 
 /// The iteration that solves the equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -197,6 +157,7 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
     type Steps = GridSteps<GaussStep<T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        self.grid().steps(GaussStep::new(self, &start.values))
+        let step = GaussStep::new(self, &start.values);
+        Ok(GridSteps::new(step, self.grid().place()?))
     }
 }

@@ -6,14 +6,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::tables::GaussTable;
-use super::{Gauss, GaussOrder, Solver};
+use super::{Gauss, Solver};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
-use crate::integrate::fixed::grid::FixedStep;
+use crate::integrate::fixed::grid::{Corrected, FixedStep};
 use crate::integrate::fixed::linear::Factored;
-use crate::integrate::fixed::projected::Corrected;
-use crate::integrate::piece::{Form, Piece};
+use crate::integrate::piece::{Form, GaussOrder, GaussTable, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::Failure;
 use crate::scalar::Real;

@@ -4,6 +4,7 @@ mod agreement;
 mod backwards;
 mod bits;
 mod failures;
+mod fixed;
 mod model;
 mod models;
 
@@ -12,7 +13,8 @@ use core::ops::ControlFlow;
 use self::model::{Lopsided, LopsidedOde, lopsided};
 use super::{Cases, LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
-    DenseStep, Dop853, Dopri5, IntegrationError, Integrator, Options, Solution, Taylor, Verner98,
+    DenseStep, Dop853, Dopri5, IntegrationError, Integrator, Options, Rk4, Solution, Taylor,
+    Verner98,
 };
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::{AbsoluteAngles, State};
@@ -29,13 +31,24 @@ trait Each<T: Lane> {
         M: Integrator<T, LopsidedOde<T>>;
 }
 
-/// Does it with all methods, with these options.
+/// Does it with all methods, with these options or with fixed steps.
 fn with_each<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     with_pairs(options, work);
     work.each(&Taylor::new(options.clone()));
+    with_fixed_steps(options.step_limit, work);
 }
 
-/// Does it with all methods but the Taylor series.
+/// Does it with all methods of fixed steps.
+fn with_fixed_steps<T: Lane>(step_limit: u64, work: &mut impl Each<T>) {
+    // No divisor of the times.
+    let step = T::from_f64(0.007);
+    work.each(&Rk4 {
+        step_limit: step_limit.max(500),
+        ..Rk4::new(step)
+    });
+}
+
+/// Does it with all pairs.
 fn with_pairs<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     work.each(&Dopri5::new(options.clone()));
     work.each(&Dop853::new(options.clone()));
