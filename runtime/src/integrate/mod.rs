@@ -9,7 +9,7 @@
 //! |---|---|---|---|---|
 //! | [`ExplicitRungeKutta`]: [`Dop853`] and others | 5 to 9 | 4 to 8 | adaptive | most things |
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
-//! | [`Rk4`] | 4 | 3 | fixed | comparison |
+//! | [`Rk4`] | 4 | 3 | fixed | comparison, given steps, many states in lanes |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
 //!
 //! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.

@@ -23,14 +23,19 @@ use crate::system::{Ode, State};
 
 /// The classical Runge–Kutta method of order 4, with steps of one length.
 ///
-/// No error estimate: it is here for comparison, and for loops whose steps are
-/// given. Four evaluations a step; values inside a step are those of the cubic
+/// No error estimate: it is here for comparison, and for motions whose steps are
+/// given: many at once in the lanes of vector registers, with the same bits
+/// ([`Ensemble::integrate_in_lanes`]), or frames in real time
+/// ([`Frames`]). Four evaluations a step; values inside a step are those of the cubic
 /// through its ends with their rates (order 3) and cost nothing. Memory: 6
 /// vectors of the state's length; steps allocate nothing. The last step is
 /// shorter where the span is no multiple of the step.
 ///
 /// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
 /// I*, 2nd edition, Springer 1993, section II.1, table 1.2.
+///
+/// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
+/// [`Frames`]: crate::integrate::Frames
 ///
 /// # Examples
 ///
