@@ -77,7 +77,7 @@ fn starts_in_lanes_have_the_motion_of_another_method() {
         ];
         Arguments::parse_from(words)
     };
-    let own = arguments("512");
+    let own = arguments("2048");
     let tree = binary_3::Tree::of(&own.shape(), own.friction, own.friction_ratio).unwrap();
     let mut random = Random::of_start(1, 0);
     let starts: Vec<State<f64>> = (0..11)
@@ -109,8 +109,8 @@ fn starts_in_lanes_have_the_motion_of_another_method() {
         }
         largest
     };
-    let [coarse, fine] = ["512", "1024"].map(error);
-    assert!(coarse < 1e-5, "{coarse:e}");
+    let [coarse, fine] = ["2048", "4096"].map(error);
+    assert!(coarse < 2e-6, "{coarse:e}");
     assert!(
         (12.0..20.0).contains(&(coarse / fine)),
         "{coarse:e} {fine:e}"

@@ -58,6 +58,11 @@ impl<T: Real, O: Ode<T> + ?Sized> RightHandSide<T> for Evaluator<'_, T, O> {
     }
 
     #[inline(always)]
+    fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
+        self.write(time, state, rates);
+    }
+
+    #[inline(always)]
     fn evaluate(
         &mut self,
         _stage: usize,

@@ -36,6 +36,7 @@ pub(crate) mod lanes;
 mod method;
 mod options;
 mod piece;
+mod registers;
 mod report;
 mod request;
 mod right_hand_side;

@@ -33,7 +33,11 @@ pub trait RightHandSide<W: Scalar> {
     /// Number of components of a state.
     fn dimension(&self) -> usize;
 
-    /// Writes the rates of stage `stage`, counted from 1, whose state is `state`.
+    /// Writes the rates of `state`, finite or not.
+    fn write(&mut self, time: W, state: &[W], rates: &mut [W]);
+
+    /// Writes the rates of stage `stage`, counted from 1, whose state is `state`, and sees
+    /// whether they are finite.
     fn evaluate(
         &mut self,
         stage: usize,

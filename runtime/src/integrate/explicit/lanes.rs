@@ -14,10 +14,10 @@ use super::smallest_tolerance;
 use super::stages::{ErrorScale, StepStages, sum, terms};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::error::InputError;
-use crate::integrate::lanes::registers::{
+use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, LaneSystems, Models, Runs};
+use crate::integrate::registers::{
     Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, smallest_divisor,
 };
-use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, LaneSystems, Models, Runs};
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::{Failure, StepLimits};
 use crate::scalar::Lane;
@@ -66,6 +66,11 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     #[inline(always)]
     fn dimension(&self) -> usize {
         self.lanes.dimension()
+    }
+
+    #[inline(always)]
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        self.lanes.write(time, state, rates);
     }
 
     #[inline(always)]

@@ -133,10 +133,10 @@ impl<M, I, T: Real> Projected<M, I, T> {
 impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Gauss<T>, I, T>
 {
-    type Steps = ProjectedSteps<GaussStep<T>, I, T>;
+    type Steps = ProjectedSteps<GaussStep<T, T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        let steps = GaussStep::new(&self.method, &start.values);
+        let steps = GaussStep::new(&self.method, start.values.clone());
         self.projected(self.method.grid(), start, steps)
     }
 }

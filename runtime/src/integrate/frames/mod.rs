@@ -122,6 +122,11 @@ impl<O: Ode<T>, T: Real> RightHandSide<T> for Unchecked<'_, O, T> {
     }
 
     #[inline(always)]
+    fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
+        self.ode.rates_with(self.workspace, time, state, rates);
+    }
+
+    #[inline(always)]
     fn evaluate(
         &mut self,
         _stage: usize,
@@ -129,7 +134,7 @@ impl<O: Ode<T>, T: Real> RightHandSide<T> for Unchecked<'_, O, T> {
         state: &[T],
         rates: &mut [T],
     ) -> Result<(), Infallible> {
-        self.ode.rates_with(self.workspace, time, state, rates);
+        self.write(time, state, rates);
         Ok(())
     }
 }

@@ -6,9 +6,9 @@
 
 use alloc::vec::Vec;
 
-use super::registers::{Numbers, WIDEST};
 use crate::integrate::error::IntegrationError;
 use crate::integrate::evaluator::NonFinite;
+use crate::integrate::registers::{Numbers, WIDEST};
 use crate::integrate::report::{Report, Solution, StopReason, extremes};
 use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::steps::{Failure, Goal, StepLimits, towards};

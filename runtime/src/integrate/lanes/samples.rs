@@ -4,8 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::method::LaneSteps;
-use super::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
 use super::runs::{Flags, Runs};
+use crate::integrate::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
 use crate::integrate::right_hand_side::StepSpan;
 use crate::scalar::Lane;
 use crate::simd::Simd;

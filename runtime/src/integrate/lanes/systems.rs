@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 use super::models::Models;
-use super::registers::{Numbers, check_finite, numbers, numbers_in};
+use crate::integrate::registers::{Numbers, check_finite, numbers, numbers_in};
 use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide};
 use crate::scalar::Lane;
 use crate::simd::{Part, Simd, outlined};
@@ -66,6 +66,11 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, 
     }
 
     #[inline(always)]
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        outlined::<0, R, _, _>(&self.models, (time, state, rates));
+    }
+
+    #[inline(always)]
     fn evaluate(
         &mut self,
         stage: usize,
@@ -73,7 +78,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, 
         state: &[R],
         rates: &mut [R],
     ) -> Result<(), Infallible> {
-        outlined::<0, R, _, _>(&self.models, (time, state, &mut *rates));
+        self.write(time, state, rates);
         let before = if stage > 2 {
             self.checks[stage - 2]
         } else {
@@ -99,6 +104,10 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for StageOfLane<'_, O,
     #[inline(always)]
     fn dimension(&self) -> usize {
         self.systems.dimension()
+    }
+
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        self.systems.write(time, state, rates);
     }
 
     fn evaluate(

@@ -8,7 +8,7 @@ mod polynomials;
 mod series;
 
 pub use self::collocation::GaussOrder;
-pub(super) use self::collocation::GaussTable;
+pub(super) use self::collocation::{GaussTable, weigh};
 pub(super) use self::polynomials::{DEGREE, alternating, bernstein, blend, hermite};
 pub(super) use self::series::{Ahead, LastTerms};
 use crate::scalar::{Dual, Real, Scalar};
@@ -130,13 +130,9 @@ impl<'a, T: Real> Piece<'a, T> {
                 }
             }
             Form::Collocation(order) => {
-                let weight = |j| S::lift(self.length) * order.integral(j, s);
-                let weights: [S; 4] = core::array::from_fn(weight);
+                let weights = order.weights(self.length, s);
                 for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
-                    let mut value = S::lift(start);
-                    for (rates, &weight) in terms.chunks_exact(n).zip(&weights) {
-                        value = value + weight * S::lift(rates[i]);
-                    }
+                    let mut value = weigh(&weights, start, terms, n, i);
                     if let Some(&correction) = apart.get(i) {
                         value = value + s * S::lift(correction);
                     }

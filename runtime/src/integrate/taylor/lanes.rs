@@ -9,14 +9,15 @@ use alloc::vec::Vec;
 use super::Taylor;
 use super::root::least_inverse_roots;
 use crate::integrate::error::InputError;
-use crate::integrate::lanes::registers::{
-    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, tolerances,
-};
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
+use crate::integrate::options::Options;
+use crate::integrate::registers::{
+    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, smallest_divisor,
+};
 use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::steps::{Failure, StepLimits};
-use crate::scalar::Lane;
 use crate::scalar::two_sum;
+use crate::scalar::{Lane, Real};
 use crate::simd::Simd;
 use crate::simd::{Part, Quad, outlined};
 use crate::system::{AbsoluteAngles, Cast, State, TaylorPendulum};
@@ -307,4 +308,19 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
             }
         }
     }
+}
+
+/// Tolerances of each component in every lane: relative ones, and absolute ones
+/// that are not zero. Where a component is exactly zero by symmetry, its error is
+/// too: zero over the smallest number, not over zero.
+fn tolerances<T: Real, R: Simd<T>>(options: &Options<T>, dimension: usize) -> (Vec<R>, Vec<R>) {
+    let smallest = smallest_divisor();
+    let relative = options.relative.expand(dimension).into_iter();
+    let absolute = options.absolute.expand(dimension).into_iter();
+    (
+        relative.map(R::splat).collect(),
+        absolute
+            .map(|absolute| R::splat(absolute.max(smallest)))
+            .collect(),
+    )
 }

@@ -154,10 +154,10 @@ impl<T: Real> Gauss<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
-    type Steps = GridSteps<GaussStep<T>, T>;
+    type Steps = GridSteps<GaussStep<T, T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        let step = GaussStep::new(self, &start.values);
+        let step = GaussStep::new(self, start.values.clone());
         Ok(GridSteps::new(step, self.grid().place()?))
     }
 }

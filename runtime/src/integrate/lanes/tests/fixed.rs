@@ -7,8 +7,12 @@ use crate::integrate::{IntegrationError, Rk4, StopReason};
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::State;
 
-/// Reasons for which trajectories have ended.
-struct BitsOfSingleStates(Vec<StopReason>);
+/// Compares, and counts what has become of the trajectories.
+struct BitsOfSingleStates {
+    stops: Vec<StopReason>,
+    /// Steps that were not solved, and made in halves.
+    rejected: u64,
+}
 
 impl BitsOfSingleStates {
     /// The trajectories of `cases` through `times`, and those of the plain method.
@@ -29,10 +33,12 @@ impl BitsOfSingleStates {
             let plain = method.sample(model, start, times, |_, values| {
                 samples.extend_from_slice(values);
             });
-            self.0.push(match &plain {
-                Ok(solution) => solution.report.stop,
-                Err(error) => error.report().map_or(StopReason::EndReached, |r| r.stop),
-            });
+            let report = match &plain {
+                Ok(solution) => Some(&solution.report),
+                Err(error) => error.report(),
+            };
+            self.stops.extend(report.map(|report| report.stop));
+            self.rejected += report.map_or(0, |report| report.rejected);
             // Texts of numbers are as many digits as it takes, and NaN is NaN.
             assert_eq!(format!("{:?}", lane.end), format!("{plain:?}"), "{index}");
             assert_eq!(
@@ -69,18 +75,23 @@ impl<T: Lane> Each<T> for BitsOfSingleStates {
 
 #[test]
 fn lanes_have_the_bits_of_single_states() {
-    let mut work = BitsOfSingleStates(Vec::new());
+    let mut work = BitsOfSingleStates {
+        stops: Vec::new(),
+        rejected: 0,
+    };
     with_fixed_steps::<f64>(u64::MAX, &mut work);
     with_fixed_steps::<f32>(u64::MAX, &mut work);
     // Some trajectories run into the limit, each after as many steps.
-    with_fixed_steps::<f64>(600, &mut work);
+    with_fixed_steps::<f64>(150, &mut work);
     for stop in [
         StopReason::EndReached,
         StopReason::NonFinite,
+        StopReason::NotSolved,
         StopReason::StepLimit,
     ] {
-        assert!(work.0.contains(&stop), "{stop}");
+        assert!(work.stops.contains(&stop), "{stop}");
     }
+    assert!(work.rejected > 0);
 }
 
 /// A step that is no step is refused, one below the rounding of the time fails in its lane.

@@ -1,4 +1,4 @@
-//! Steps of a given length in the lanes of vector registers.
+//! The classical Runge–Kutta method in the lanes of vector registers.
 
 // One index into all lanes at once.
 #![allow(clippy::needless_range_loop)]
@@ -8,17 +8,16 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::Rk4;
-use super::place::{Grid, GridPlace, PlannedStep};
-use super::rk4::Rk4Step;
+use super::LaneGrids;
 use crate::integrate::error::InputError;
-use crate::integrate::lanes::registers::{
-    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane,
-};
+use crate::integrate::fixed::{Rk4, Rk4Step};
 use crate::integrate::lanes::{
     Flags, LaneMethod, LaneSteps, LaneSystems, Models, Runs, StageOfLane,
 };
 use crate::integrate::piece::hermite;
+use crate::integrate::registers::{
+    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane,
+};
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
@@ -38,55 +37,6 @@ impl<O: LaneOde<T>, T: Lane> LaneMethod<O, T> for Rk4<T> {
             step: Rk4Step::new(vec![R::from_f64(0.0); system.dimension()]),
             grids: LaneGrids::new(self.grid()),
             finite_end: [T::ZERO; WIDEST],
-        }
-    }
-}
-
-/// The grids of times of all lanes.
-struct LaneGrids<T> {
-    places: [GridPlace<T>; WIDEST],
-    planned: [Option<PlannedStep<T>>; WIDEST],
-}
-
-impl<T: Lane> LaneGrids<T> {
-    fn new(grid: Grid<T>) -> Self {
-        Self {
-            places: [GridPlace::new(grid); WIDEST],
-            planned: [None; WIDEST],
-        }
-    }
-
-    /// Plans the steps of the lanes that have a trajectory. Returns those whose step may not
-    /// be tried.
-    #[inline(always)]
-    fn plan(&mut self, runs: &mut Runs<T>, lanes: usize) -> Flags {
-        let mut stuck = [false; WIDEST];
-        let active = runs.active;
-        for lane in (0..lanes).filter(|&lane| active[lane]) {
-            let (time, goal) = (runs.time[lane], runs.goal(lane));
-            let planned = self.places[lane].plan(time, goal);
-            runs.end_time[lane] = planned.end_time;
-            runs.length[lane] = goal.direction * planned.length;
-            runs.last[lane] = planned.end_time == runs.end[lane];
-            self.planned[lane] = Some(planned);
-            stuck[lane] = self.why_stuck(runs, lane).is_some();
-        }
-        stuck
-    }
-
-    /// Why the step of a lane may not be tried.
-    #[inline(always)]
-    fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>> {
-        let place = &self.places[lane];
-        let check = |planned| place.check(planned, runs.time[lane], &runs.report(lane), 0);
-        check(self.planned[lane]?).err()
-    }
-
-    /// Moves a lane to the end of its step.
-    #[inline(always)]
-    fn reach(&mut self, lane: usize) {
-        if let Some(planned) = self.planned[lane] {
-            self.places[lane].reach(planned);
         }
     }
 }
@@ -113,7 +63,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for Rk4InLanes<O, T, R>
             set_lane(&mut self.step.start[i], lane, value);
             set_lane(&mut self.step.start_rates[i], lane, T::ZERO);
         }
-        self.grids.places[lane].leave();
+        self.grids.leave(lane);
     }
 
     fn start(&self) -> &[R] {
@@ -209,18 +159,14 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Rk4InLanes<O, T, R> {
         }
         let finite = self.systems.check(1);
         for lane in (0..R::LANES).filter(|&lane| fresh[lane]) {
-            let (time, place) = (runs.time[lane], &mut self.grids.places[lane]);
-            runs.next_step[lane] = place.grid().step;
-            if let Err(failure) = place.check_start(time, runs.goal(lane)) {
-                let last = self.last(runs, lane);
-                runs.fail(lane, failure, last);
+            let begun = self.grids.begin(runs, lane);
+            if begun.is_ok() && finite[lane].is_finite() {
                 continue;
             }
-            runs.evaluations[lane] += 1;
-            place.count_from(time);
-            if !finite[lane].is_finite() {
-                let start = self.last(runs, lane);
-                runs.non_finite(lane, (time, start.values.clone()), start);
+            let start = self.last(runs, lane);
+            match begun {
+                Ok(()) => runs.non_finite(lane, (start.time, start.values.clone()), start),
+                Err(failure) => runs.fail(lane, failure, start),
             }
         }
     }

@@ -1,8 +1,7 @@
-//! The numbers in registers, one by one.
+//! The numbers in registers, one by one. A single number is a register of one lane.
 
 use alloc::vec::Vec;
 
-use crate::integrate::options::Options;
 use crate::scalar::Real;
 use crate::simd::Simd;
 pub(crate) use crate::simd::WIDEST;
@@ -67,22 +66,4 @@ pub(crate) fn smallest_divisor<T: Real>() -> T {
         smallest = smallest * half;
     }
     smallest
-}
-
-/// Tolerances of each component in every lane: relative ones, and absolute ones
-/// that are not zero. Where a component is exactly zero by symmetry, its error is
-/// too: zero over the smallest number, not over zero.
-pub(crate) fn tolerances<T: Real, R: Simd<T>>(
-    options: &Options<T>,
-    dimension: usize,
-) -> (Vec<R>, Vec<R>) {
-    let smallest = smallest_divisor();
-    let relative = options.relative.expand(dimension).into_iter();
-    let absolute = options.absolute.expand(dimension).into_iter();
-    (
-        relative.map(R::splat).collect(),
-        absolute
-            .map(|absolute| R::splat(absolute.max(smallest)))
-            .collect(),
-    )
 }
