@@ -126,8 +126,11 @@ where
     let mut random = Random::new(5);
     let mut start = || State::new(0.25, random.around_zero(2 * P::LINKS, 0.4));
     let starts: Vec<_> = (0..13).map(|_| start()).collect();
-    let (ensemble, method) = (Ensemble::new(), Rk4::new(0.003));
+    let (ensemble, method) = (Ensemble::new(), Rk4::new(0.001));
     let free = AbsoluteAngles(model());
+    let gauss = Gauss::new(GaussOrder::Four, 0.01);
+    let lanes = ensemble.integrate_in_lanes(&gauss, &free, &starts, 0.5);
+    assert_eq!(lanes, ensemble.integrate(&gauss, &free, &starts, 0.5));
     let lanes = ensemble.integrate_in_lanes(&method, &free, &starts, 1.0);
     assert_eq!(lanes, ensemble.integrate(&method, &free, &starts, 1.0));
     let other = Dop853::new(Options::with_tolerance(1e-12));

@@ -147,27 +147,26 @@ impl<W: Scalar> Rk4Step<W> {
         let (rates, first) = (&mut self.rates[..n], &self.start_rates[..n]);
         // The end holds the sum of the rates until it is known.
         let end = &mut self.end[..n];
-        end.copy_from_slice(first);
-        rates.copy_from_slice(first);
         let half = W::from_f64(0.5) * span.step;
-        let (one, two) = (W::from_f64(1.0), W::from_f64(2.0));
+        let two = W::from_f64(2.0);
         let (middle, end_time) = (span.time + half, span.time + span.step);
-        for (number, time, length, weight) in [
-            (2, middle, half, two),
-            (3, middle, half, two),
-            (4, end_time, span.step, one),
-        ] {
-            for i in 0..n {
-                stage[i] = start[i] + length * rates[i];
-            }
-            system.evaluate(number, time, stage, rates)?;
-            for i in 0..n {
-                end[i] = end[i] + weight * rates[i];
-            }
+        for i in 0..n {
+            stage[i] = start[i] + half * first[i];
         }
+        system.evaluate(2, middle, stage, rates)?;
+        for i in 0..n {
+            end[i] = first[i] + two * rates[i];
+            stage[i] = start[i] + half * rates[i];
+        }
+        system.evaluate(3, middle, stage, rates)?;
+        for i in 0..n {
+            end[i] = end[i] + two * rates[i];
+            stage[i] = start[i] + span.step * rates[i];
+        }
+        system.evaluate(4, end_time, stage, rates)?;
         let sixth = span.step / W::from_f64(6.0);
         for i in 0..n {
-            end[i] = start[i] + sixth * end[i];
+            end[i] = start[i] + sixth * (end[i] + rates[i]);
         }
         Ok(())
     }

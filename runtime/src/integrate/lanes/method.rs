@@ -16,19 +16,20 @@ use crate::system::LaneOde;
 
 /// A method that integrates systems of the type `O` in the lanes of vector
 /// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
-/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]) and [`Rk4`] any [`LaneOde`],
-/// [`Taylor`] absolute angles of models that give their Taylor coefficients.
+/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]), [`Rk4`] and [`Gauss`] any
+/// [`LaneOde`], [`Taylor`] absolute angles of models that give their Taylor coefficients.
 ///
 /// No other crate can implement it.
 ///
 /// [`Dop853`]: crate::integrate::Dop853
 /// [`Dopri5`]: crate::integrate::Dopri5
+/// [`Gauss`]: crate::integrate::Gauss
 /// [`Rk4`]: crate::integrate::Rk4
 /// [`Taylor`]: crate::integrate::Taylor
 /// [`Verner98`]: crate::integrate::Verner98
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not integrate `{O}` in lanes",
-    note = "in lanes go `Dop853`, `Verner98`, `Dopri5` and `Rk4`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
+    note = "in lanes go `Dop853`, `Verner98`, `Dopri5`, `Rk4` and `Gauss`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
     note = "all other methods go by `Ensemble::integrate`, start by start on all threads"
 )]
 pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {

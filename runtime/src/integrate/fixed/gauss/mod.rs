@@ -54,12 +54,16 @@ pub enum Solver {
 /// of the state's length n for s stages; with Newton's method two matrices of
 /// s²n² and n² entries more. Steps allocate nothing.
 ///
+/// In lanes ([`Ensemble::integrate_in_lanes`]) each state has the bits that it has alone; the
+/// iteration goes on until the last lane is solved.
+///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
 /// edition, Springer 2006, sections II.1.3, VI.4 and VIII.6; Hairer, McLachlan,
 /// Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*,
 /// BIT 48 (2008) 231–243.
 ///
 /// [`Canonical`]: crate::system::Canonical
+/// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
 /// [`IntegrationError::NotSolved`]: crate::integrate::IntegrationError::NotSolved
 /// [`Projected`]: crate::integrate::Projected
 /// [`Report::rejected`]: crate::integrate::Report::rejected

@@ -154,23 +154,24 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         if self.solver == Solver::Newton {
             self.differentiate(system, span);
         }
-        let steps = numbers(span.step);
+        let steps = span.step.to_chunk();
         for round in 1..=self.iteration_limit {
             if !self.goes_on() {
                 return;
             }
             self.increments(span.step);
             self.evaluate(system, span, round);
-            let changes = numbers(self.update(span.step));
-            for (lane, solution) in self.solutions.iter_mut().enumerate() {
+            let changes = self.update(span.step).to_chunk();
+            let lanes = steps.as_ref().iter().zip(changes.as_ref());
+            for (solution, (&step, &change)) in self.solutions.iter_mut().zip(lanes) {
                 if solution.goes_on {
-                    solution.judge(steps[lane], round, changes[lane], self.tolerance);
+                    solution.judge(step, round, change, self.tolerance);
                 }
             }
         }
-        for (lane, solution) in self.solutions.iter_mut().enumerate() {
+        for (solution, &step) in self.solutions.iter_mut().zip(steps.as_ref()) {
             if solution.goes_on {
-                solution.give_up(steps[lane], self.iteration_limit, solution.best);
+                solution.give_up(step, self.iteration_limit, solution.best);
             }
         }
     }
@@ -209,28 +210,37 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     fn evaluate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>, round: u32) {
         let n = self.start.len();
         for (i, &node) in self.table.nodes.iter().enumerate() {
-            if !self.goes_on() {
-                return;
-            }
             for (k, value) in self.stage.iter_mut().enumerate() {
                 *value = self.start[k] + self.increments[i * n + k];
             }
             let rates = &mut self.change[i * n..(i + 1) * n];
             let time = span.time + R::from_f64(node) * span.step;
             system.write(time, &self.stage, rates);
-            let finite = numbers(check_finite(R::from_f64(0.0), rates));
-            for (lane, solution) in self.solutions.iter_mut().enumerate() {
-                if !solution.goes_on {
-                    continue;
+            let finite = check_finite(R::from_f64(0.0), rates).to_chunk();
+            let mut failed = false;
+            for (solution, finite) in self.solutions.iter_mut().zip(finite.as_ref()) {
+                solution.evaluations += u64::from(solution.goes_on);
+                failed |= solution.goes_on & !finite.is_finite();
+            }
+            if failed {
+                self.stumble(StepSpan { time, ..span }, round, finite.as_ref());
+                if !self.goes_on() {
+                    return;
                 }
-                solution.evaluations += 1;
-                if !finite[lane].is_finite() {
-                    let place = NonFinite {
-                        time: numbers(time)[lane],
-                        values: numbers_in(&self.stage, lane),
-                    };
-                    solution.stumble(numbers(span.step)[lane], round, place);
-                }
+            }
+        }
+    }
+
+    /// Ends the lanes in which the rates of a stage, at the time of `span`, are not finite.
+    #[cold]
+    fn stumble(&mut self, span: StepSpan<R>, round: u32, finite: &[T]) {
+        for (lane, solution) in self.solutions.iter_mut().enumerate() {
+            if solution.goes_on && !finite[lane].is_finite() {
+                let place = NonFinite {
+                    time: numbers(span.time)[lane],
+                    values: numbers_in(&self.stage, lane),
+                };
+                solution.stumble(numbers(span.step)[lane], round, place);
             }
         }
     }
@@ -267,7 +277,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
                 continue;
             }
             for (right, &change) in solution.right.iter_mut().zip(&self.change) {
-                *right = numbers(change)[lane];
+                *right = change.to_chunk().as_ref()[lane];
             }
             solution.newton.solve(&mut solution.right);
             for (&right, change) in solution.right.iter().zip(&mut self.change) {
@@ -323,7 +333,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
                         for l in 0..n {
                             let same = i == j && k == l;
                             let one = if same { T::ONE } else { T::ZERO };
-                            let derivative = numbers(self.derivatives[k * n + l])[lane];
+                            let derivative = self.derivatives[k * n + l].to_chunk();
+                            let derivative = derivative.as_ref()[lane];
                             entries[(i * n + k) * n * s + j * n + l] = one - weight * derivative;
                         }
                     }
