@@ -11,7 +11,7 @@ use super::step::GaussStep;
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::NonFinite;
 use crate::integrate::fixed::linear::Factored;
-use crate::integrate::registers::{check_finite, numbers, numbers_in, set_lane};
+use crate::integrate::registers::{check_finite, numbers, numbers_in};
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
@@ -163,7 +163,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             self.evaluate(system, span, round);
             let changes = self.update(span.step).to_chunk();
             let lanes = steps.as_ref().iter().zip(changes.as_ref());
-            for (solution, (&step, &change)) in self.solutions.iter_mut().zip(lanes) {
+            for (solution, (&step, &change)) in self.solutions[..R::LANES].iter_mut().zip(lanes) {
                 if solution.goes_on {
                     solution.judge(step, round, change, self.tolerance);
                 }
@@ -178,7 +178,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
 
     #[inline(always)]
     fn goes_on(&self) -> bool {
-        self.solutions.iter().any(|solution| solution.goes_on)
+        let solutions = &self.solutions[..R::LANES];
+        solutions.iter().any(|solution| solution.goes_on)
     }
 
     /// The lanes whose iteration goes on.
@@ -218,7 +219,9 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             system.write(time, &self.stage, rates);
             let finite = check_finite(R::from_f64(0.0), rates).to_chunk();
             let mut failed = false;
-            for (solution, finite) in self.solutions.iter_mut().zip(finite.as_ref()) {
+            // As many as the compiler knows.
+            let solutions = &mut self.solutions[..R::LANES];
+            for (solution, finite) in solutions.iter_mut().zip(finite.as_ref()) {
                 solution.evaluations += u64::from(solution.goes_on);
                 failed |= solution.goes_on & !finite.is_finite();
             }
@@ -260,11 +263,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         let mut largest = R::from_f64(0.0);
         for (index, (rate, &change)) in self.rates.iter_mut().zip(&self.change).enumerate() {
             *rate = (*rate + change).choose(*rate, going);
-            // A component that stays zero does not change: zero over the smallest number, not
-            // over zero.
             let size = self.sizes[index % n].larger_size(step * *rate);
-            let ratio = step * change / size.larger_size(self.smallest);
-            largest = largest.larger_size(ratio);
+            largest = largest.larger_size(step * change / size);
         }
         largest
     }
@@ -280,8 +280,9 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
                 *right = change.to_chunk().as_ref()[lane];
             }
             solution.newton.solve(&mut solution.right);
+            let own = R::mask(|other| other == lane);
             for (&right, change) in solution.right.iter().zip(&mut self.change) {
-                set_lane(change, lane, right);
+                *change = R::splat(right).choose(*change, own);
             }
         }
     }

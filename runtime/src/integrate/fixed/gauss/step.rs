@@ -14,7 +14,7 @@ use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::fixed::grid::{Corrected, FixedStep};
 use crate::integrate::piece::{Form, GaussOrder, GaussTable, Piece};
-use crate::integrate::registers::{numbers, smallest_divisor};
+use crate::integrate::registers::smallest_divisor;
 use crate::integrate::request::all_finite;
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
@@ -37,7 +37,8 @@ pub struct GaussStep<T, R> {
     pub(in crate::integrate::fixed) residue: Vec<R>,
     pub(in crate::integrate::fixed) end_residue: Vec<R>,
     /// Largest size of each component so far: what its changes are measured
-    /// by, since one that passes through zero has no size of its own.
+    /// by, since one that passes through zero has no size of its own. At least the smallest
+    /// divisor: the change of a component that stays zero is zero, not 0/0.
     pub(in crate::integrate::fixed) sizes: Vec<R>,
     /// Rates of the stages, one after the other.
     pub(super) rates: Vec<R>,
@@ -56,8 +57,6 @@ pub struct GaussStep<T, R> {
     pub(super) derivatives: Vec<R>,
     /// What each lane has of its own.
     pub(super) solutions: Vec<Solution<T>>,
-    /// The smallest divisor.
-    pub(super) smallest: R,
 }
 
 impl<T: Real, R: Simd<T>> GaussStep<T, R> {
@@ -68,7 +67,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             Solver::FixedPoint => 0,
             Solver::Newton => n,
         };
-        let zero = R::from_f64(0.0);
+        let (zero, smallest) = (R::from_f64(0.0), R::splat(smallest_divisor()));
         let zeros = |count: usize| vec![zero; count];
         Self {
             order: method.order,
@@ -76,7 +75,10 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             solver: method.solver,
             tolerance: method.tolerance,
             iteration_limit: method.iteration_limit,
-            sizes: start.iter().map(|value| value.larger_size(zero)).collect(),
+            sizes: start
+                .iter()
+                .map(|value| value.larger_size(smallest))
+                .collect(),
             start,
             end: zeros(n),
             residue: zeros(n),
@@ -89,7 +91,6 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             step: zero,
             derivatives: zeros(matrix * matrix),
             solutions: (0..R::LANES).map(|_| Solution::new(matrix * s)).collect(),
-            smallest: R::splat(smallest_divisor()),
         }
     }
 
@@ -125,13 +126,12 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// along the rates at the start where there is none.
     #[inline(always)]
     fn guess(&mut self, step: R) {
-        let before = numbers(self.step);
-        let is_new = |lane: usize| before[lane] == T::ZERO;
-        let new = (0..R::LANES).filter(|&lane| is_new(lane)).count();
-        if new < R::LANES {
+        let before = self.step.to_chunk();
+        let is_new = |lane: usize| before.as_ref()[lane] == T::ZERO;
+        if !(0..R::LANES).all(is_new) {
             self.extrapolate(step);
         }
-        if new > 0 {
+        if (0..R::LANES).any(is_new) {
             let n = self.start.len();
             let mask = R::mask(is_new);
             for (i, &node) in self.table.nodes.iter().enumerate() {
@@ -217,7 +217,11 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         for i in 0..self.start.len() {
             let value = values.map_or(T::ZERO, |values| values[i]);
             set_lane(&mut self.start[i], lane, value);
-            set_lane(&mut self.sizes[i], lane, value.abs());
+            set_lane(
+                &mut self.sizes[i],
+                lane,
+                value.abs().max(smallest_divisor()),
+            );
             set_lane(&mut self.residue[i], lane, T::ZERO);
             set_lane(&mut self.other[i], lane, T::ZERO);
         }
