@@ -139,7 +139,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
         let method = Rk4::new(self.arguments.step());
         let alone = Ensemble::new().threads(NonZeroUsize::MIN);
         let moved = alone.sample_models_in_lanes(&method, &releases, &times);
-        let mut budgets = Budgets::new(self);
+        let mut budgets = StateBudgets::new(self);
         let sum = |(samples, motor): (Samples<f64>, &Motor)| {
             let mut sums = Window::new(self.arguments.shape().generations);
             for (&time, state) in times.iter().zip(samples.states()) {
@@ -151,15 +151,15 @@ impl<P: RodTree> WindowMotion<'_, P> {
     }
 }
 
-/// Budgets of states of a tree, in memory that is kept.
-struct Budgets<'a, P> {
+/// StateBudgets of states of a tree, in memory that is kept.
+struct StateBudgets<'a, P> {
     tree: &'a P,
     workspace: Workspace<f64>,
     torques: Vec<f64>,
     budget: ScaleBudget<f64>,
 }
 
-impl<'a, P: RodTree> Budgets<'a, P> {
+impl<'a, P: RodTree> StateBudgets<'a, P> {
     fn new(motion: &WindowMotion<'a, P>) -> Self {
         Self {
             tree: motion.tree,

@@ -19,6 +19,7 @@ pub(crate) fn numbers<T: Real, R: Simd<T>>(register: R) -> Numbers<T> {
 }
 
 /// The register of these numbers.
+#[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn register<T: Real, R: Simd<T>>(numbers: &Numbers<T>) -> R {
     const { assert!(R::LANES <= WIDEST) }
@@ -35,6 +36,7 @@ pub(crate) fn numbers_in<T: Real, R: Simd<T>>(registers: &[R], lane: usize) -> V
 }
 
 /// Writes them to `out`.
+#[cfg(feature = "std")]
 pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: &mut [T]) {
     for (out, &register) in out.iter_mut().zip(registers) {
         *out = numbers(register)[lane];
@@ -42,6 +44,7 @@ pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: 
 }
 
 /// Changes one of the numbers.
+#[cfg(feature = "std")]
 pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: T) {
     let mut changed = numbers(*target);
     changed[lane] = value;

@@ -5,7 +5,9 @@
 
 use super::pair::{DenseForm, EmbeddedPair};
 use super::stages::{StepStages, sum, terms};
-use crate::integrate::piece::{DEGREE, alternating, bernstein, blend};
+use crate::integrate::piece::DEGREE;
+#[cfg(feature = "std")]
+use crate::integrate::piece::{alternating, bernstein, blend};
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::scalar::Scalar;
 

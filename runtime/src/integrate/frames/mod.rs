@@ -107,13 +107,13 @@ pub struct Frames<O, T> {
 }
 
 /// The equations, finite or not.
-struct Unchecked<'a, O, T> {
+struct FrameSystem<'a, O, T> {
     ode: &'a O,
     workspace: &'a mut Workspace<T>,
     dimension: usize,
 }
 
-impl<O: Ode<T>, T: Real> RightHandSide<T> for Unchecked<'_, O, T> {
+impl<O: Ode<T>, T: Real> RightHandSide<T> for FrameSystem<'_, O, T> {
     type Failure = Infallible;
 
     #[inline(always)]
@@ -268,7 +268,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
     /// Makes a step of the classical Runge–Kutta method, whose end may be anything.
     fn runge_kutta(&mut self, length: T) {
         let time = T::from_f64(self.time);
-        let system = &mut Unchecked {
+        let system = &mut FrameSystem {
             ode: &self.ode,
             workspace: &mut self.workspace,
             dimension: self.step.start.len(),

@@ -1,5 +1,6 @@
 //! The symplectic, symmetric Gauss–Legendre methods.
 
+mod iteration;
 mod solve;
 mod step;
 

@@ -3,137 +3,14 @@
 // One index into all lanes at once.
 #![allow(clippy::needless_range_loop)]
 
-use alloc::vec;
-use alloc::vec::Vec;
-
 use super::Solver;
+use super::iteration::LaneIteration;
 use super::step::GaussStep;
-use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::NonFinite;
-use crate::integrate::fixed::linear::Factored;
 use crate::integrate::registers::{check_finite, numbers, numbers_in};
 use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
-use crate::integrate::steps::Failure;
 use crate::scalar::{Real, Scalar};
 use crate::simd::Simd;
-
-/// Below this, in units of rounding, a change that does not fall is rounding.
-const ROUNDING: f64 = 1e2;
-
-/// Below this, a change that has not fallen for two rounds is rounding too.
-const NOISE: f64 = 1e4;
-
-/// A fixed point that comes no nearer in more rounds than these is none.
-const PATIENCE: u32 = 3;
-
-/// Rates that are not finite after a relative change above this are those of an
-/// iterate that ran away.
-const RUNAWAY: f64 = 1e-3;
-
-/// A matrix of derivatives that took more rounds than this is made anew.
-const STALE: u32 = 8;
-
-/// What one lane has of its own: how far its iteration has come, and the matrix of Newton's
-/// method.
-#[derive(Clone, Debug)]
-pub(super) struct Solution<T> {
-    /// True while the iteration goes on.
-    goes_on: bool,
-    /// Why it has ended without an answer.
-    pub(super) failure: Option<Failure<T>>,
-    /// Evaluations of the step.
-    pub(super) evaluations: u64,
-    /// The smallest change so far, the last one, and the rounds in which it did not fall.
-    best: T,
-    last: T,
-    without_progress: u32,
-    /// Matrix of Newton's method and the step that it was made for.
-    newton: Factored<T>,
-    pub(super) newton_step: T,
-    /// Right-hand side of its equations.
-    right: Vec<T>,
-}
-
-impl<T: Real> Solution<T> {
-    /// Room for Newton's method with `size` unknowns.
-    pub(super) fn new(size: usize) -> Self {
-        Self {
-            goes_on: false,
-            failure: None,
-            evaluations: 0,
-            best: T::ZERO,
-            last: T::ZERO,
-            without_progress: 0,
-            newton: Factored::new(size),
-            newton_step: T::ZERO,
-            right: vec![T::ZERO; size],
-        }
-    }
-
-    fn begin(&mut self, goes_on: bool) {
-        let infinite = T::ONE / T::ZERO;
-        (self.goes_on, self.failure, self.evaluations) = (goes_on, None, 0);
-        (self.best, self.last, self.without_progress) = (infinite, infinite, 0);
-    }
-
-    /// Ends without an answer.
-    fn fail(&mut self, failure: Failure<T>) {
-        self.newton_step = T::ZERO;
-        self.goes_on = false;
-        self.failure = Some(failure);
-    }
-
-    fn give_up(&mut self, step: T, iterations: u32, change: T) {
-        let step = step.abs();
-        self.fail(Failure::NotSolved {
-            step,
-            iterations,
-            change,
-        });
-    }
-
-    /// Ends because rates are not finite, in a round of the iteration or before the first.
-    fn stumble(&mut self, step: T, round: u32, place: NonFinite<T>) {
-        // An iterate that ran away says nothing about the equations.
-        if round > 0 && self.last > T::from_f64(RUNAWAY) {
-            self.give_up(step, round, self.last);
-        } else {
-            self.fail(place.into());
-        }
-    }
-
-    /// Judges the change of a round: ends where it is zero or rounding, or falls no more.
-    fn judge(&mut self, step: T, round: u32, change: T, tolerance: T) {
-        self.last = change;
-        if change < self.best {
-            self.best = change;
-            self.without_progress = 0;
-        } else {
-            self.without_progress += 1;
-        }
-        let rounding = T::from_f64(ROUNDING) * T::EPSILON;
-        let noise = T::from_f64(NOISE) * T::EPSILON;
-        // Where the change no longer falls, rounding is all that is left.
-        // It may fall in every second round only.
-        let settled = change <= tolerance
-            || (self.without_progress == 1 && change <= rounding)
-            || (self.without_progress > 1 && change <= noise);
-        if settled {
-            self.goes_on = false;
-            if round > STALE {
-                self.newton_step = T::ZERO;
-            }
-        } else if self.without_progress > PATIENCE {
-            self.give_up(step, round, change);
-        }
-    }
-
-    /// Saves or restores what later steps depend on.
-    pub(super) fn remember(&mut self, memory: &mut Memory<T>) {
-        self.newton.remember(memory);
-        memory.number(&mut self.newton_step);
-    }
-}
 
 impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// Iterates the rates of the stages, from their increments in place, until
@@ -146,8 +23,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
         span: StepSpan<R>,
         sought: &[bool],
     ) {
-        for (solution, &sought) in self.solutions.iter_mut().zip(sought) {
-            solution.begin(sought);
+        for (iteration, &sought) in self.iterations.iter_mut().zip(sought) {
+            iteration.begin(sought);
         }
         self.evaluate(system, span, 0);
         core::mem::swap(&mut self.rates, &mut self.change);
@@ -163,29 +40,29 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             self.evaluate(system, span, round);
             let changes = self.update(span.step).to_chunk();
             let lanes = steps.as_ref().iter().zip(changes.as_ref());
-            for (solution, (&step, &change)) in self.solutions[..R::LANES].iter_mut().zip(lanes) {
-                if solution.goes_on {
-                    solution.judge(step, round, change, self.tolerance);
+            for (iteration, (&step, &change)) in self.iterations[..R::LANES].iter_mut().zip(lanes) {
+                if iteration.goes_on {
+                    iteration.judge(step, round, change, self.tolerance);
                 }
             }
         }
-        for (solution, &step) in self.solutions.iter_mut().zip(steps.as_ref()) {
-            if solution.goes_on {
-                solution.give_up(step, self.iteration_limit, solution.best);
+        for (iteration, &step) in self.iterations.iter_mut().zip(steps.as_ref()) {
+            if iteration.goes_on {
+                iteration.give_up(step, self.iteration_limit, iteration.best);
             }
         }
     }
 
     #[inline(always)]
     fn goes_on(&self) -> bool {
-        let solutions = &self.solutions[..R::LANES];
-        solutions.iter().any(|solution| solution.goes_on)
+        let iterations = &self.iterations[..R::LANES];
+        iterations.iter().any(|iteration| iteration.goes_on)
     }
 
     /// The lanes whose iteration goes on.
     #[inline(always)]
     fn going(&self) -> R::Mask {
-        R::mask(|lane| self.solutions[lane].goes_on)
+        R::mask(|lane| self.iterations[lane].goes_on)
     }
 
     /// h Σ_j a_ij K_j, and the residue of the start.
@@ -220,10 +97,10 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             let finite = check_finite(R::from_f64(0.0), rates).to_chunk();
             let mut failed = false;
             // As many as the compiler knows.
-            let solutions = &mut self.solutions[..R::LANES];
-            for (solution, finite) in solutions.iter_mut().zip(finite.as_ref()) {
-                solution.evaluations += u64::from(solution.goes_on);
-                failed |= solution.goes_on & !finite.is_finite();
+            let iterations = &mut self.iterations[..R::LANES];
+            for (iteration, finite) in iterations.iter_mut().zip(finite.as_ref()) {
+                iteration.evaluations += u64::from(iteration.goes_on);
+                failed |= iteration.goes_on & !finite.is_finite();
             }
             if failed {
                 self.stumble(StepSpan { time, ..span }, round, finite.as_ref());
@@ -237,13 +114,13 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// Ends the lanes in which the rates of a stage, at the time of `span`, are not finite.
     #[cold]
     fn stumble(&mut self, span: StepSpan<R>, round: u32, finite: &[T]) {
-        for (lane, solution) in self.solutions.iter_mut().enumerate() {
-            if solution.goes_on && !finite[lane].is_finite() {
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if iteration.goes_on && !finite[lane].is_finite() {
                 let place = NonFinite {
                     time: numbers(span.time)[lane],
                     values: numbers_in(&self.stage, lane),
                 };
-                solution.stumble(numbers(span.step)[lane], round, place);
+                iteration.stumble(numbers(span.step)[lane], round, place);
             }
         }
     }
@@ -272,16 +149,16 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// Solves the equations of Newton's method for the changes, lane by lane.
     #[inline(always)]
     fn newton(&mut self) {
-        for (lane, solution) in self.solutions.iter_mut().enumerate() {
-            if !solution.goes_on {
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if !iteration.goes_on {
                 continue;
             }
-            for (right, &change) in solution.right.iter_mut().zip(&self.change) {
+            for (right, &change) in iteration.right.iter_mut().zip(&self.change) {
                 *right = change.to_chunk().as_ref()[lane];
             }
-            solution.newton.solve(&mut solution.right);
+            iteration.newton.solve(&mut iteration.right);
             let own = R::mask(|other| other == lane);
-            for (&right, change) in solution.right.iter().zip(&mut self.change) {
+            for (&right, change) in iteration.right.iter().zip(&mut self.change) {
                 *change = R::splat(right).choose(*change, own);
             }
         }
@@ -293,11 +170,11 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     #[inline(always)]
     fn differentiate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>) {
         let steps = numbers(span.step);
-        let due = |lane: usize, solution: &Solution<T>| {
-            solution.goes_on && solution.newton_step != steps[lane]
+        let due = |lane: usize, iteration: &LaneIteration<T>| {
+            iteration.goes_on && iteration.newton_step != steps[lane]
         };
-        let mut lanes = self.solutions.iter().enumerate();
-        if !lanes.any(|(lane, solution)| due(lane, solution)) {
+        let mut lanes = self.iterations.iter().enumerate();
+        if !lanes.any(|(lane, iteration)| due(lane, iteration)) {
             return;
         }
         let n = self.start.len();
@@ -320,13 +197,13 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             self.stage[column] = value;
         }
         let s = self.table.nodes.len();
-        for (lane, solution) in self.solutions.iter_mut().enumerate() {
-            if !due(lane, solution) {
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if !due(lane, iteration) {
                 continue;
             }
-            solution.evaluations += n as u64 + 1;
-            solution.newton_step = steps[lane];
-            let entries = &mut solution.newton.entries;
+            iteration.evaluations += n as u64 + 1;
+            iteration.newton_step = steps[lane];
+            let entries = &mut iteration.newton.entries;
             for (i, row) in self.table.matrix.chunks(s).enumerate() {
                 for (j, &(large, small)) in row.iter().enumerate() {
                     let weight = steps[lane] * T::from_f64(large + small);
@@ -341,8 +218,8 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
                     }
                 }
             }
-            if !solution.newton.factorise() {
-                solution.give_up(steps[lane], 0, T::NAN);
+            if !iteration.newton.factorise() {
+                iteration.give_up(steps[lane], 0, T::NAN);
             }
         }
     }

@@ -8,7 +8,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::solve::Solution;
+use super::iteration::LaneIteration;
 use super::{Gauss, Solver};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
@@ -56,7 +56,7 @@ pub struct GaussStep<T, R> {
     /// Derivatives of the rates, row after row.
     pub(super) derivatives: Vec<R>,
     /// What each lane has of its own.
-    pub(super) solutions: Vec<Solution<T>>,
+    pub(super) iterations: Vec<LaneIteration<T>>,
 }
 
 impl<T: Real, R: Simd<T>> GaussStep<T, R> {
@@ -90,7 +90,9 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             other: zeros(n),
             step: zero,
             derivatives: zeros(matrix * matrix),
-            solutions: (0..R::LANES).map(|_| Solution::new(matrix * s)).collect(),
+            iterations: (0..R::LANES)
+                .map(|_| LaneIteration::new(matrix * s))
+                .collect(),
         }
     }
 
@@ -116,7 +118,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     ) {
         self.guess(span.step);
         self.solve(system, span, sought);
-        let solved = R::mask(|lane| self.solutions[lane].failure.is_none());
+        let solved = R::mask(|lane| self.iterations[lane].failure.is_none());
         // The rates of a failed step say nothing: begin anew.
         self.step = span.step.choose(R::from_f64(0.0), solved);
         self.finish(span.step, solved);
@@ -196,18 +198,18 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// Number of evaluations of the step in a lane.
     #[cfg(feature = "std")]
     pub(in crate::integrate::fixed) fn evaluations(&self, lane: usize) -> u64 {
-        self.solutions[lane].evaluations
+        self.iterations[lane].evaluations
     }
 
     /// Returns true if the step is solved in a lane.
     #[cfg(feature = "std")]
     pub(in crate::integrate::fixed) fn is_solved(&self, lane: usize) -> bool {
-        self.solutions[lane].failure.is_none()
+        self.iterations[lane].failure.is_none()
     }
 
     /// Takes out why the step is not solved in a lane.
     pub(in crate::integrate::fixed) fn take_failure(&mut self, lane: usize) -> Option<Failure<T>> {
-        self.solutions.get_mut(lane)?.failure.take()
+        self.iterations.get_mut(lane)?.failure.take()
     }
 
     /// Puts a state into a lane, where nothing is known of it.
@@ -229,7 +231,7 @@ impl<T: Real, R: Simd<T>> GaussStep<T, R> {
             set_lane(rate, lane, T::ZERO);
         }
         set_lane(&mut self.step, lane, T::ZERO);
-        self.solutions[lane].newton_step = T::ZERO;
+        self.iterations[lane].newton_step = T::ZERO;
     }
 }
 
@@ -292,8 +294,8 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T, T> {
         memory.numbers(&mut self.rates);
         memory.numbers(&mut self.other);
         memory.number(&mut self.step);
-        for solution in &mut self.solutions {
-            solution.remember(memory);
+        for iteration in &mut self.iterations {
+            iteration.remember(memory);
         }
     }
 }
