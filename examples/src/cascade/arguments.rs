@@ -100,6 +100,14 @@ impl Arguments {
         step as f64 * self.step()
     }
 
+    /// So many times behind the start of the step `first`, `stride` steps apart: the ends of
+    /// steps of a grid from there on, to the last bit.
+    pub fn times(&self, first: u64, stride: u32, count: u32) -> Vec<f64> {
+        let (start, step) = (self.time(first), self.step());
+        let places = (1..=count).map(|number| f64::from(number) * f64::from(stride));
+        places.map(|place| start + place * step).collect()
+    }
+
     /// Periods of the torque that are followed.
     pub fn windows(&self) -> usize {
         ((self.duration * self.frequency).ceil() as usize).max(1)

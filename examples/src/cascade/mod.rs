@@ -2,7 +2,7 @@
 //! generations, and what is there of it at each scale?
 //!
 //! - [`arguments`]: the command line, [`scene`]: the trees, [`motor`]: the torque,
-//! - [`motion`]: all starts, window by window, with checkpoints, [`together`]: in lanes,
+//! - [`motion`]: all starts, in lanes, window by window, with checkpoints,
 //! - [`density`]: how often a flux has which value,
 //! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts
 //!   and a film,
@@ -17,7 +17,6 @@ pub mod motor;
 pub mod onset;
 pub mod report;
 pub mod scene;
-pub mod together;
 
 pub use arguments::Arguments;
 pub use findings::{Balance, Findings};

@@ -1,17 +1,18 @@
 //! The motion of all starts, window by window.
 
+use std::iter;
 use std::num::NonZeroUsize;
 
 use branched_pendulum::ScaleBudget;
+use branched_pendulum::ensemble::Samples;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::Workspace;
+use branched_pendulum::system::{UnderTorques, Workspace};
 use serde::{Deserialize, Serialize};
 
 use super::arguments::Arguments;
 use super::density::Density;
 use super::motor::{Motor, Random};
 use super::scene::RodTree;
-use super::together::Together;
 use crate::failure::Failure;
 use crate::program::{Checkpoint, Job};
 
@@ -42,7 +43,7 @@ struct Reached {
 }
 
 /// Starts that one thread moves at a time: some registers full.
-const TOGETHER: usize = 32;
+const TOGETHER: usize = 16;
 
 /// Follows the starts `items`, each from its own random numbers, from the checkpoint of
 /// `job` if there is one.
@@ -86,18 +87,9 @@ pub fn follow<P: RodTree>(
         let groups = reached.starts.chunks(TOGETHER);
         let groups: Vec<_> = groups.zip(motors.chunks(TOGETHER)).collect();
         let moved = ensemble.map(&groups, |_, (starts, motors)| motion.follow(starts, motors));
-        for (number, (start, (state, window))) in reached
-            .starts
-            .iter_mut()
-            .zip(moved.into_iter().flatten())
-            .enumerate()
-        {
-            if !state.iter().all(|value| value.is_finite()) {
-                return Err(Failure::Diverged {
-                    start: items[number],
-                    time: (reached.windows + 1) as f64 / arguments.frequency,
-                });
-            }
+        let moved = moved.into_iter().flatten().zip(items);
+        for (start, (moved, &item)) in reached.starts.iter_mut().zip(moved) {
+            let (state, window) = moved.map_err(|error| diverged(item, &error))?;
             start.state = state;
             start.windows.extend(window.means());
             for (all, own) in start.densities.iter_mut().zip(&window.densities) {
@@ -126,39 +118,70 @@ struct WindowMotion<'a, P> {
 }
 
 impl<P: RodTree> WindowMotion<'_, P> {
-    /// Moves starts through the window: their states at its end, and sums over it.
-    fn follow(&self, starts: &[Followed], motors: &[Motor]) -> Vec<(Vec<f64>, Window)> {
+    /// Moves starts through the window, in lanes: their states at its end, and sums over it.
+    fn follow(
+        &self,
+        starts: &[Followed],
+        motors: &[Motor],
+    ) -> Vec<Result<(Vec<f64>, Window), IntegrationError<f64>>> {
         let Arguments { steps, samples, .. } = *self.arguments;
-        let states = starts.iter().map(|start| &start.state[..]);
-        let states: Vec<_> = states.zip(motors).collect();
-        let mut together = Together::new(self.tree, &states);
-        let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
-        let mut torques = vec![0.0; self.tree.links()];
-        let mut sums = vec![Window::new(self.arguments.shape().generations); starts.len()];
-        for step in 0..steps {
-            let place = u64::from(steps) * self.window as u64 + u64::from(step);
-            together.step(self.arguments.time(place), self.arguments.step());
-            if !(step + 1).is_multiple_of(steps / samples) {
-                continue;
+        let first = u64::from(steps) * self.window as u64;
+        let time = self.arguments.time(first);
+        let releases: Vec<_> = starts
+            .iter()
+            .zip(motors)
+            .map(|(start, motor)| {
+                let system = UnderTorques::of(self.tree, motor.clone());
+                (system, State::new(time, start.state.clone()))
+            })
+            .collect();
+        let times = self.arguments.times(first, steps / samples, samples);
+        let method = Rk4::new(self.arguments.step());
+        let alone = Ensemble::new().threads(NonZeroUsize::MIN);
+        let moved = alone.sample_models_in_lanes(&method, &releases, &times);
+        let mut budgets = StateBudgets::new(self);
+        let sum = |(samples, motor): (Samples<f64>, &Motor)| {
+            let mut sums = Window::new(self.arguments.shape().generations);
+            for (&time, state) in times.iter().zip(samples.states()) {
+                sums.add(budgets.at(time, state, motor), self.counts);
             }
-            let time = self.arguments.time(place + 1);
-            for (start, (sums, motor)) in sums.iter_mut().zip(motors).enumerate() {
-                let state = together.state(start);
-                let (theta, omega) = state.split_at(self.tree.links());
-                torques[0] = motor.torque(time);
-                self.tree.budget_by_scale_under(
-                    &mut workspace,
-                    time,
-                    theta,
-                    omega,
-                    &torques,
-                    &mut budget,
-                );
-                sums.add(&budget, self.counts);
-            }
+            Ok((samples.end?.state.values, sums))
+        };
+        moved.into_iter().zip(motors).map(sum).collect()
+    }
+}
+
+/// StateBudgets of states of a tree, in memory that is kept.
+struct StateBudgets<'a, P> {
+    tree: &'a P,
+    workspace: Workspace<f64>,
+    torques: Vec<f64>,
+    budget: ScaleBudget<f64>,
+}
+
+impl<'a, P: RodTree> StateBudgets<'a, P> {
+    fn new(motion: &WindowMotion<'a, P>) -> Self {
+        Self {
+            tree: motion.tree,
+            workspace: Workspace::new(),
+            torques: vec![0.0; motion.tree.links()],
+            budget: ScaleBudget::new(),
         }
-        let ends = (0..starts.len()).map(|start| together.state(start));
-        ends.zip(sums).collect()
+    }
+
+    /// The budget of a state under its motor.
+    fn at(&mut self, time: f64, state: &[f64], motor: &Motor) -> &ScaleBudget<f64> {
+        let (theta, omega) = state.split_at(self.tree.links());
+        self.torques[0] = motor.torque(time);
+        self.tree.budget_by_scale_under(
+            &mut self.workspace,
+            time,
+            theta,
+            omega,
+            &self.torques,
+            &mut self.budget,
+        );
+        &self.budget
     }
 }
 
@@ -249,15 +272,20 @@ pub fn film<P: RodTree>(
         arguments.friction_ratio,
     )?;
     let (_, motor) = Followed::new(arguments, 0);
-    let mut together = Together::new(&tree, &[(&start.state, &motor)]);
-    let stride = (interval / arguments.step()).round().max(1.0) as u64;
+    let stride = (interval / arguments.step()).round().max(1.0) as u32;
     let first = arguments.windows() as u64 * u64::from(arguments.steps);
-    let mut states = vec![start.state.clone()];
-    for frame in 1..frames as u64 {
-        for step in (frame - 1) * stride..frame * stride {
-            together.step(arguments.time(first + step), arguments.step());
-        }
-        states.push(together.state(0));
-    }
-    Ok((states, stride as f64 * arguments.step()))
+    let release = State::new(arguments.time(first), start.state.clone());
+    let times = arguments.times(first, stride, frames as u32 - 1);
+    let moved = Rk4::new(arguments.step())
+        .sample_to_vec(&UnderTorques::of(&tree, motor), &release, &times)
+        .map_err(|error| diverged(0, &error))?;
+    let states = iter::once(release).chain(moved);
+    let states = states.map(|state| state.values).collect();
+    Ok((states, f64::from(stride) * arguments.step()))
+}
+
+/// The failure of a start.
+fn diverged(start: usize, error: &IntegrationError<f64>) -> Failure {
+    let time = error.last_state().map_or(0.0, |last| last.time);
+    Failure::Diverged { start, time }
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::{LaneTorques, Torques};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -12,9 +14,9 @@ const LINES: usize = 16;
 
 /// A torque on the root as a sum of cosines.
 #[derive(Clone, Debug)]
-pub struct Motor {
+pub struct Motor<T = f64> {
     /// Amplitude (N m), angular frequency (rad/s) and phase (rad) of each.
-    lines: Vec<[f64; 3]>,
+    lines: Vec<[T; 3]>,
 }
 
 impl Motor {
@@ -41,13 +43,39 @@ impl Motor {
             lines: (0..LINES).map(line).collect(),
         }
     }
+}
 
+impl<T: Scalar> Motor<T> {
     /// The torque at a time, N m.
-    pub fn torque(&self, time: f64) -> f64 {
+    #[inline(always)]
+    pub fn torque(&self, time: T) -> T {
+        let mut sum = T::from_f64(0.0);
+        for &[size, pace, phase] in &self.lines {
+            let (_, cosine) = (pace * time + phase).sin_cos();
+            sum = sum + size * cosine;
+        }
+        sum
+    }
+}
+
+impl<T: Scalar> Torques<T> for Motor<T> {
+    #[inline(always)]
+    fn torques_into(&self, time: T, _theta: &[T], _omega: &[T], torques: &mut [T]) {
+        torques.fill(T::from_f64(0.0));
+        if let Some(root) = torques.first_mut() {
+            *root = self.torque(time);
+        }
+    }
+}
+
+impl<T: Scalar> LaneTorques<T> for Motor<T> {
+    type Of<S: Scalar> = Motor<S>;
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
         let lines = self.lines.iter();
-        lines
-            .map(|[size, pace, phase]| size * (pace * time + phase).cos())
-            .sum()
+        Motor {
+            lines: lines.map(|line| line.map(&convert)).collect(),
+        }
     }
 }
 

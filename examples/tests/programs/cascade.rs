@@ -1,13 +1,20 @@
 //! The program `cascade`: its checkpoints, its shards.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::UnderTorques;
+use branched_pendulum_examples::cascade::Arguments;
+use branched_pendulum_examples::cascade::motor::{Motor, Random};
 use branched_pendulum_examples::cascade::onset::scene::{Tree, TreeParameters, modes};
+use branched_pendulum_examples::cascade::scene::{RodTree, binary_3};
+use clap::Parser;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -52,6 +59,62 @@ fn the_onset_leaves_table_and_charts() {
     for chart in ["onset.svg", "onset.png"] {
         assert!(folder.join(chart).metadata().unwrap().len() > 1000);
     }
+}
+
+/// Starts in lanes move as another method moves them one by one, under the torque written down
+/// once more, and twice as many steps err a sixteenth.
+#[test]
+fn starts_in_lanes_have_the_motion_of_another_method() {
+    let arguments = |steps: &str| {
+        let words = [
+            "cascade",
+            "--generations",
+            "3",
+            "--friction",
+            "1e-4",
+            "--steps",
+            steps,
+        ];
+        Arguments::parse_from(words)
+    };
+    let own = arguments("2048");
+    let tree = binary_3::Tree::of(&own.shape(), own.friction, own.friction_ratio).unwrap();
+    let mut random = Random::of_start(1, 0);
+    let starts: Vec<State<f64>> = (0..11)
+        .map(|_| State::at_rest(0.0, &[(); 7].map(|()| random.within(0.5))))
+        .collect();
+    let pace = TAU * own.frequency;
+    let pushed = UnderTorques::new(
+        &tree,
+        |time: f64, _: &[f64], _: &[f64], torques: &mut [f64]| {
+            torques.fill(0.0);
+            torques[0] = own.torque * (pace * time).cos();
+        },
+    );
+    let ensemble = Ensemble::new();
+    let reference = Verner98::new(Options::with_tolerance(1e-13));
+    let reference = ensemble.integrate(&reference, &pushed, &starts, 1.0);
+    let error = |steps: &str| {
+        let arguments = arguments(steps);
+        let motor = Motor::new(&arguments, &mut Random::of_start(1, 0));
+        let system = UnderTorques::of(&tree, motor);
+        let method = Rk4::new(arguments.step());
+        let ends = ensemble.integrate_in_lanes(&method, &system, &starts, 1.0);
+        let mut largest = 0.0_f64;
+        for (end, reference) in ends.into_iter().zip(&reference) {
+            let (end, reference) = (end.unwrap().state, &reference.as_ref().unwrap().state);
+            for (value, reference) in end.values.iter().zip(&reference.values) {
+                largest = largest.max((value - reference).abs());
+            }
+        }
+        largest
+    };
+    let [coarse, fine] = ["2048", "4096"].map(error);
+    assert!(coarse < 2e-6, "{coarse:e}");
+    assert!(
+        (12.0..20.0).contains(&(coarse / fine)),
+        "{coarse:e} {fine:e}"
+    );
 }
 
 /// A short run.

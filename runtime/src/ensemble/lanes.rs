@@ -17,21 +17,27 @@ impl Ensemble<'_> {
     /// [`AbsoluteAngles`](crate::system::AbsoluteAngles), under torques
     /// ([`UnderTorques`](crate::system::UnderTorques)), with the small differences
     /// between its copies ([`TransverseOde`](crate::system::TransverseOde)). The method
-    /// is [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5) or
-    /// [`Verner98`](crate::integrate::Verner98), for absolute angles of models that say
+    /// is [`Dop853`](crate::integrate::Dop853), [`Dopri5`](crate::integrate::Dopri5),
+    /// [`Verner98`](crate::integrate::Verner98) or, for steps of one length,
+    /// [`Rk4`](crate::integrate::Rk4) and [`Gauss`](crate::integrate::Gauss); for absolute angles of models that say
     /// `emit(taylor)` [`Taylor`](crate::integrate::Taylor) too.
     ///
     /// Each trajectory has its own steps, chosen by the rules
     /// of `method` from its own errors, and its own errors and account, as
     /// [`integrate`](Self::integrate) gives them. The bits depend on its start
-    /// alone: not on its place, the other starts or the number of threads; they
-    /// are not those of [`integrate`](Self::integrate), because products and sums
-    /// are fused here where the machine can; both keep the tolerance. A lane whose
+    /// alone: not on its place, the other starts or the number of threads. Methods that
+    /// choose their steps fuse products and sums here where the machine can, so that the bits
+    /// are not those of [`integrate`](Self::integrate); both keep the tolerance. Steps of one
+    /// length are not fused: states, samples, accounts and failures
+    /// are those of [`integrate`](Self::integrate) to the last bit, for equations that have the [same bits](crate::scalar#which-bits) in lanes
+    /// and alone, as those of emitted models do. A lane whose
     /// trajectory has ended takes the next start.
     ///
     /// Memory on each thread: for each component of a state 22, 30 or 36 registers
-    /// for the pairs of order 5, 8 and 9, and for a Taylor series of order p some
-    /// 20 + 4 p; steps allocate nothing.
+    /// for the pairs of order 5, 8 and 9, six for [`Rk4`](crate::integrate::Rk4), 3 s + 7
+    /// for [`Gauss`](crate::integrate::Gauss) of s stages (and the matrix of each lane, with
+    /// Newton's method), and for a Taylor series of order p some 20 + 4 p; steps allocate
+    /// nothing.
     ///
     /// # Examples
     ///

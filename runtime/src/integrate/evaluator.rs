@@ -7,6 +7,7 @@ use alloc::vec::Vec;
 
 use super::report::Report;
 use super::request::all_finite;
+use super::right_hand_side::RightHandSide;
 use crate::scalar::Real;
 use crate::system::{Ode, Workspace};
 
@@ -45,6 +46,31 @@ impl<T: Real, O: Ode<T> + ?Sized> Evaluator<'_, T, O> {
         } else {
             Err(NonFinite::new(time, state))
         }
+    }
+}
+
+impl<T: Real, O: Ode<T> + ?Sized> RightHandSide<T> for Evaluator<'_, T, O> {
+    type Failure = NonFinite<T>;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    #[inline(always)]
+    fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
+        self.write(time, state, rates);
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        _stage: usize,
+        time: T,
+        state: &[T],
+        rates: &mut [T],
+    ) -> Result<(), NonFinite<T>> {
+        self.evaluate(time, state, rates)
     }
 }
 

@@ -9,7 +9,7 @@
 //! |---|---|---|---|---|
 //! | [`ExplicitRungeKutta`]: [`Dop853`] and others | 5 to 9 | 4 to 8 | adaptive | most things |
 //! | [`Taylor`] | by tolerance | that of the method | adaptive | tolerances down to rounding |
-//! | [`Rk4`] | 4 | 3 | fixed | comparison |
+//! | [`Rk4`] | 4 | 3 | fixed | comparison, given steps, many states in lanes |
 //! | [`Gauss`] | 2, 4, 6, 8 | 1 to 4 | fixed | energy over long times |
 //!
 //! [`Projected`] holds the state of [`Gauss`] and [`Rk4`] to a first integral.
@@ -36,8 +36,10 @@ pub(crate) mod lanes;
 mod method;
 mod options;
 mod piece;
+mod registers;
 mod report;
 mod request;
+mod right_hand_side;
 mod run;
 mod stepper;
 mod steps;
@@ -50,13 +52,14 @@ pub use error::{InputError, IntegrationError, RunError};
 pub use events::{Crossing, Event, Occurrence};
 pub use explicit::*;
 pub(crate) use fixed::Factored;
-pub use fixed::{Gauss, GaussOrder, Projected, Rk4, Solver};
+pub use fixed::{Gauss, Projected, Rk4, Solver};
 pub use frames::{Frames, longest_sub_step};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
 pub use method::{AnyIntegrator, Method, UnknownMethod};
 pub use options::{Options, Tolerance};
+pub use piece::GaussOrder;
 pub use report::{Report, Solution, StopReason};
 pub use stepper::Stepper;
 pub use taylor::Taylor;

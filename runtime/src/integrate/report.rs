@@ -81,15 +81,17 @@ impl<T: Real> Report<T> {
 
     /// Counts an accepted step of length `step`.
     pub(crate) fn accept(&mut self, step: T) {
-        let first = self.accepted == 0;
+        let before = [self.shortest_step, self.longest_step];
+        [self.shortest_step, self.longest_step] = extremes(before, self.accepted == 0, step);
         self.accepted += 1;
-        self.shortest_step = if first {
-            step
-        } else {
-            self.shortest_step.min(step)
-        };
-        self.longest_step = self.longest_step.max(step);
     }
+}
+
+/// The shortest and the longest step with one more, which may be the first.
+#[inline(always)]
+pub(crate) fn extremes<T: Real>([shortest, longest]: [T; 2], first: bool, step: T) -> [T; 2] {
+    let shorter = first | (step < shortest);
+    [if shorter { step } else { shortest }, longest.max(step)]
 }
 
 impl<T: Real> fmt::Display for Report<T> {

@@ -68,19 +68,26 @@ impl<T: Real> Goal<T> {
             .map_or(T::from_f64(FARTHEST), |end| (end - time).abs())
     }
 
-    /// End of a step from `time` of the length `step`, and true if it is the goal. A
-    /// step one per cent longer than planned is better than a sliver at the end.
+    /// End of a step from `time` of the length `step`, and true if it is the goal.
     #[inline(always)]
     pub(crate) fn plan(&self, time: T, step: T) -> (T, bool) {
         match self.end {
-            Some(end) if step * T::from_f64(1.01) >= (end - time).abs() => (end, true),
-            Some(_) => (time + self.direction * step, false),
+            Some(end) => towards(end, self.direction, time, step),
             None => {
                 let step = step.min(T::from_f64(FARTHEST));
                 (time + self.direction * step, false)
             }
         }
     }
+}
+
+/// End of a step from `time` of the length `step` towards `end`, and true if that is
+/// reached. A step one per cent longer than planned is better than a sliver at the end.
+#[inline(always)]
+pub(crate) fn towards<T: Real>(end: T, direction: T, time: T, step: T) -> (T, bool) {
+    let last = step * T::from_f64(1.01) >= (end - time).abs();
+    let next = time + direction * step;
+    (if last { end } else { next }, last)
 }
 
 /// The limits that options set to steps.
@@ -111,26 +118,46 @@ impl<T: Real> StepLimits<T> {
         self.longest.map_or(step, |longest| step.min(longest))
     }
 
-    /// Passes a step from `time` of length `step` in a run with this account; `last` if
-    /// it reaches the end.
+    /// The longest step that a method without a control of its own may take; the `first`
+    /// one is no longer than the initial step that was asked for.
+    pub(crate) fn bound(&self, first: bool) -> T {
+        let longest = self.longest.unwrap_or(T::ONE / T::ZERO);
+        let initial = self.initial.filter(|_| first);
+        initial.map_or(longest, |initial| initial.min(longest))
+    }
+
+    /// Below this length, time plus step is mostly rounding.
+    #[inline(always)]
+    fn lost(time: T) -> T {
+        T::from_f64(10.0) * T::EPSILON * time.abs()
+    }
+
+    /// Returns true if a step from `time` of length `step` may be tried after so many others;
+    /// `last` if it reaches the end, which may be as near as it likes.
+    #[inline(always)]
+    pub(crate) fn allow(&self, steps: u64, (time, step, last): (T, T, bool)) -> bool {
+        let short = (step < self.shortest) | (step <= Self::lost(time));
+        (steps < self.number) & (last | !short)
+    }
+
+    /// Passes such a step in a run with this account.
     #[inline(always)]
     pub(crate) fn check(
         &self,
         report: &Report<T>,
         steps_before: u64,
-        (time, step, last): (T, T, bool),
+        attempt: (T, T, bool),
     ) -> Result<(), Failure<T>> {
-        check_number(self.number, report, steps_before)?;
-        // Below this, time plus step is mostly rounding.
-        let lost = T::from_f64(10.0) * T::EPSILON * time.abs();
-        // The end may be as near as it likes.
-        if !last && (step < self.shortest || step <= lost) {
-            return Err(Failure::StepTooSmall {
-                step,
-                shortest: self.shortest.max(lost),
-            });
+        let steps = report.accepted + report.rejected - steps_before;
+        if self.allow(steps, attempt) {
+            return Ok(());
         }
-        Ok(())
+        check_number(self.number, report, steps_before)?;
+        let (time, step, _) = attempt;
+        Err(Failure::StepTooSmall {
+            step,
+            shortest: self.shortest.max(Self::lost(time)),
+        })
     }
 }
 

@@ -30,6 +30,26 @@ fn sub_steps_are_far_within_the_limit_of_stability() {
     assert!(growth(-1.45, 2.2) > 1.0 && growth(-2.8, 0.0) > 1.0);
 }
 
+/// Sub-steps that nothing limits are steps of the method itself, to the last bit.
+#[test]
+fn sub_steps_are_those_of_the_runge_kutta_method() {
+    let swing = OdeFn::new(2, |time: f64, y: &[f64], rates: &mut [f64]| {
+        rates[0] = y[1];
+        rates[1] = 0.1 * time - 9.0 * y[0].sin() - 0.01 * y[1];
+    });
+    let start = State::new(0.5, vec![0.7, -0.3]);
+    let mut frames = Frames::new(&swing, &start, 0.03).unwrap();
+    // Frames of as many sub-steps each.
+    let mut stepper = Rk4::new(0.03).start(&swing, &start).unwrap();
+    for frame in 1..=20 {
+        frames.set_state(stepper.time(), stepper.state()).unwrap();
+        frames.advance(0.03);
+        stepper.step().unwrap();
+        assert_eq!(frames.state(), stepper.state(), "{frame}");
+    }
+    assert_eq!(frames.limited(), 0);
+}
+
 /// The bound is not below the rates at any angles that were not looked at.
 #[test]
 fn the_sub_step_knows_springs_and_friction() {

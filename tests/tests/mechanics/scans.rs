@@ -89,6 +89,7 @@ fn scans_in_lanes_meet_the_methods_one_by_one() {
     lanes_meet_one_by_one(&Dop853::new(options.clone()));
     lanes_meet_one_by_one(&Verner98::new(options));
     lanes_meet_one_by_one(&Dopri5::new(Options::with_tolerance(1e-10)));
+    lanes_meet_one_by_one(&Rk4::new(0.01));
 }
 
 /// A trajectory has the bits that it has among starts of its own model.

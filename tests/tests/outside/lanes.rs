@@ -99,6 +99,79 @@ fn trajectories_under_torques_in_lanes() {
     lanes_meet_the_plain_method(ByGeneration::<f64>::new);
 }
 
+/// A torque on each link that grows with the time, and brakes: without sines, which have other
+/// last bits in the plain arithmetic of one state.
+struct Ramp<T>(T);
+
+impl<T: Scalar> Torques<T> for Ramp<T> {
+    #[inline(always)]
+    fn torques_into(&self, time: T, _: &[T], omega: &[T], torques: &mut [T]) {
+        for (torque, &omega) in torques.iter_mut().zip(omega) {
+            *torque = self.0 * time - T::from_f64(1e-4) * omega;
+        }
+    }
+}
+
+impl<T: Scalar> LaneTorques<T> for Ramp<T> {
+    type Of<S: Scalar> = Ramp<S>;
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ramp<S> {
+        Ramp(convert(self.0))
+    }
+}
+
+/// Ends, samples and accounts of fixed steps in lanes are those of single states, to the last
+/// bit; and they are near those of another method.
+fn fixed_steps_have_the_bits_of_single_states<P>(model: impl Fn() -> P)
+where
+    P: Forced<f64> + Sync,
+{
+    let mut random = Random::new(5);
+    let mut start = || State::new(0.25, random.around_zero(2 * model().links(), 0.4));
+    let starts: Vec<_> = (0..13).map(|_| start()).collect();
+    let (ensemble, method) = (Ensemble::new(), Rk4::new(0.001));
+    let free = AbsoluteAngles(model());
+    let gauss = Gauss::new(GaussOrder::Four, 0.01);
+    let lanes = ensemble.integrate_in_lanes(&gauss, &free, &starts, 0.5);
+    assert_eq!(lanes, ensemble.integrate(&gauss, &free, &starts, 0.5));
+    let lanes = ensemble.integrate_in_lanes(&method, &free, &starts, 1.0);
+    assert_eq!(lanes, ensemble.integrate(&method, &free, &starts, 1.0));
+    let other = Dop853::new(Options::with_tolerance(1e-12));
+    let other = ensemble.integrate(&other, &free, &starts, 1.0);
+    for (lane, other) in lanes.into_iter().zip(other) {
+        let (lane, other) = (lane.unwrap().state.values, other.unwrap().state.values);
+        for (lane, other) in lane.iter().zip(&other) {
+            assert!((lane - other).abs() < 1e-6, "{lane} {other}");
+        }
+    }
+
+    let releases: Vec<_> = (1..14)
+        .zip(starts)
+        .map(|(i, start)| {
+            let ramp = Ramp(1e-3 * f64::from(i));
+            (UnderTorques::of(model(), ramp), start)
+        })
+        .collect();
+    // At ends of steps, and inside.
+    let times = [0.25, 0.253, 0.4, 0.4001, 1.0];
+    let lanes = ensemble.sample_models_in_lanes(&method, &releases, &times);
+    for ((system, start), lane) in releases.iter().zip(lanes) {
+        let mut samples = Vec::new();
+        let plain = method.sample(system, start, &times, |_, y| samples.push(y.to_vec()));
+        assert!(lane.states().eq(samples.iter().map(Vec::as_slice)));
+        assert_eq!((lane.end.is_ok(), &lane.end), (true, &plain));
+    }
+}
+
+#[test]
+fn fixed_steps_in_lanes_have_the_bits_of_single_states() {
+    fixed_steps_have_the_bits_of_single_states(|| {
+        Written::new(WrittenParameters { push: 0.2 }).unwrap()
+    });
+    fixed_steps_have_the_bits_of_single_states(Irregular::<f64>::new);
+    fixed_steps_have_the_bits_of_single_states(ByGeneration::<f64>::new);
+}
+
 /// The work on a tree beside its state.
 struct WithWork<T> {
     model: ByGeneration<T>,

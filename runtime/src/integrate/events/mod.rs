@@ -6,7 +6,7 @@ use core::borrow::Borrow;
 use core::fmt;
 use core::ops::ControlFlow;
 
-use self::search::{Search, SearchError};
+use self::search::{CrossingSearch, SearchError};
 use super::error::{IntegrationError, RunError};
 use super::report::{Solution, StopReason};
 use super::run::Run;
@@ -110,7 +110,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
         events: &[Event<'_, T>],
         mut visit: impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Solution<T>, RunError<T, E>> {
-        let mut search = Search::new(events, self.state());
+        let mut search = CrossingSearch::new(events, self.state());
         let goal = self.goal(end);
         while let Some(mut step) = self.step_to(goal)? {
             let (time, flow) = match search.visit(&mut step, &mut visit) {

@@ -42,7 +42,7 @@ struct Found<T> {
 }
 
 /// The search along a run.
-pub(super) struct Search<'a, T> {
+pub(super) struct CrossingSearch<'a, T> {
     events: &'a [Event<'a, T>],
     /// Number of occurrences of each so far.
     counts: Vec<u32>,
@@ -63,7 +63,7 @@ struct EventSample<T> {
     value: T,
 }
 
-impl<'a, T: Real> Search<'a, T> {
+impl<'a, T: Real> CrossingSearch<'a, T> {
     pub(super) fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
         Self {
             events,

@@ -4,12 +4,12 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::pair::{DenseForm, EmbeddedPair};
-use super::stages::{RightHandSide, StepSpan, StepStages, sum, terms};
-use crate::integrate::piece::Lift;
+use super::stages::{StepStages, sum, terms};
+use crate::integrate::piece::DEGREE;
+#[cfg(feature = "std")]
+use crate::integrate::piece::{alternating, bernstein, blend};
+use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::scalar::Scalar;
-
-/// Degree of [`DenseForm::Bernstein`].
-const DEGREE: usize = 8;
 
 impl<W: Scalar> StepStages<W> {
     /// The stages and the coefficients of the dense output of a step.
@@ -101,59 +101,4 @@ impl<W: Scalar> StepStages<W> {
             }
         }
     }
-}
-
-/// y + s (d₀ + r (d₁ + s (d₂ + …))), r = 1 − s, for component i of n.
-#[inline(always)]
-pub(crate) fn alternating<W: Scalar, S: Lift<W>>(
-    s: S,
-    start: W,
-    terms: &[W],
-    n: usize,
-    i: usize,
-) -> S {
-    let r = S::from_f64(1.0) - s;
-    let count = terms.len() / n;
-    let (mut factor, mut other) = if count % 2 == 1 { (s, r) } else { (r, s) };
-    // From the highest term on, times s and r in turn.
-    let mut value = S::lift(terms[(count - 1) * n + i]);
-    for k in (0..count - 1).rev() {
-        value = factor.mul_add(value, S::lift(terms[k * n + i]));
-        (factor, other) = (other, factor);
-    }
-    factor.mul_add(value, S::lift(start))
-}
-
-/// y + Σ_k d_k b_k(s) for component i of n, the b_k(s) being these weights.
-#[inline(always)]
-pub(crate) fn blend<W: Scalar, S: Lift<W>>(
-    weights: &[S; DEGREE],
-    start: W,
-    terms: &[W],
-    n: usize,
-    i: usize,
-) -> S {
-    let mut value = S::from_f64(0.0);
-    for k in 0..DEGREE {
-        value = weights[k].mul_add(S::lift(terms[k * n + i]), value);
-    }
-    S::lift(start) + value
-}
-
-/// Bernstein polynomials 1 to 8 of degree 8.
-#[inline(always)]
-pub(crate) fn bernstein<W: Scalar>(s: W) -> [W; DEGREE] {
-    let [zero, one] = [0.0, 1.0].map(W::from_f64);
-    let r = one - s;
-    let mut row = [zero; DEGREE + 1];
-    row[0] = one;
-    for degree in 1..=DEGREE {
-        for k in (1..=degree).rev() {
-            row[k] = r * row[k] + s * row[k - 1];
-        }
-        row[0] = r * row[0];
-    }
-    let mut inner = [zero; DEGREE];
-    inner.copy_from_slice(&row[1..]);
-    inner
 }

@@ -11,41 +11,39 @@ use core::marker::PhantomData;
 use super::ExplicitRungeKutta;
 use super::pair::EmbeddedPair;
 use super::smallest_tolerance;
-use super::stages::{MOST_STAGES, RightHandSide, StepSpan, StepStages, sum, terms};
+use super::stages::{ErrorScale, StepStages, sum, terms};
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
-use crate::integrate::lanes::registers::{
+use crate::integrate::error::InputError;
+use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, LaneSystems, Models, Runs};
+use crate::integrate::registers::{
     Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, smallest_divisor,
 };
-use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
-use crate::integrate::options::Options;
-use crate::integrate::steps::StepLimits;
+use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
+use crate::integrate::steps::{Failure, StepLimits};
 use crate::scalar::Lane;
 use crate::simd::Simd;
-use crate::simd::{Part, outlined};
 use crate::system::{LaneOde, State};
 
 impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRungeKutta<M, T> {
-    type Steps<'a, R: Simd<T>> = PairInLanes<'a, M, O, T, R>;
+    type Steps<R: Simd<T>> = PairInLanes<M, O, T, R>;
 
-    fn options(&self) -> &Options<T> {
-        &self.options
+    fn check(&self, dimension: usize) -> Result<(), InputError<T>> {
+        self.options.validate(dimension)
     }
 
-    fn smallest_tolerance(&self) -> T {
-        smallest_tolerance()
+    fn check_start(&self, values: &[T]) -> Result<(), InputError<T>> {
+        self.options.check_digits(values, smallest_tolerance())
     }
 
-    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> PairInLanes<'a, M, O, T, R> {
-        let zero = R::from_f64(0.0);
-        let start = vec![zero; system.dimension()];
+    fn steps<R: Simd<T>>(&self, system: &O) -> PairInLanes<M, O, T, R> {
+        let start = vec![R::from_f64(0.0); system.dimension()];
         let control = StepControl::new(M::CONTROL, &self.options);
         PairInLanes {
             system: Systems {
-                models: Models::splat(system),
+                lanes: LaneSystems::splat(system),
                 smallest: R::splat(smallest_divisor()),
-                checks: [zero; MOST_STAGES],
             },
-            options: &self.options,
+            limits: StepLimits::new(&self.options),
             stages: StepStages::new::<M, T>(&self.options, start, R::splat),
             controls: core::array::from_fn(|_| control.clone()),
             errors: [T::ZERO; WIDEST],
@@ -55,37 +53,24 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane> LaneMethod<O, T> for ExplicitRunge
     }
 }
 
-/// The systems in the lanes, and what their evaluations have left.
+/// The systems in the lanes, and what the sizes of their errors need.
 struct Systems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
-    models: Models<O, T, R>,
+    lanes: LaneSystems<O, T, R>,
     /// A divisor for what may be zero over zero.
     smallest: R,
-    /// Zero after a stage, NaN from the first stage on whose rates are not finite.
-    checks: [R; MOST_STAGES],
-}
-
-/// The right-hand sides of the systems.
-///
-/// In a function of its own, which all stages call: equations of large trees
-/// are long.
-impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
-    for Models<O, T, R>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
-        O::rates_of(&self.registers, time, state, rates);
-    }
 }
 
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
     type Failure = Infallible;
-    type Accepted = R::Mask;
 
     #[inline(always)]
     fn dimension(&self) -> usize {
-        self.models.dimension()
+        self.lanes.dimension()
+    }
+
+    #[inline(always)]
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        self.lanes.write(time, state, rates);
     }
 
     #[inline(always)]
@@ -96,15 +81,12 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
         state: &[R],
         rates: &mut [R],
     ) -> Result<(), Infallible> {
-        outlined::<0, R, _, _>(&self.models, (time, state, &mut *rates));
-        let before = if stage > 2 {
-            self.checks[stage - 2]
-        } else {
-            R::from_f64(0.0)
-        };
-        self.checks[stage - 1] = check_finite(before, rates);
-        Ok(())
+        self.lanes.evaluate(stage, time, state, rates)
     }
+}
+
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> ErrorScale<R> for Systems<O, T, R> {
+    type Accepted = R::Mask;
 
     #[inline(always)]
     fn larger_size(one: R, other: R) -> R {
@@ -127,9 +109,9 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for Systems<O, T, R> {
 }
 
 /// The method at work.
-pub struct PairInLanes<'a, M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+pub struct PairInLanes<M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
     system: Systems<O, T, R>,
-    options: &'a Options<T>,
+    limits: StepLimits<T>,
     stages: StepStages<R>,
     controls: [StepControl<T>; WIDEST],
     /// Scaled errors of the step.
@@ -140,12 +122,12 @@ pub struct PairInLanes<'a, M, O: LaneOde<T>, T: Lane, R: Simd<T>> {
 }
 
 impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
-    for PairInLanes<'_, M, O, T, R>
+    for PairInLanes<M, O, T, R>
 {
     type System = O;
 
     fn models(&mut self) -> &mut Models<O, T, R> {
-        &mut self.system.models
+        &mut self.system.lanes.models
     }
 
     fn set(&mut self, lane: usize, values: Option<&[T]>) {
@@ -156,7 +138,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
             set_lane(&mut stages.start_residue[i], lane, T::ZERO);
             set_lane(&mut stages.rates[i], lane, T::ZERO);
         }
-        self.controls[lane] = StepControl::new(M::CONTROL, self.options);
+        self.controls[lane].forget();
     }
 
     fn start(&self) -> &[R] {
@@ -175,6 +157,15 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     }
 
     #[inline(always)]
+    fn plan(&mut self, runs: &mut Runs<T>) -> Flags {
+        runs.plan(R::LANES, &self.limits)
+    }
+
+    fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>> {
+        runs.why_stuck(lane, &self.limits)
+    }
+
+    #[inline(always)]
     fn attempt(&mut self, span: StepSpan<R>, size: R) {
         let (system, stages) = (&mut self.system, &mut self.stages);
         let Ok(()) = stages.make::<M, _>(system, span);
@@ -187,7 +178,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     #[inline(always)]
     fn judge(&mut self, runs: &mut Runs<T>) -> Flags {
         let mut accepted = [false; WIDEST];
-        let checks = [M::STAGES, M::STAGES + 1].map(|stage| numbers(self.system.checks[stage - 1]));
+        let checks = [M::STAGES, M::STAGES + 1].map(|stage| self.system.lanes.check(stage));
         for (lane, accepted) in accepted.iter_mut().enumerate().take(R::LANES) {
             if runs.active[lane] {
                 *accepted = self.judge_lane(runs, lane, checks.map(|check| check[lane]));
@@ -204,11 +195,11 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
 
     fn judge_dense(&self, runs: &mut Runs<T>, lane: usize) -> Result<(), (T, Vec<T>)> {
         let stages = M::NODES.len();
-        if numbers(self.system.checks[stages - 1])[lane].is_finite() {
+        if self.system.lanes.check(stages)[lane].is_finite() {
             runs.evaluations[lane] += (stages - M::STAGES - 1) as u64;
             return Ok(());
         }
-        let failed = self.failed_stage(lane, M::STAGES + 2, stages);
+        let failed = self.system.lanes.failed_stage(lane, M::STAGES + 2, stages);
         Err(self.place(lane, runs.span(lane), failed))
     }
 
@@ -224,7 +215,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSteps<T, R>
     }
 }
 
-impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, T, R> {
+impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<M, O, T, R> {
     /// Judges the step of a lane, as the driver of the plain method does, and
     /// chooses the next one. Returns true if it is accepted.
     #[inline(always)]
@@ -232,7 +223,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, 
         let span = runs.span(lane);
         runs.next_step[lane] = runs.step[lane];
         if !stages.is_finite() {
-            let failed = self.failed_stage(lane, 2, M::STAGES);
+            let failed = self.system.lanes.failed_stage(lane, 2, M::STAGES);
             runs.evaluations[lane] += failed as u64 - 1;
             self.fail(runs, lane, self.place(lane, span, failed));
             return false;
@@ -281,13 +272,6 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, 
         runs.non_finite(lane, place, last);
     }
 
-    /// The first stage from `first` to `last` whose rates are not finite in a lane.
-    #[cold]
-    fn failed_stage(&self, lane: usize, first: usize, last: usize) -> usize {
-        let failed = |stage: &usize| !numbers(self.system.checks[stage - 1])[lane].is_finite();
-        (first..last).find(failed).unwrap_or(last)
-    }
-
     /// Time and state of a stage in a lane.
     #[cold]
     fn place(&self, lane: usize, span: StepSpan<T>, stage: usize) -> (T, Vec<T>) {
@@ -316,10 +300,10 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, 
         for (rate, other) in stages.rates.iter_mut().zip(others) {
             *rate = rate.choose(other, mask);
         }
-        let finite = numbers(system.checks[0]);
+        let finite = system.lanes.check(1);
         let state = numbers(stages.norm(system, &stages.start));
         let rates = numbers(stages.norm(system, stages.start_rates()));
-        let limits = StepLimits::new(self.options);
+        let limits = self.limits;
         let first = |lane: usize, runs: &Runs<T>| FirstStep {
             state: state[lane],
             rates: rates[lane],
@@ -332,7 +316,7 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, 
             if !finite[lane].is_finite() {
                 let values = numbers_in(&self.stages.start, lane);
                 self.fail(runs, lane, (runs.time[lane], values));
-            } else if let Some(step) = self.options.initial_step {
+            } else if let Some(step) = limits.initial {
                 runs.step[lane] = limits.limit(step);
             } else {
                 runs.evaluations[lane] += 1;
@@ -345,9 +329,9 @@ impl<M: EmbeddedPair, O: LaneOde<T>, T: Lane, R: Simd<T>> PairInLanes<'_, M, O, 
             step: register(&euler),
         };
         let Ok(change) = self.stages.euler_change(&mut self.system, span);
-        let (change, finite) = (numbers(change), numbers(self.system.checks[1]));
+        let (change, finite) = (numbers(change), self.system.lanes.check(2));
         for lane in fresh() {
-            if !runs.active[lane] || self.options.initial_step.is_some() {
+            if !runs.active[lane] || limits.initial.is_some() {
                 continue;
             }
             if finite[lane].is_finite() {

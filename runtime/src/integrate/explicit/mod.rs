@@ -18,9 +18,7 @@ mod verner98;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-pub(crate) use self::dense_output::{alternating, bernstein, blend};
 use self::pair::EmbeddedPair;
-pub(crate) use self::stages::StepSpan;
 use self::steps::PairSteps;
 use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
@@ -29,6 +27,7 @@ use super::integrator::Integrator;
 use super::options::Options;
 use super::report::{Report, Solution};
 use super::request::{all_finite, check_start};
+use super::right_hand_side::StepSpan;
 use super::steps::Failure;
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};

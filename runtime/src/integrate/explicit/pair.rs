@@ -1,6 +1,6 @@
 //! An embedded pair: its table, its control and its estimate.
 
-use super::stages::{RightHandSide, StepStages};
+use super::stages::{ErrorScale, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::integrate::piece::Form;
 use crate::scalar::Scalar;
@@ -30,7 +30,7 @@ pub trait EmbeddedPair: Copy + core::fmt::Debug + Send + Sync + 'static {
     const ERROR_USES_END: bool;
 
     /// Scaled error of a step of length `size`: one is the largest allowed.
-    fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W;
+    fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W;
 }
 
 /// The form of a dense output: most of its coefficients are h (sum of row), three

@@ -1,8 +1,8 @@
 //! The arithmetic of one step: stages, end, error norm.
 //!
 //! Written once for numbers `W` of any width: one, for the plain method, or a
-//! vector register with a state in each lane. [`RightHandSide`] is what tells one
-//! from the other.
+//! vector register with a state in each lane. [`RightHandSide`] and [`ErrorScale`] are what
+//! tells one from the other.
 
 // Users name the pairs, and nothing that their trait is made of.
 #![allow(unreachable_pub)]
@@ -12,6 +12,7 @@ use alloc::vec::Vec;
 
 use super::pair::EmbeddedPair;
 use crate::integrate::options::{Options, Tolerance};
+use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide, StepSpan};
 use crate::scalar::two_sum;
 use crate::scalar::{Real, Scalar};
 
@@ -19,44 +20,10 @@ use crate::scalar::{Real, Scalar};
 /// the time there.
 const SMALL: bool = cfg!(target_family = "wasm");
 
-/// Stages of the pair that has most.
-pub(super) const MOST_STAGES: usize = 21;
-
-/// A step from `time` of length `step` (negative when running backwards).
-#[derive(Clone, Copy, Debug)]
-pub struct StepSpan<W> {
-    pub(crate) time: W,
-    pub(crate) step: W,
-}
-
-impl<W: Scalar> StepSpan<W> {
-    /// Time at the fraction `node` of the step.
-    #[inline(always)]
-    pub(super) fn node(&self, node: f64) -> W {
-        W::from_f64(node).mul_add(self.step, self.time)
-    }
-}
-
-/// The equations of one state, or of one state in each lane.
-pub trait RightHandSide<W: Scalar> {
-    /// Why no further stage is made. Lanes always go on, since the others may be
-    /// well.
-    type Failure;
-
+/// Sizes of the errors of one state, or of one state in each lane.
+pub trait ErrorScale<W: Scalar>: RightHandSide<W> {
     /// Says of each lane whether its step is accepted.
     type Accepted: Copy;
-
-    /// Number of components of a state.
-    fn dimension(&self) -> usize;
-
-    /// Writes the rates of stage `stage`, whose state is `state`.
-    fn evaluate(
-        &mut self,
-        stage: usize,
-        time: W,
-        state: &[W],
-        rates: &mut [W],
-    ) -> Result<(), Self::Failure>;
 
     /// The larger size of two numbers.
     fn larger_size(one: W, other: W) -> W;
@@ -255,7 +222,7 @@ impl<W: Scalar> StepStages<W> {
     /// Rates after an Euler step, into the place of stage 2; returns the norm of
     /// their change.
     #[inline(always)]
-    pub(super) fn euler_change<S: RightHandSide<W>>(
+    pub(super) fn euler_change<S: ErrorScale<W>>(
         &mut self,
         system: &mut S,
         span: StepSpan<W>,
@@ -276,7 +243,7 @@ impl<W: Scalar> StepStages<W> {
     /// Euclidean norm of a vector whose components are divided by their
     /// tolerances at the start of the step.
     #[inline(always)]
-    pub(super) fn norm<S: RightHandSide<W>>(&self, system: &S, vector: &[W]) -> W {
+    pub(super) fn norm<S: ErrorScale<W>>(&self, system: &S, vector: &[W]) -> W {
         let mut squares = W::from_f64(0.0);
         for (i, &value) in vector.iter().enumerate() {
             let size = S::larger_size(self.start[i], self.start[i]);
@@ -296,7 +263,7 @@ impl<W: Scalar> StepStages<W> {
     /// Sums over the components of the squares of (sum of row)/tolerance, for each
     /// of the rows.
     #[inline(always)]
-    pub(super) fn squares<S: RightHandSide<W>, const N: usize>(
+    pub(super) fn squares<S: ErrorScale<W>, const N: usize>(
         &self,
         system: &S,
         rows: [&'static [(usize, f64)]; N],
@@ -327,7 +294,7 @@ impl<W: Scalar> StepStages<W> {
     /// its root mean square over the components (Solving ODEs I, section II.4, eq.
     /// (4.11)).
     #[inline(always)]
-    pub(super) fn mean_square_error<S: RightHandSide<W>>(
+    pub(super) fn mean_square_error<S: ErrorScale<W>>(
         &self,
         system: &S,
         row: &'static [(usize, f64)],
@@ -340,7 +307,7 @@ impl<W: Scalar> StepStages<W> {
     /// Makes the end of the step the start of the next one, where it is accepted, in the
     /// first `n` components. The rates there become its first stage.
     #[inline(always)]
-    pub(super) fn advance<M: EmbeddedPair, S: RightHandSide<W>>(
+    pub(super) fn advance<M: EmbeddedPair, S: ErrorScale<W>>(
         &mut self,
         n: usize,
         accepted: S::Accepted,
@@ -363,7 +330,7 @@ impl<W: Scalar> StepStages<W> {
 
 /// Number of components.
 #[inline(always)]
-pub(super) fn count<W: Scalar, S: RightHandSide<W>>(system: &S) -> W {
+pub(super) fn count<W: Scalar, S: ErrorScale<W>>(system: &S) -> W {
     W::from_f64(system.dimension() as f64)
 }
 

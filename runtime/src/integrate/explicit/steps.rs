@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use super::ExplicitRungeKutta;
 use super::pair::EmbeddedPair;
 use super::smallest_tolerance;
-use super::stages::{RightHandSide, StepSpan, StepStages};
+use super::stages::{ErrorScale, StepStages};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::control::{FirstStep, StepControl, Verdict};
 use crate::integrate::error::InputError;
@@ -15,6 +15,7 @@ use crate::integrate::integrator::Integrator;
 use crate::integrate::options::Options;
 use crate::integrate::piece::Piece;
 use crate::integrate::request::all_finite;
+use crate::integrate::right_hand_side::StepSpan;
 use crate::integrate::steps::{Failure, Goal, StepLimits, Steps};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
@@ -178,25 +179,8 @@ impl<M: EmbeddedPair, T: Real, O: Ode<T> + ?Sized> Steps<T, O> for PairSteps<M, 
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> RightHandSide<T> for Evaluator<'_, T, O> {
-    type Failure = NonFinite<T>;
+impl<T: Real, O: Ode<T> + ?Sized> ErrorScale<T> for Evaluator<'_, T, O> {
     type Accepted = ();
-
-    #[inline(always)]
-    fn dimension(&self) -> usize {
-        self.dimension
-    }
-
-    #[inline(always)]
-    fn evaluate(
-        &mut self,
-        _stage: usize,
-        time: T,
-        state: &[T],
-        rates: &mut [T],
-    ) -> Result<(), NonFinite<T>> {
-        self.evaluate(time, state, rates)
-    }
 
     #[inline(always)]
     fn larger_size(one: T, other: T) -> T {

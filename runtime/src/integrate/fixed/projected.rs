@@ -4,7 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::gauss::GaussStep;
-use super::grid::{FixedStep, Grid, GridSteps};
+use super::grid::{Corrected, FixedStep, GridSteps};
+use super::place::Grid;
 use super::rk4::Rk4Step;
 use super::{Gauss, Rk4};
 use crate::integrate::checkpoint::Memory;
@@ -114,7 +115,7 @@ impl<M, I, T: Real> Projected<M, I, T> {
             });
         }
         let zeros = || vec![T::ZERO; start.values.len()];
-        grid.steps(ProjectedStep {
+        let step = ProjectedStep {
             steps,
             integral: self.integral.clone(),
             tolerance: self.tolerance,
@@ -124,17 +125,18 @@ impl<M, I, T: Real> Projected<M, I, T> {
             trial: zeros(),
             trial_gradient: zeros(),
             correction: zeros(),
-        })
+        };
+        Ok(GridSteps::new(step, grid.place()?))
     }
 }
 
 impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     for Projected<Gauss<T>, I, T>
 {
-    type Steps = ProjectedSteps<GaussStep<T>, I, T>;
+    type Steps = ProjectedSteps<GaussStep<T, T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        let steps = GaussStep::new(&self.method, &start.values);
+        let steps = GaussStep::new(&self.method, start.values.clone());
         self.projected(self.method.grid(), start, steps)
     }
 }
@@ -145,25 +147,13 @@ impl<T: Real, O: Ode<T> + ?Sized, I: FirstIntegral<T> + Clone> Integrator<T, O>
     type Steps = ProjectedSteps<Rk4Step<T>, I, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        let steps = Rk4Step::new(&start.values);
+        let steps = Rk4Step::new(start.values.clone());
         self.projected(self.method.grid(), start, steps)
     }
 }
 
 /// Projected steps of a given length.
 type ProjectedSteps<S, I, T> = GridSteps<ProjectedStep<S, I, T>, T>;
-
-/// A method whose end of a step may be moved.
-#[allow(unreachable_pub)]
-pub trait Corrected<T: Real, O: ?Sized>: FixedStep<T, O> {
-    /// Adds `correction` to the end of the step, at the time `time`.
-    fn correct(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        correction: &[T],
-    ) -> Result<(), Failure<T>>;
-}
 
 /// A method at work, and what the projection needs beside it.
 #[derive(Clone, Debug)]

@@ -2,32 +2,40 @@
 
 // A sealed trait names the types.
 #![allow(unreachable_pub)]
+// One index into all components at once.
+#![allow(clippy::needless_range_loop)]
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::grid::{FixedStep, Grid, GridSteps};
-use super::projected::Corrected;
+use super::grid::{Corrected, FixedStep, GridSteps};
+use super::place::Grid;
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::error::InputError;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::integrator::Integrator;
 use crate::integrate::piece::{Form, Piece};
 use crate::integrate::request::all_finite;
+use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::system::{Ode, State};
 
 /// The classical Runge–Kutta method of order 4, with steps of one length.
 ///
-/// No error estimate: it is here for comparison, and for loops whose steps are
-/// given. Four evaluations a step; values inside a step are those of the cubic
+/// No error estimate: it is here for comparison, and for motions whose steps are
+/// given: many at once in the lanes of vector registers, with the same bits
+/// ([`Ensemble::integrate_in_lanes`]), or frames in real time
+/// ([`Frames`]). Four evaluations a step; values inside a step are those of the cubic
 /// through its ends with their rates (order 3) and cost nothing. Memory: 6
 /// vectors of the state's length; steps allocate nothing. The last step is
 /// shorter where the span is no multiple of the step.
 ///
 /// Source: Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations
 /// I*, 2nd edition, Springer 1993, section II.1, table 1.2.
+///
+/// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
+/// [`Frames`]: crate::integrate::Frames
 ///
 /// # Examples
 ///
@@ -74,42 +82,110 @@ impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Rk4<T> {
     type Steps = GridSteps<Rk4Step<T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        self.grid().steps(Rk4Step::new(&start.values))
+        let step = Rk4Step::new(start.values.clone());
+        Ok(GridSteps::new(step, self.grid().place()?))
     }
 }
 
-/// The vectors that a step of [`Rk4`] works on.
+/// The vectors that a step of [`Rk4`] works on: of one state, or of one in each lane.
 #[derive(Clone, Debug)]
-pub struct Rk4Step<T> {
-    start: Vec<T>,
-    end: Vec<T>,
+pub struct Rk4Step<W> {
+    pub(in crate::integrate) start: Vec<W>,
+    pub(in crate::integrate) end: Vec<W>,
     /// State at which rates are evaluated, and these.
-    stage: Vec<T>,
-    rates: Vec<T>,
-    start_rates: Vec<T>,
-    end_rates: Vec<T>,
+    stage: Vec<W>,
+    rates: Vec<W>,
+    pub(in crate::integrate) start_rates: Vec<W>,
+    pub(super) end_rates: Vec<W>,
     /// Length of the step, with its sign.
-    step: T,
+    pub(super) length: W,
 }
 
-impl<T: Real> Rk4Step<T> {
-    pub(super) fn new(start: &[T]) -> Self {
-        let zeros = || vec![T::ZERO; start.len()];
+impl<W: Scalar> Rk4Step<W> {
+    /// Stages up to the end of the step.
+    #[cfg(feature = "std")]
+    pub(super) const STAGES: usize = 4;
+
+    /// Memory for steps from `start`.
+    pub(in crate::integrate) fn new(start: Vec<W>) -> Self {
+        let zeros = || vec![W::from_f64(0.0); start.len()];
         Self {
-            start: start.to_vec(),
             end: zeros(),
             stage: zeros(),
             rates: zeros(),
             start_rates: zeros(),
             end_rates: zeros(),
-            step: T::ZERO,
+            length: W::from_f64(0.0),
+            start,
         }
+    }
+
+    /// Evaluates the rates at the start: stage 1.
+    #[inline(always)]
+    pub(in crate::integrate) fn evaluate_start<S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        time: W,
+    ) -> Result<(), S::Failure> {
+        let n = system.dimension();
+        system.evaluate(1, time, &self.start[..n], &mut self.start_rates[..n])
+    }
+
+    /// Makes stages 2 to 4, from stage 1 in place, and the end of the step.
+    ///
+    /// Products and sums are not fused, whatever the numbers: a state in a lane gets the bits
+    /// that it gets alone.
+    #[inline(always)]
+    pub(in crate::integrate) fn make_end<S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        span: StepSpan<W>,
+    ) -> Result<(), S::Failure> {
+        self.length = span.step;
+        let n = system.dimension();
+        let (start, stage) = (&self.start[..n], &mut self.stage[..n]);
+        let (rates, first) = (&mut self.rates[..n], &self.start_rates[..n]);
+        // The end holds the sum of the rates until it is known.
+        let end = &mut self.end[..n];
+        let half = W::from_f64(0.5) * span.step;
+        let two = W::from_f64(2.0);
+        let (middle, end_time) = (span.time + half, span.time + span.step);
+        for i in 0..n {
+            stage[i] = start[i] + half * first[i];
+        }
+        system.evaluate(2, middle, stage, rates)?;
+        for i in 0..n {
+            end[i] = first[i] + two * rates[i];
+            stage[i] = start[i] + half * rates[i];
+        }
+        system.evaluate(3, middle, stage, rates)?;
+        for i in 0..n {
+            end[i] = end[i] + two * rates[i];
+            stage[i] = start[i] + span.step * rates[i];
+        }
+        system.evaluate(4, end_time, stage, rates)?;
+        let sixth = span.step / W::from_f64(6.0);
+        for i in 0..n {
+            end[i] = start[i] + sixth * (end[i] + rates[i]);
+        }
+        Ok(())
+    }
+
+    /// Evaluates the rates at the end: stage 5, and stage 1 of the next step.
+    #[inline(always)]
+    pub(super) fn evaluate_end<S: RightHandSide<W>>(
+        &mut self,
+        system: &mut S,
+        time: W,
+    ) -> Result<(), S::Failure> {
+        let n = system.dimension();
+        system.evaluate(5, time, &self.end[..n], &mut self.end_rates[..n])
     }
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
     fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
-        system.evaluate(time, &self.start, &mut self.start_rates)
+        self.evaluate_start(system, time)
     }
 
     fn make(
@@ -118,34 +194,12 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
         time: T,
         step: T,
     ) -> Result<(), Failure<T>> {
-        self.step = step;
-        let half = T::from_f64(0.5) * step;
-        let two = T::from_f64(2.0);
-        let (middle, end_time) = (time + half, time + step);
-        // The end holds the sum of the rates until it is knself.
-        self.end.copy_from_slice(&self.start_rates);
-        self.rates.copy_from_slice(&self.start_rates);
-        for (at, length, weight) in [
-            (middle, half, two),
-            (middle, half, two),
-            (end_time, step, T::ONE),
-        ] {
-            for (i, value) in self.stage.iter_mut().enumerate() {
-                *value = self.start[i] + length * self.rates[i];
-            }
-            system.evaluate(at, &self.stage, &mut self.rates)?;
-            for (sum, &rate) in self.end.iter_mut().zip(&self.rates) {
-                *sum += weight * rate;
-            }
-        }
-        let sixth = step / T::from_f64(6.0);
-        for (end, &start) in self.end.iter_mut().zip(&self.start) {
-            *end = start + sixth * *end;
-        }
+        self.make_end(system, StepSpan { time, step })?;
+        let end_time = time + step;
         if !all_finite(&self.end) {
             return Err(NonFinite::new(end_time, &self.end).into());
         }
-        Ok(system.evaluate(end_time, &self.end, &mut self.end_rates)?)
+        Ok(self.evaluate_end(system, end_time)?)
     }
 
     fn piece(&self) -> Piece<'_, T> {
@@ -154,7 +208,7 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for Rk4Step<T> {
             start: &self.start,
             end: &self.end,
             terms: [&self.start_rates, &self.end_rates],
-            length: self.step,
+            length: self.length,
         }
     }
 

@@ -2,11 +2,12 @@
 
 mod limit;
 
-use alloc::vec;
-use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use super::error::InputError;
+use super::fixed::Rk4Step;
 use super::request::{all_finite, check_start};
+use super::right_hand_side::{RightHandSide, StepSpan};
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};
 
@@ -97,13 +98,45 @@ pub struct Frames<O, T> {
     workspace: Workspace<T>,
     /// In `f64`, so that frames add up to hours in any `T`.
     time: f64,
+    /// Longest sub-step, s.
     sub_step: f64,
     largest_rate: T,
     limited: u64,
-    values: Vec<T>,
-    stage: Vec<T>,
-    rates: Vec<T>,
-    sum: Vec<T>,
+    /// The state, and the end of a sub-step that may become it.
+    step: Rk4Step<T>,
+}
+
+/// The equations, finite or not.
+struct FrameSystem<'a, O, T> {
+    ode: &'a O,
+    workspace: &'a mut Workspace<T>,
+    dimension: usize,
+}
+
+impl<O: Ode<T>, T: Real> RightHandSide<T> for FrameSystem<'_, O, T> {
+    type Failure = Infallible;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    #[inline(always)]
+    fn write(&mut self, time: T, state: &[T], rates: &mut [T]) {
+        self.ode.rates_with(self.workspace, time, state, rates);
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        _stage: usize,
+        time: T,
+        state: &[T],
+        rates: &mut [T],
+    ) -> Result<(), Infallible> {
+        self.write(time, state, rates);
+        Ok(())
+    }
 }
 
 impl<O: Ode<T>, T: Real> Frames<O, T> {
@@ -121,7 +154,6 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
                 value: sub_step,
             });
         }
-        let zeros = || vec![T::ZERO; start.values.len()];
         Ok(Self {
             ode,
             workspace: Workspace::new(),
@@ -129,10 +161,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
             sub_step: sub_step.to_f64(),
             largest_rate: T::from_f64(LARGEST_TURN) / sub_step,
             limited: 0,
-            values: start.values.clone(),
-            stage: zeros(),
-            rates: zeros(),
-            sum: zeros(),
+            step: Rk4Step::new(start.values.clone()),
         })
     }
 
@@ -158,7 +187,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
 
     /// The state.
     pub fn state(&self) -> &[T] {
-        &self.values
+        &self.step.start
     }
 
     /// Time of the state, s.
@@ -194,90 +223,77 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
     /// then.
     pub fn set_state(&mut self, time: f64, values: &[T]) -> Result<(), InputError<T>> {
         check_start(&self.ode, (T::from_f64(time), values))?;
-        if values.len() != self.values.len() {
+        let own = &mut self.step.start;
+        if values.len() != own.len() {
             return Err(InputError::Dimension {
-                expected: self.values.len(),
+                expected: own.len(),
                 found: values.len(),
             });
         }
-        self.values.copy_from_slice(values);
+        own.copy_from_slice(values);
         self.time = time;
         Ok(())
     }
 
-    fn sub_step(&mut self, step: T) {
-        self.runge_kutta(step);
-        let n = self.values.len() / 2;
-        let (angles, rates) = self.stage.split_at(n);
-        // False for a rate that is no number.
+    fn sub_step(&mut self, length: T) {
+        self.runge_kutta(length);
         let limit = self.largest_rate;
+        let Rk4Step { start, end, .. } = &mut self.step;
+        let n = start.len() / 2;
+        let (angles, rates) = end.split_at(n);
+        // False for a rate that is no number.
         let slow = rates
             .iter()
             .fold(true, |slow, rate| slow & (rate.abs() <= limit));
         if slow && all_finite(angles) {
-            core::mem::swap(&mut self.values, &mut self.stage);
+            core::mem::swap(start, end);
             return;
         }
         self.limited += 1;
         // The end of the sub-step counts where angles have not run away on its way.
-        let turn = T::from_f64(2.0) * limit * step;
-        let pairs = self.values.iter().zip(&self.stage).take(n);
+        let turn = T::from_f64(2.0) * limit * length;
+        let pairs = start.iter().zip(&*end).take(n);
         let within = pairs.fold(true, |within, (a, b)| within & ((*b - *a).abs() <= turn));
-        if within && all_finite(&self.stage) {
+        if within && all_finite(end) {
             let factor = limit / size(rates).max(limit);
-            self.values.copy_from_slice(&self.stage);
-            self.values[n..]
+            start.copy_from_slice(end);
+            start[n..]
                 .iter_mut()
                 .for_each(|rate| *rate = factor * *rate);
         } else {
-            self.limited_euler(step);
+            self.limited_euler(length);
         }
     }
 
-    /// Writes the state at the end of a sub-step to `stage`.
-    fn runge_kutta(&mut self, step: T) {
-        let start = T::from_f64(self.time);
-        let half = T::from_f64(0.5) * step;
-        let two = T::from_f64(2.0);
-        let workspace = &mut self.workspace;
-        self.ode
-            .rates_with(workspace, start, &self.values, &mut self.rates);
-        self.sum.copy_from_slice(&self.rates);
-        for (length, weight) in [(half, two), (half, two), (step, T::ONE)] {
-            let stage = self.stage.iter_mut().zip(&self.values).zip(&self.rates);
-            for ((stage, &value), &rate) in stage {
-                *stage = value + length * rate;
-            }
-            let time = start + length;
-            self.ode
-                .rates_with(workspace, time, &self.stage, &mut self.rates);
-            for (sum, &rate) in self.sum.iter_mut().zip(&self.rates) {
-                *sum += weight * rate;
-            }
-        }
-        let sixth = step / T::from_f64(6.0);
-        let stage = self.stage.iter_mut().zip(&self.values).zip(&self.sum);
-        for ((stage, &value), &sum) in stage {
-            *stage = value + sixth * sum;
-        }
-    }
-
-    /// Makes a sub-step of the symplectic Euler method with limited rates; links stop
-    /// where accelerations are not finite.
-    fn limited_euler(&mut self, step: T) {
+    /// Makes a step of the classical Runge–Kutta method, whose end may be anything.
+    fn runge_kutta(&mut self, length: T) {
         let time = T::from_f64(self.time);
-        self.ode
-            .rates_with(&mut self.workspace, time, &self.values, &mut self.rates);
-        let (angles, rates) = self.values.split_at_mut(self.rates.len() / 2);
-        let accelerations = &self.rates[angles.len()..];
+        let system = &mut FrameSystem {
+            ode: &self.ode,
+            workspace: &mut self.workspace,
+            dimension: self.step.start.len(),
+        };
+        let span = StepSpan { time, step: length };
+        let Ok(()) = self.step.evaluate_start(system, time);
+        let Ok(()) = self.step.make_end(system, span);
+    }
+
+    /// Makes a sub-step of the symplectic Euler method with limited rates, from the rates at
+    /// the start; links stop where accelerations are not finite.
+    fn limited_euler(&mut self, length: T) {
+        let Rk4Step {
+            start, start_rates, ..
+        } = &mut self.step;
+        let (angles, rates) = start.split_at_mut(start_rates.len() / 2);
+        let accelerations = &start_rates[angles.len()..];
         // Of the sum, infinity is left out by the size of its terms.
-        let largest = size(rates) + step * size(accelerations);
+        let largest = size(rates) + length * size(accelerations);
         if !(largest.is_finite() && all_finite(accelerations)) {
             rates.fill(T::ZERO);
             return;
         }
         for (rate, &acceleration) in rates.iter_mut().zip(accelerations) {
-            *rate += step * acceleration;
+            *rate += length * acceleration;
         }
         let largest = size(rates);
         if largest > self.largest_rate {
@@ -285,7 +301,7 @@ impl<O: Ode<T>, T: Real> Frames<O, T> {
             rates.iter_mut().for_each(|rate| *rate = factor * *rate);
         }
         for (angle, &rate) in angles.iter_mut().zip(&*rates) {
-            *angle += step * rate;
+            *angle += length * rate;
         }
     }
 }

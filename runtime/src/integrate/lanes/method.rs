@@ -8,52 +8,49 @@ use alloc::vec::Vec;
 use super::models::Models;
 use super::runs::{Flags, Runs};
 use crate::integrate::error::InputError;
-use crate::integrate::explicit::StepSpan;
-use crate::integrate::options::Options;
+use crate::integrate::right_hand_side::StepSpan;
+use crate::integrate::steps::Failure;
 use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::LaneOde;
 
 /// A method that integrates systems of the type `O` in the lanes of vector
 /// registers, for [`Ensemble`](crate::ensemble::Ensemble): the explicit
-/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]) any [`LaneOde`], [`Taylor`]
-/// absolute angles of models that give their Taylor coefficients.
+/// Runge–Kutta pairs ([`Dop853`], [`Dopri5`], [`Verner98`]), [`Rk4`] and [`Gauss`] any
+/// [`LaneOde`], [`Taylor`] absolute angles of models that give their Taylor coefficients.
 ///
 /// No other crate can implement it.
 ///
 /// [`Dop853`]: crate::integrate::Dop853
 /// [`Dopri5`]: crate::integrate::Dopri5
+/// [`Gauss`]: crate::integrate::Gauss
+/// [`Rk4`]: crate::integrate::Rk4
 /// [`Taylor`]: crate::integrate::Taylor
 /// [`Verner98`]: crate::integrate::Verner98
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not integrate `{O}` in lanes",
-    note = "in lanes go `Dop853`, `Verner98` and `Dopri5`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
+    note = "in lanes go `Dop853`, `Verner98`, `Dopri5`, `Rk4` and `Gauss`, with any `LaneOde`, and `Taylor`, with `AbsoluteAngles` of models that say `emit(taylor)`",
     note = "all other methods go by `Ensemble::integrate`, start by start on all threads"
 )]
 pub trait LaneMethod<O: LaneOde<T>, T: Lane>: Sync {
     /// The method at work.
     #[doc(hidden)]
-    type Steps<'a, R: Simd<T>>: LaneSteps<T, R, System = O>
-    where
-        Self: 'a;
+    type Steps<R: Simd<T>>: LaneSteps<T, R, System = O>;
 
-    /// Returns the options of the method.
+    /// Passes a method whose options suit states of `dimension` components.
     #[doc(hidden)]
-    fn options(&self) -> &Options<T>;
+    fn check(&self, dimension: usize) -> Result<(), InputError<T>>;
 
-    /// The smallest relative tolerance that is of use to it.
+    /// Passes a start that has the digits that the method needs.
     #[doc(hidden)]
-    fn smallest_tolerance(&self) -> T;
-
-    /// Checks all of it but the options.
-    #[doc(hidden)]
-    fn check(&self) -> Result<(), InputError<T>> {
+    fn check_start(&self, values: &[T]) -> Result<(), InputError<T>> {
+        let _ = values;
         Ok(())
     }
 
     /// Returns the memory, with this system in every lane.
     #[doc(hidden)]
-    fn steps<'a, R: Simd<T>>(&'a self, system: &O) -> Self::Steps<'a, R>;
+    fn steps<R: Simd<T>>(&self, system: &O) -> Self::Steps<R>;
 }
 
 /// A method at work, with a state in each lane.
@@ -77,6 +74,13 @@ pub trait LaneSteps<T: Lane, R: Simd<T>> {
     /// Chooses steps as far as the step before has not; `fresh` lanes have not
     /// made one.
     fn prepare(&mut self, runs: &mut Runs<T>, fresh: &Flags);
+
+    /// Plans the steps of all lanes: their lengths and their ends. Returns the lanes whose
+    /// step may not be tried.
+    fn plan(&mut self, runs: &mut Runs<T>) -> Flags;
+
+    /// Why the step of such a lane may not be tried.
+    fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>>;
 
     /// Makes a step in all lanes; `size` is its length.
     fn attempt(&mut self, span: StepSpan<R>, size: R);

@@ -11,9 +11,9 @@
 mod cases;
 mod method;
 mod models;
-pub(crate) mod registers;
 mod runs;
 mod samples;
+mod systems;
 #[cfg(test)]
 pub(in crate::integrate) mod tests;
 
@@ -23,12 +23,13 @@ pub(crate) use self::cases::Cases;
 pub use self::method::LaneMethod;
 pub(crate) use self::method::LaneSteps;
 pub(crate) use self::models::Models;
-use self::registers::{Numbers, WIDEST, register};
 pub(crate) use self::runs::{Flags, Outcome, Runs};
 use self::samples::LaneSamples;
+pub(crate) use self::systems::{LaneSystems, StageOfLane};
 use super::error::InputError;
-use super::explicit::StepSpan;
+use super::registers::{self, Numbers, WIDEST, register};
 use super::request::{check_end, check_start, check_times};
+use super::right_hand_side::StepSpan;
 use crate::scalar::{InstructionSet, Lane};
 use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{LaneOde, State};
@@ -86,8 +87,7 @@ where
         };
         let method = self.task.method;
         let dimension = first.dimension();
-        let valid = method.options().validate(dimension);
-        if let Err(error) = valid.and_then(|()| method.check()) {
+        if let Err(error) = method.check(dimension) {
             self.refuse_all(&error);
             return;
         }
@@ -140,10 +140,7 @@ where
         check_start(system, (start.time, &start.values))?;
         check_times(start.time, self.task.times)?;
         self.task.end.map_or(Ok(()), check_end)?;
-        let method = self.task.method;
-        method
-            .options()
-            .check_digits(&start.values, method.smallest_tolerance())
+        self.task.method.check_start(&start.values)
     }
 
     /// Gives a case to every lane without a trajectory, as long as there are any.
@@ -190,13 +187,15 @@ where
         steps: &mut impl LaneSteps<T, R, System = O>,
         runs: &mut Runs<T>,
     ) -> (StepSpan<R>, R) {
-        let options = self.task.method.options();
-        let stuck = runs.plan(R::LANES, options);
+        let stuck = steps.plan(runs);
         if stuck.contains(&true) {
             for lane in (0..R::LANES).filter(|&lane| stuck[lane]) {
-                let values = registers::numbers_in(steps.start(), lane);
-                if let Some(error) = runs.why_stuck(lane, options, values) {
-                    runs.fail(lane, error);
+                let last = State {
+                    time: runs.time[lane],
+                    values: registers::numbers_in(steps.start(), lane),
+                };
+                if let Some(failure) = steps.why_stuck(runs, lane) {
+                    runs.fail(lane, failure, last);
                 }
             }
             self.hand_over_failed(steps, runs);

@@ -7,8 +7,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::registers::set_lane;
 use crate::integrate::error::InputError;
+use crate::integrate::registers::set_lane;
 use crate::scalar::{Lane, Scalar};
 use crate::simd::Simd;
 use crate::system::LaneOde;

@@ -6,12 +6,12 @@
 
 use alloc::vec::Vec;
 
-use super::registers::{Numbers, WIDEST};
 use crate::integrate::error::IntegrationError;
-use crate::integrate::explicit::StepSpan;
-use crate::integrate::options::Options;
-use crate::integrate::report::{Report, Solution, StopReason};
-use crate::integrate::steps::StepLimits;
+use crate::integrate::evaluator::NonFinite;
+use crate::integrate::registers::{Numbers, WIDEST};
+use crate::integrate::report::{Report, Solution, StopReason, extremes};
+use crate::integrate::right_hand_side::StepSpan;
+use crate::integrate::steps::{Failure, Goal, StepLimits, towards};
 use crate::scalar::Real;
 use crate::system::State;
 
@@ -45,8 +45,9 @@ pub struct Runs<T> {
     pub(crate) direction: Numbers<T>,
     /// Length of the step that is tried next.
     pub(crate) step: Numbers<T>,
-    /// End of the step that is tried.
+    /// End of the step that is tried, and its length with its sign.
     pub(crate) end_time: Numbers<T>,
+    pub(crate) length: Numbers<T>,
     /// True where that is the end of the trajectory.
     pub(crate) last: Flags,
     pub(crate) accepted: [u64; WIDEST],
@@ -73,6 +74,7 @@ impl<T: Real> Runs<T> {
             direction: zero,
             step: zero,
             end_time: zero,
+            length: zero,
             last: [false; WIDEST],
             accepted: [0; WIDEST],
             rejected: [0; WIDEST],
@@ -111,6 +113,7 @@ impl<T: Real> Runs<T> {
             &mut self.direction,
             &mut self.step,
             &mut self.end_time,
+            &mut self.length,
             &mut self.shortest,
             &mut self.longest,
             &mut self.next_step,
@@ -124,37 +127,28 @@ impl<T: Real> Runs<T> {
         (self.index[lane], core::mem::take(&mut self.samples[lane]))
     }
 
-    /// Plans the steps of all lanes. Returns those that may not be tried.
+    /// Plans the steps of all lanes, of the lengths that the control has chosen. Returns
+    /// those that may not be tried.
     #[inline(always)]
-    pub(super) fn plan(&mut self, lanes: usize, options: &Options<T>) -> Flags {
+    pub(crate) fn plan(&mut self, lanes: usize, limits: &StepLimits<T>) -> Flags {
         let mut stuck = [false; WIDEST];
-        let lost = T::from_f64(10.0) * T::EPSILON;
         for lane in 0..lanes.min(WIDEST) {
-            let (time, end, step) = (self.time[lane], self.end[lane], self.step[lane]);
-            // As the drivers of the plain methods.
-            let last = step * T::from_f64(1.01) >= (end - time).abs();
-            let next = time + self.direction[lane] * step;
-            self.end_time[lane] = if last { end } else { next };
+            let (time, step) = (self.time[lane], self.step[lane]);
+            let (end_time, last) = towards(self.end[lane], self.direction[lane], time, step);
+            self.end_time[lane] = end_time;
+            // The difference of the rounded times, so that they add up.
+            self.length[lane] = end_time - time;
             self.last[lane] = last;
-            let short = (step < options.min_step) | (step <= lost * time.abs());
-            let many = self.accepted[lane] + self.rejected[lane] >= options.step_limit;
-            stuck[lane] = self.active[lane] & (many | (!last & short));
+            let steps = self.accepted[lane] + self.rejected[lane];
+            stuck[lane] = self.active[lane] & !limits.allow(steps, (time, step, last));
         }
         stuck
     }
 
     /// Why the step of a lane that is stuck may not be tried.
-    pub(super) fn why_stuck(
-        &self,
-        lane: usize,
-        options: &Options<T>,
-        values: Vec<T>,
-    ) -> Option<IntegrationError<T>> {
-        let time = self.time[lane];
-        let attempt = (time, self.step[lane], self.last[lane]);
-        let report = self.report(lane, StopReason::EndReached);
-        let failure = StepLimits::new(options).check(&report, 0, attempt).err()?;
-        Some(failure.error(State { time, values }, &report))
+    pub(crate) fn why_stuck(&self, lane: usize, limits: &StepLimits<T>) -> Option<Failure<T>> {
+        let attempt = (self.time[lane], self.step[lane], self.last[lane]);
+        limits.check(&self.report(lane), 0, attempt).err()
     }
 
     /// The step that is tried.
@@ -162,8 +156,17 @@ impl<T: Real> Runs<T> {
     pub(crate) fn span(&self, lane: usize) -> StepSpan<T> {
         StepSpan {
             time: self.time[lane],
-            // The difference of the rounded times, so that they add up.
-            step: self.end_time[lane] - self.time[lane],
+            step: self.length[lane],
+        }
+    }
+
+    /// Where the trajectory of a lane is to go.
+    #[inline(always)]
+    pub(crate) fn goal(&self, lane: usize) -> Goal<T> {
+        Goal {
+            end: Some(self.end[lane]),
+            direction: self.direction[lane],
+            steps_before: 0,
         }
     }
 
@@ -172,17 +175,10 @@ impl<T: Real> Runs<T> {
     pub(crate) fn count(&mut self, lanes: usize, accepted: &Flags) {
         for lane in 0..lanes.min(WIDEST) {
             let size = self.span(lane).step.abs();
-            let first = self.accepted[lane] == 0;
-            let shortest = self.shortest[lane];
-            let shorter = if first | (size < shortest) {
-                size
-            } else {
-                shortest
-            };
-            let longer = self.longest[lane].max(size);
+            let before = [self.shortest[lane], self.longest[lane]];
+            let after = extremes(before, self.accepted[lane] == 0, size);
             let accepted = accepted[lane];
-            self.shortest[lane] = if accepted { shorter } else { shortest };
-            self.longest[lane] = if accepted { longer } else { self.longest[lane] };
+            [self.shortest[lane], self.longest[lane]] = if accepted { after } else { before };
             self.accepted[lane] += u64::from(accepted);
         }
     }
@@ -222,7 +218,8 @@ impl<T: Real> Runs<T> {
         self.sampled[lane] += 1;
     }
 
-    fn report(&self, lane: usize, stop: StopReason) -> Report<T> {
+    /// The account of the trajectory in a lane.
+    pub(crate) fn report(&self, lane: usize) -> Report<T> {
         Report {
             accepted: self.accepted[lane],
             rejected: self.rejected[lane],
@@ -230,15 +227,15 @@ impl<T: Real> Runs<T> {
             shortest_step: self.shortest[lane],
             longest_step: self.longest[lane],
             next_step: self.next_step[lane],
-            stop,
+            stop: StopReason::EndReached,
         }
     }
 
-    /// The trajectory in a lane ends here.
+    /// Ends the trajectory in a lane; `last` is the last good state.
     #[cold]
-    pub(super) fn fail(&mut self, lane: usize, error: IntegrationError<T>) {
+    pub(crate) fn fail(&mut self, lane: usize, failure: Failure<T>, last: State<T>) {
+        let end = Err(failure.error(last, &self.report(lane)));
         let (index, samples) = self.leave(lane);
-        let end = Err(error);
         self.failed.push((lane, index, Outcome { end, samples }));
     }
 
@@ -246,13 +243,7 @@ impl<T: Real> Runs<T> {
     /// place; `last` is the last good state.
     #[cold]
     pub(crate) fn non_finite(&mut self, lane: usize, (time, values): (T, Vec<T>), last: State<T>) {
-        let error = IntegrationError::NonFinite {
-            time,
-            values,
-            last,
-            report: self.report(lane, StopReason::NonFinite),
-        };
-        self.fail(lane, error);
+        self.fail(lane, NonFinite { time, values }.into(), last);
     }
 
     /// Takes out a trajectory that has failed, and was not taken yet.
@@ -266,7 +257,7 @@ impl<T: Real> Runs<T> {
         let time = self.time[lane];
         let end = Ok(Solution {
             state: State { time, values },
-            report: self.report(lane, StopReason::EndReached),
+            report: self.report(lane),
         });
         let (index, samples) = self.leave(lane);
         (index, Outcome { end, samples })

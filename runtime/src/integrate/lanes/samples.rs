@@ -4,9 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::method::LaneSteps;
-use super::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
 use super::runs::{Flags, Runs};
-use crate::integrate::explicit::StepSpan;
+use crate::integrate::registers::{Numbers, WIDEST, copy_lane, numbers_in, register};
+use crate::integrate::right_hand_side::StepSpan;
 use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::State;
@@ -64,8 +64,8 @@ impl<T: Lane, R: Simd<T>> LaneSamples<T, R> {
                             break;
                         }
                     }
-                    let span = runs.span(lane);
-                    fraction[lane] = (time - span.time) / span.step;
+                    let [start, end] = [runs.time[lane], runs.end_time[lane]];
+                    fraction[lane] = (time - start) / (end - start);
                     inside[lane] = true;
                     break;
                 }

@@ -9,40 +9,40 @@ use alloc::vec::Vec;
 use super::Taylor;
 use super::root::least_inverse_roots;
 use crate::integrate::error::InputError;
-use crate::integrate::explicit::StepSpan;
-use crate::integrate::lanes::registers::{
-    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, tolerances,
-};
 use crate::integrate::lanes::{Flags, LaneMethod, LaneSteps, Models, Runs};
 use crate::integrate::options::Options;
-use crate::scalar::Lane;
+use crate::integrate::registers::{
+    Numbers, WIDEST, check_finite, numbers, numbers_in, register, set_lane, smallest_divisor,
+};
+use crate::integrate::right_hand_side::StepSpan;
+use crate::integrate::steps::{Failure, StepLimits};
 use crate::scalar::two_sum;
+use crate::scalar::{Lane, Real};
 use crate::simd::Simd;
 use crate::simd::{Part, Quad, outlined};
 use crate::system::{AbsoluteAngles, Model, Ode, Pendulum, State, TaylorPendulum};
 
 impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<T> {
-    type Steps<'a, R: Simd<T>> = TaylorInLanes<'a, P, T, R>;
+    type Steps<R: Simd<T>> = TaylorInLanes<P, T, R>;
 
-    fn options(&self) -> &Options<T> {
-        &self.options
-    }
-
-    fn smallest_tolerance(&self) -> T {
-        super::smallest_tolerance()
-    }
-
-    fn check(&self) -> Result<(), InputError<T>> {
+    fn check(&self, dimension: usize) -> Result<(), InputError<T>> {
+        self.options.validate(dimension)?;
         self.check_options()
     }
 
-    fn steps<'a, R: Simd<T>>(&'a self, system: &AbsoluteAngles<P>) -> TaylorInLanes<'a, P, T, R> {
+    fn check_start(&self, values: &[T]) -> Result<(), InputError<T>> {
+        self.options
+            .check_digits(values, super::smallest_tolerance())
+    }
+
+    fn steps<R: Simd<T>>(&self, system: &AbsoluteAngles<P>) -> TaylorInLanes<P, T, R> {
         let (n, order) = (system.dimension(), self.order());
         let zero = R::from_f64(0.0);
         let (relative, absolute) = tolerances(&self.options, n);
         TaylorInLanes {
             models: Models::splat(system),
-            options: &self.options,
+            limits: StepLimits::new(&self.options),
+            compensated: self.options.compensated,
             order,
             safety: super::safety(order),
             relative,
@@ -78,9 +78,10 @@ impl<'a, P: TaylorPendulum<T>, T: Lane, R: Simd<T>> Part<0, Expansion<'a, R>>
 }
 
 /// The method at work: its polynomials, and what it works on.
-pub struct TaylorInLanes<'a, P: Pendulum<T>, T: Lane, R: Simd<T>> {
+pub struct TaylorInLanes<P: Pendulum<T>, T: Lane, R: Simd<T>> {
     models: Models<AbsoluteAngles<P>, T, R>,
-    options: &'a Options<T>,
+    limits: StepLimits<T>,
+    compensated: bool,
     order: usize,
     safety: T,
     relative: Vec<R>,
@@ -100,7 +101,7 @@ pub struct TaylorInLanes<'a, P: Pendulum<T>, T: Lane, R: Simd<T>> {
     finite: Numbers<T>,
 }
 
-impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
+impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<P, T, R> {
     /// Zero in lanes where all these numbers are finite, NaN in others.
     #[inline(always)]
     fn check(values: &[R]) -> Numbers<T> {
@@ -176,7 +177,7 @@ impl<P: Pendulum<T>, T: Lane, R: Simd<T>> TaylorInLanes<'_, P, T, R> {
     }
 }
 
-impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLanes<'_, P, T, R> {
+impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLanes<P, T, R> {
     type System = AbsoluteAngles<P>;
 
     fn models(&mut self) -> &mut Models<AbsoluteAngles<P>, T, R> {
@@ -218,11 +219,7 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
             (&before, self.order - 1),
             (&last, self.order),
         );
-        let longest = self.options.max_step.unwrap_or(T::ONE / T::ZERO);
-        let first = self
-            .options
-            .initial_step
-            .map_or(longest, |step| step.min(longest));
+        let [first, longest] = [true, false].map(|first| self.limits.bound(first));
         let mut failed = false;
         for lane in 0..R::LANES {
             let longest = if runs.accepted[lane] == 0 {
@@ -254,11 +251,20 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
     }
 
     #[inline(always)]
+    fn plan(&mut self, runs: &mut Runs<T>) -> Flags {
+        runs.plan(R::LANES, &self.limits)
+    }
+
+    fn why_stuck(&self, runs: &Runs<T>, lane: usize) -> Option<Failure<T>> {
+        runs.why_stuck(lane, &self.limits)
+    }
+
+    #[inline(always)]
     fn attempt(&mut self, span: StepSpan<R>, _size: R) {
         self.step = span.step;
         for i in 0..self.dimension() {
             let change = self.increment(i, span.step);
-            if self.options.compensated {
+            if self.compensated {
                 let change = change + self.start_residue[i];
                 (self.end[i], self.end_residue[i]) = two_sum(self.start[i], change);
             } else {
@@ -305,10 +311,25 @@ impl<P: TaylorPendulum<T>, T: Lane, R: Simd<T>> LaneSteps<T, R> for TaylorInLane
         for (start, &end) in self.start.iter_mut().zip(&self.end).take(n) {
             *start = end.choose(*start, accepted);
         }
-        if self.options.compensated {
+        if self.compensated {
             for (start, &end) in self.start_residue.iter_mut().zip(&self.end_residue) {
                 *start = end.choose(*start, accepted);
             }
         }
     }
+}
+
+/// Tolerances of each component in every lane: relative ones, and absolute ones
+/// that are not zero. Where a component is exactly zero by symmetry, its error is
+/// too: zero over the smallest number, not over zero.
+fn tolerances<T: Real, R: Simd<T>>(options: &Options<T>, dimension: usize) -> (Vec<R>, Vec<R>) {
+    let smallest = smallest_divisor();
+    let relative = options.relative.expand(dimension).into_iter();
+    let absolute = options.absolute.expand(dimension).into_iter();
+    (
+        relative.map(R::splat).collect(),
+        absolute
+            .map(|absolute| R::splat(absolute.max(smallest)))
+            .collect(),
+    )
 }

@@ -2,11 +2,9 @@
 
 #[cfg(feature = "std")]
 mod lanes;
-mod polynomial;
 mod root;
 mod steps;
 
-pub(super) use self::polynomial::Ahead;
 use self::steps::TaylorSteps;
 use super::error::InputError;
 use super::integrator::Integrator;

@@ -6,12 +6,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::polynomial::{Ahead, LastTerms};
 use super::root::least_inverse_roots;
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
 use crate::integrate::options::Options;
-use crate::integrate::piece::{Form, Piece};
+use crate::integrate::piece::{Ahead, Form, LastTerms, Piece};
 use crate::integrate::request::all_finite;
 use crate::integrate::steps::{Failure, Goal, StepLimits, Steps};
 use crate::scalar::Real;
@@ -121,13 +120,7 @@ impl<T: Real, O: TaylorOde<T> + ?Sized> Steps<T, O> for TaylorSteps<T> {
         if !self.has_finite_end() {
             return Err(NonFinite::new(time, &self.start).into());
         }
-        let mut step = self.step_length();
-        if let Some(initial) = self.limits.initial
-            && self.first
-        {
-            step = step.min(initial);
-        }
-        let step = self.limits.limit(step);
+        let step = self.step_length().min(self.limits.bound(self.first));
         system.report.next_step = match step.is_finite() {
             true => step,
             false => goal.distance(time),

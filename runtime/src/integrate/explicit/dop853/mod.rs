@@ -6,7 +6,7 @@ use self::tables::{
     A2, A3, A4, A5, A6, A7, A8, A9, A10, A11, A12, A14, A15, A16, B, B_THIRD, C, D, E_FIFTH,
 };
 use super::pair::{DenseForm, EmbeddedPair, TableRow, difference};
-use super::stages::{RightHandSide, StepStages, count};
+use super::stages::{ErrorScale, StepStages, count};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
 
@@ -37,7 +37,7 @@ impl EmbeddedPair for DormandPrince8 {
     /// Combined from the estimates of order 5 and 3 (Solving ODEs I, section
     /// II.10, eq. (10.17)).
     #[inline(always)]
-    fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
+    fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
         let [fifth, third] = stages.squares(system, [&E_FIFTH, &B_MINUS_THIRD]);
         let mixed = W::from_f64(0.01).mul_add(third, fifth);
         let [error] = system.scaled([size * fifth], (count(system) * mixed).sqrt());

@@ -4,7 +4,7 @@ mod tables;
 
 use self::tables::{A2, A3, A4, A5, A6, B, C, D, E};
 use super::pair::{DenseForm, EmbeddedPair};
-use super::stages::{RightHandSide, StepStages};
+use super::stages::{ErrorScale, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
 
@@ -34,7 +34,7 @@ impl EmbeddedPair for DormandPrince5 {
     const ERROR_USES_END: bool = true;
 
     #[inline(always)]
-    fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
+    fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
         W::from_f64(ESTIMATE_WEIGHT) * stages.mean_square_error(system, &E, size)
     }
 }

@@ -7,7 +7,7 @@ use self::tables::{
     B_EIGHTH, C, D,
 };
 use super::pair::{DenseForm, EmbeddedPair, TableRow, difference};
-use super::stages::{RightHandSide, StepStages};
+use super::stages::{ErrorScale, StepStages};
 use crate::integrate::control::ControlConstants;
 use crate::scalar::Scalar;
 
@@ -33,7 +33,7 @@ impl EmbeddedPair for Verner9 {
     const ERROR_USES_END: bool = false;
 
     #[inline(always)]
-    fn error<W: Scalar, S: RightHandSide<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
+    fn error<W: Scalar, S: ErrorScale<W>>(stages: &StepStages<W>, system: &S, size: W) -> W {
         stages.mean_square_error(system, &B_MINUS_EIGHTH, size)
     }
 }
@@ -44,10 +44,10 @@ const B_MINUS_EIGHTH: TableRow<10> = difference(&B, &B_EIGHTH);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::explicit::dense_output::bernstein;
     use crate::integrate::explicit::order_conditions::{
         ButcherTable, continuous, order, stage_values,
     };
+    use crate::integrate::piece::bernstein;
 
     #[test]
     fn rows_sum_to_their_nodes() {

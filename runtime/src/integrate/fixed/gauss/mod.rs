@@ -1,56 +1,17 @@
 //! The symplectic, symmetric Gauss–Legendre methods.
 
+mod iteration;
 mod solve;
 mod step;
-mod tables;
 
 pub(super) use self::step::GaussStep;
-use self::tables::GaussTable;
-use super::grid::{Grid, GridSteps};
+use super::grid::GridSteps;
+use super::place::Grid;
 use crate::integrate::error::InputError;
 use crate::integrate::integrator::Integrator;
-use crate::scalar::{Real, Scalar};
+use crate::integrate::piece::GaussOrder;
+use crate::scalar::Real;
 use crate::system::{Ode, State};
-
-/// The order of a [`Gauss`] method: twice its number of stages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum GaussOrder {
-    /// One stage: the implicit midpoint rule.
-    Two,
-    /// Two stages.
-    Four,
-    /// Three stages.
-    Six,
-    /// Four stages.
-    Eight,
-}
-
-impl GaussOrder {
-    fn table(self) -> &'static GaussTable {
-        &tables::TABLES[match self {
-            Self::Two => 0,
-            Self::Four => 1,
-            Self::Six => 2,
-            Self::Eight => 3,
-        }]
-    }
-
-    /// Number of its stages.
-    #[cfg(feature = "serde")]
-    pub(in crate::integrate) fn stages(self) -> usize {
-        self.table().nodes.len()
-    }
-
-    /// Integral from 0 to x of the Lagrange polynomial of node j; zero where there is no
-    /// such node.
-    pub(in crate::integrate) fn integral<S: Scalar>(self, j: usize, x: S) -> S {
-        let table = self.table();
-        let row = table.integrals.chunks_exact(table.nodes.len()).nth(j);
-        let coefficients = row.unwrap_or_default().iter().rev();
-        coefficients.fold(S::from_f64(0.0), |sum, &c| (sum + S::from_f64(c)) * x)
-    }
-}
 
 /// The iteration that solves the equations of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,12 +55,16 @@ pub enum Solver {
 /// of the state's length n for s stages; with Newton's method two matrices of
 /// s²n² and n² entries more. Steps allocate nothing.
 ///
+/// In lanes ([`Ensemble::integrate_in_lanes`]) each state has the bits that it has alone; the
+/// iteration goes on until the last lane is solved.
+///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd
 /// edition, Springer 2006, sections II.1.3, VI.4 and VIII.6; Hairer, McLachlan,
 /// Razakarivony, *Achieving Brouwer's law with implicit Runge–Kutta methods*,
 /// BIT 48 (2008) 231–243.
 ///
 /// [`Canonical`]: crate::system::Canonical
+/// [`Ensemble::integrate_in_lanes`]: crate::ensemble::Ensemble::integrate_in_lanes
 /// [`IntegrationError::NotSolved`]: crate::integrate::IntegrationError::NotSolved
 /// [`Projected`]: crate::integrate::Projected
 /// [`Report::rejected`]: crate::integrate::Report::rejected
@@ -194,9 +159,10 @@ impl<T: Real> Gauss<T> {
 }
 
 impl<T: Real, O: Ode<T> + ?Sized> Integrator<T, O> for Gauss<T> {
-    type Steps = GridSteps<GaussStep<T>, T>;
+    type Steps = GridSteps<GaussStep<T, T>, T>;
 
     fn steps(&self, _ode: &O, start: &State<T>) -> Result<Self::Steps, InputError<T>> {
-        self.grid().steps(GaussStep::new(self, &start.values))
+        let step = GaussStep::new(self, start.values.clone());
+        Ok(GridSteps::new(step, self.grid().place()?))
     }
 }

@@ -1,166 +1,191 @@
 //! Solving for the rates of the stages: K_i = f(t + c_i h, y + h Σ_j a_ij K_j).
 
+// One index into all lanes at once.
+#![allow(clippy::needless_range_loop)]
+
 use super::Solver;
+use super::iteration::LaneIteration;
 use super::step::GaussStep;
-use crate::integrate::evaluator::Evaluator;
-use crate::integrate::steps::Failure;
+use crate::integrate::evaluator::NonFinite;
+use crate::integrate::registers::{check_finite, numbers, numbers_in};
+use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::scalar::{Real, Scalar};
-use crate::system::Ode;
+use crate::simd::Simd;
 
-/// Below this, in units of rounding, a change that does not fall is rounding.
-const ROUNDING: f64 = 1e2;
-
-/// Below this, a change that has not fallen for two rounds is rounding too.
-const NOISE: f64 = 1e4;
-
-/// A fixed point that comes no nearer in more rounds than these is none.
-const PATIENCE: u32 = 3;
-
-/// Rates that are not finite after a relative change above this are those of an
-/// iterate that ran away.
-const RUNAWAY: f64 = 1e-3;
-
-/// A matrix of derivatives that took more rounds than this is made anew.
-const STALE: u32 = 8;
-
-impl<T: Real> GaussStep<T> {
+impl<T: Real, R: Simd<T>> GaussStep<T, R> {
     /// Iterates the rates of the stages, from their increments in place, until
-    /// the change is zero or rounding.
-    pub(super) fn solve<O: Ode<T> + ?Sized>(
+    /// the change is zero or rounding in each lane of `sought`: lanes that are done keep their
+    /// rates.
+    #[inline(always)]
+    pub(super) fn solve<S: RightHandSide<R>>(
         &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        step: T,
-    ) -> Result<(), Failure<T>> {
-        self.evaluate(system, time, step)?;
+        system: &mut S,
+        span: StepSpan<R>,
+        sought: &[bool],
+    ) {
+        for (iteration, &sought) in self.iterations.iter_mut().zip(sought) {
+            iteration.begin(sought);
+        }
+        self.evaluate(system, span, 0);
         core::mem::swap(&mut self.rates, &mut self.change);
-        if self.solver == Solver::Newton && self.newton_step != step {
-            self.newton_step = T::ZERO;
-            self.differentiate(system, time, step)?;
+        if self.solver == Solver::Newton {
+            self.differentiate(system, span);
         }
-        let rounding = T::from_f64(ROUNDING) * T::EPSILON;
-        let noise = T::from_f64(NOISE) * T::EPSILON;
-        let mut best = T::ONE / T::ZERO;
-        let (mut without_progress, mut last) = (0, best);
+        let steps = span.step.to_chunk();
         for round in 1..=self.iteration_limit {
-            self.increments(step);
-            if let Err(failure) = self.evaluate(system, time, step) {
-                // An iterate that ran away says nothing about the equations.
-                if last > T::from_f64(RUNAWAY) {
-                    return self.give_up(step, round, last);
+            if !self.goes_on() {
+                return;
+            }
+            self.increments(span.step);
+            self.evaluate(system, span, round);
+            let changes = self.update(span.step).to_chunk();
+            let lanes = steps.as_ref().iter().zip(changes.as_ref());
+            for (iteration, (&step, &change)) in self.iterations[..R::LANES].iter_mut().zip(lanes) {
+                if iteration.goes_on {
+                    iteration.judge(step, round, change, self.tolerance);
                 }
-                return Err(failure);
-            }
-            let change = self.update(step);
-            last = change;
-            if change < best {
-                best = change;
-                without_progress = 0;
-            } else {
-                without_progress += 1;
-            }
-            // Where the change no longer falls, rounding is all that is left.
-            // It may fall in every second round only.
-            let settled = change <= self.tolerance
-                || (without_progress == 1 && change <= rounding)
-                || (without_progress > 1 && change <= noise);
-            if settled {
-                if round > STALE {
-                    self.newton_step = T::ZERO;
-                }
-                return Ok(());
-            }
-            if without_progress > PATIENCE {
-                return self.give_up(step, round, change);
             }
         }
-        self.give_up(step, self.iteration_limit, best)
+        for (iteration, &step) in self.iterations.iter_mut().zip(steps.as_ref()) {
+            if iteration.goes_on {
+                iteration.give_up(step, self.iteration_limit, iteration.best);
+            }
+        }
     }
 
-    fn give_up(&mut self, step: T, iterations: u32, change: T) -> Result<(), Failure<T>> {
-        self.newton_step = T::ZERO;
-        Err(Failure::NotSolved {
-            step: step.abs(),
-            iterations,
-            change,
-        })
+    #[inline(always)]
+    fn goes_on(&self) -> bool {
+        let iterations = &self.iterations[..R::LANES];
+        iterations.iter().any(|iteration| iteration.goes_on)
+    }
+
+    /// The lanes whose iteration goes on.
+    #[inline(always)]
+    fn going(&self) -> R::Mask {
+        R::mask(|lane| self.iterations[lane].goes_on)
     }
 
     /// h Σ_j a_ij K_j, and the residue of the start.
-    fn increments(&mut self, step: T) {
+    #[inline(always)]
+    fn increments(&mut self, step: R) {
         let (n, s) = (self.start.len(), self.table.nodes.len());
+        let zero = R::from_f64(0.0);
         for (i, row) in self.table.matrix.chunks(s).enumerate() {
             for k in 0..n {
-                let (mut main, mut rest) = (T::ZERO, T::ZERO);
+                let (mut main, mut rest) = (zero, zero);
                 for (j, &(large, small)) in row.iter().enumerate() {
-                    main += T::from_f64(large) * self.rates[j * n + k];
-                    rest += T::from_f64(small) * self.rates[j * n + k];
+                    main = main + R::from_f64(large) * self.rates[j * n + k];
+                    rest = rest + R::from_f64(small) * self.rates[j * n + k];
                 }
                 self.increments[i * n + k] = step * main + (step * rest + self.residue[k]);
             }
         }
     }
 
-    /// Rates at the stages' states, into `change`.
-    fn evaluate<O: Ode<T> + ?Sized>(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        step: T,
-    ) -> Result<(), Failure<T>> {
+    /// Rates at the stages' states, into `change`. Lanes in which they are not finite end
+    /// there.
+    #[inline(always)]
+    fn evaluate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>, round: u32) {
         let n = self.start.len();
         for (i, &node) in self.table.nodes.iter().enumerate() {
             for (k, value) in self.stage.iter_mut().enumerate() {
                 *value = self.start[k] + self.increments[i * n + k];
             }
             let rates = &mut self.change[i * n..(i + 1) * n];
-            let at = time + T::from_f64(node) * step;
-            if let Err(place) = system.evaluate(at, &self.stage, rates) {
-                self.newton_step = T::ZERO;
-                return Err(place.into());
+            let time = span.time + R::from_f64(node) * span.step;
+            system.write(time, &self.stage, rates);
+            let finite = check_finite(R::from_f64(0.0), rates).to_chunk();
+            let mut failed = false;
+            // As many as the compiler knows.
+            let iterations = &mut self.iterations[..R::LANES];
+            for (iteration, finite) in iterations.iter_mut().zip(finite.as_ref()) {
+                iteration.evaluations += u64::from(iteration.goes_on);
+                failed |= iteration.goes_on & !finite.is_finite();
+            }
+            if failed {
+                self.stumble(StepSpan { time, ..span }, round, finite.as_ref());
+                if !self.goes_on() {
+                    return;
+                }
             }
         }
-        Ok(())
     }
 
-    /// Moves the rates to the new ones in `change`; returns the largest change
-    /// of an increment, relative to the size of its component.
-    fn update(&mut self, step: T) -> T {
+    /// Ends the lanes in which the rates of a stage, at the time of `span`, are not finite.
+    #[cold]
+    fn stumble(&mut self, span: StepSpan<R>, round: u32, finite: &[T]) {
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if iteration.goes_on && !finite[lane].is_finite() {
+                let place = NonFinite {
+                    time: numbers(span.time)[lane],
+                    values: numbers_in(&self.stage, lane),
+                };
+                iteration.stumble(numbers(span.step)[lane], round, place);
+            }
+        }
+    }
+
+    /// Moves the rates to the new ones in `change`, in lanes that go on; returns the largest
+    /// change of an increment, relative to the size of its component.
+    #[inline(always)]
+    fn update(&mut self, step: R) -> R {
         let n = self.start.len();
         for (new, &old) in self.change.iter_mut().zip(&self.rates) {
             *new = *new - old;
         }
         if self.solver == Solver::Newton {
-            self.newton.solve(&mut self.change);
+            self.newton();
         }
-        let mut largest = T::ZERO;
+        let going = self.going();
+        let mut largest = R::from_f64(0.0);
         for (index, (rate, &change)) in self.rates.iter_mut().zip(&self.change).enumerate() {
-            *rate += change;
-            if change != T::ZERO {
-                let size = self.sizes[index % n].max((step * *rate).abs());
-                let ratio = (step * change).abs() / size;
-                largest = largest.max(ratio);
-            }
+            *rate = (*rate + change).choose(*rate, going);
+            let size = self.sizes[index % n].larger_size(step * *rate);
+            largest = largest.larger_size(step * change / size);
         }
         largest
     }
 
+    /// Solves the equations of Newton's method for the changes, lane by lane.
+    #[inline(always)]
+    fn newton(&mut self) {
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if !iteration.goes_on {
+                continue;
+            }
+            for (right, &change) in iteration.right.iter_mut().zip(&self.change) {
+                *right = change.to_chunk().as_ref()[lane];
+            }
+            iteration.newton.solve(&mut iteration.right);
+            let own = R::mask(|other| other == lane);
+            for (&right, change) in iteration.right.iter().zip(&mut self.change) {
+                *change = R::splat(right).choose(*change, own);
+            }
+        }
+    }
+
     /// Derivatives of the rates in the middle of the step, by differences, and
-    /// the matrix 1 − h a ⊗ ∂f/∂y of Newton's method.
-    fn differentiate<O: Ode<T> + ?Sized>(
-        &mut self,
-        system: &mut Evaluator<'_, T, O>,
-        time: T,
-        step: T,
-    ) -> Result<(), Failure<T>> {
-        let (n, s) = (self.start.len(), self.table.nodes.len());
-        let middle = time + T::from_f64(0.5) * step;
+    /// the matrix 1 − h a ⊗ ∂f/∂y of Newton's method, in lanes whose matrix is of another
+    /// step.
+    #[inline(always)]
+    fn differentiate<S: RightHandSide<R>>(&mut self, system: &mut S, span: StepSpan<R>) {
+        let steps = numbers(span.step);
+        let due = |lane: usize, iteration: &LaneIteration<T>| {
+            iteration.goes_on && iteration.newton_step != steps[lane]
+        };
+        let mut lanes = self.iterations.iter().enumerate();
+        if !lanes.any(|(lane, iteration)| due(lane, iteration)) {
+            return;
+        }
+        let n = self.start.len();
+        let middle = span.time + R::from_f64(0.5) * span.step;
         self.stage.copy_from_slice(&self.start);
         system.write(middle, &self.stage, &mut self.other);
-        let root = Scalar::sqrt(T::EPSILON);
+        let root = R::splat(Scalar::sqrt(T::EPSILON));
+        let (zero, one) = (R::from_f64(0.0), R::from_f64(1.0));
         for column in 0..n {
             let value = self.stage[column];
-            let shifted = value + root * (T::ONE + value.abs());
+            let shifted = value + root * (one + value.larger_size(zero));
             let difference = shifted - value;
             self.stage[column] = shifted;
             // Into the first rows of `increments`, which are made anew later.
@@ -171,24 +196,31 @@ impl<T: Real> GaussStep<T> {
             }
             self.stage[column] = value;
         }
-        let size = n * s;
-        for (i, row) in self.table.matrix.chunks(s).enumerate() {
-            for (j, &(large, small)) in row.iter().enumerate() {
-                let weight = step * T::from_f64(large + small);
-                for k in 0..n {
-                    for l in 0..n {
-                        let same = i == j && k == l;
-                        let one = if same { T::ONE } else { T::ZERO };
-                        self.newton.entries[(i * n + k) * size + j * n + l] =
-                            one - weight * self.derivatives[k * n + l];
+        let s = self.table.nodes.len();
+        for (lane, iteration) in self.iterations.iter_mut().enumerate() {
+            if !due(lane, iteration) {
+                continue;
+            }
+            iteration.evaluations += n as u64 + 1;
+            iteration.newton_step = steps[lane];
+            let entries = &mut iteration.newton.entries;
+            for (i, row) in self.table.matrix.chunks(s).enumerate() {
+                for (j, &(large, small)) in row.iter().enumerate() {
+                    let weight = steps[lane] * T::from_f64(large + small);
+                    for k in 0..n {
+                        for l in 0..n {
+                            let same = i == j && k == l;
+                            let one = if same { T::ONE } else { T::ZERO };
+                            let derivative = self.derivatives[k * n + l].to_chunk();
+                            let derivative = derivative.as_ref()[lane];
+                            entries[(i * n + k) * n * s + j * n + l] = one - weight * derivative;
+                        }
                     }
                 }
             }
+            if !iteration.newton.factorise() {
+                iteration.give_up(steps[lane], 0, T::NAN);
+            }
         }
-        if !self.newton.factorise() {
-            return self.give_up(step, 0, T::NAN);
-        }
-        self.newton_step = step;
-        Ok(())
     }
 }

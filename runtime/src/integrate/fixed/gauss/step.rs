@@ -2,140 +2,247 @@
 
 // A sealed trait names the type.
 #![allow(unreachable_pub)]
+// One index into all components at once.
+#![allow(clippy::needless_range_loop)]
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::tables::GaussTable;
-use super::{Gauss, GaussOrder, Solver};
+use super::iteration::LaneIteration;
+use super::{Gauss, Solver};
 use crate::integrate::checkpoint::Memory;
 use crate::integrate::evaluator::{Evaluator, NonFinite};
-use crate::integrate::fixed::grid::FixedStep;
-use crate::integrate::fixed::linear::Factored;
-use crate::integrate::fixed::projected::Corrected;
-use crate::integrate::piece::{Form, Piece};
+use crate::integrate::fixed::grid::{Corrected, FixedStep};
+use crate::integrate::piece::{Form, GaussOrder, GaussTable, Piece};
+use crate::integrate::registers::smallest_divisor;
 use crate::integrate::request::all_finite;
+use crate::integrate::right_hand_side::{RightHandSide, StepSpan};
 use crate::integrate::steps::Failure;
-use crate::scalar::Real;
-use crate::scalar::two_sum;
+use crate::scalar::{Real, two_sum};
+use crate::simd::Simd;
 use crate::system::Ode;
 
-/// A Gauss method at work.
+/// A Gauss method at work: on one state, which is a register of one lane, or on one in each
+/// lane of a register.
 #[derive(Clone, Debug)]
-pub struct GaussStep<T> {
+pub struct GaussStep<T, R> {
     order: GaussOrder,
     pub(super) table: &'static GaussTable,
     pub(super) solver: Solver,
     pub(super) tolerance: T,
     pub(super) iteration_limit: u32,
-    pub(super) start: Vec<T>,
-    end: Vec<T>,
+    pub(in crate::integrate::fixed) start: Vec<R>,
+    pub(in crate::integrate::fixed) end: Vec<R>,
     /// Rounding error of `start`, to be added to it.
-    pub(super) residue: Vec<T>,
-    end_residue: Vec<T>,
+    pub(in crate::integrate::fixed) residue: Vec<R>,
+    pub(in crate::integrate::fixed) end_residue: Vec<R>,
     /// Largest size of each component so far: what its changes are measured
-    /// by, since one that passes through zero has no size of its own.
-    pub(super) sizes: Vec<T>,
+    /// by, since one that passes through zero has no size of its own. At least the smallest
+    /// divisor: the change of a component that stays zero is zero, not 0/0.
+    pub(in crate::integrate::fixed) sizes: Vec<R>,
     /// Rates of the stages, one after the other.
-    pub(super) rates: Vec<T>,
+    pub(super) rates: Vec<R>,
     /// Increments of the stages over the start, one after the other.
-    pub(super) increments: Vec<T>,
+    pub(super) increments: Vec<R>,
     /// Change of the rates in an iteration.
-    pub(super) change: Vec<T>,
+    pub(super) change: Vec<R>,
     /// State at which rates are evaluated.
-    pub(super) stage: Vec<T>,
+    pub(super) stage: Vec<R>,
     /// Rates at the start of the run, or at a point of a difference.
-    pub(super) other: Vec<T>,
+    pub(in crate::integrate::fixed) other: Vec<R>,
     /// Step that `rates` belong to: zero before the first, and after a failed
     /// one, when there is nothing to extrapolate.
-    pub(super) step: T,
-    /// Matrix of Newton's method and the step that it was made for.
-    pub(super) newton: Factored<T>,
-    pub(super) newton_step: T,
+    pub(super) step: R,
     /// Derivatives of the rates, row after row.
-    pub(super) derivatives: Vec<T>,
+    pub(super) derivatives: Vec<R>,
+    /// What each lane has of its own.
+    pub(super) iterations: Vec<LaneIteration<T>>,
 }
 
-impl<T: Real> GaussStep<T> {
-    pub(in crate::integrate::fixed) fn new(method: &Gauss<T>, start: &[T]) -> Self {
+impl<T: Real, R: Simd<T>> GaussStep<T, R> {
+    pub(in crate::integrate::fixed) fn new(method: &Gauss<T>, start: Vec<R>) -> Self {
         let table = method.order.table();
         let (n, s) = (start.len(), table.nodes.len());
         let matrix = match method.solver {
             Solver::FixedPoint => 0,
             Solver::Newton => n,
         };
+        let (zero, smallest) = (R::from_f64(0.0), R::splat(smallest_divisor()));
+        let zeros = |count: usize| vec![zero; count];
         Self {
             order: method.order,
             table,
             solver: method.solver,
             tolerance: method.tolerance,
             iteration_limit: method.iteration_limit,
-            start: start.to_vec(),
-            end: vec![T::ZERO; n],
-            residue: vec![T::ZERO; n],
-            end_residue: vec![T::ZERO; n],
-            sizes: start.iter().map(|value| value.abs()).collect(),
-            rates: vec![T::ZERO; n * s],
-            increments: vec![T::ZERO; n * s],
-            change: vec![T::ZERO; n * s],
-            stage: vec![T::ZERO; n],
-            other: vec![T::ZERO; n],
-            step: T::ZERO,
-            newton: Factored::new(matrix * s),
-            newton_step: T::ZERO,
-            derivatives: vec![T::ZERO; matrix * matrix],
+            sizes: start
+                .iter()
+                .map(|value| value.larger_size(smallest))
+                .collect(),
+            start,
+            end: zeros(n),
+            residue: zeros(n),
+            end_residue: zeros(n),
+            rates: zeros(n * s),
+            increments: zeros(n * s),
+            change: zeros(n * s),
+            stage: zeros(n),
+            other: zeros(n),
+            step: zero,
+            derivatives: zeros(matrix * matrix),
+            iterations: (0..R::LANES)
+                .map(|_| LaneIteration::new(matrix * s))
+                .collect(),
         }
+    }
+
+    /// Writes the rates at the start, from which increments are guessed where there is no step
+    /// before.
+    #[inline(always)]
+    pub(in crate::integrate::fixed) fn evaluate_start<S: RightHandSide<R>>(
+        &mut self,
+        system: &mut S,
+        time: R,
+    ) {
+        let n = system.dimension();
+        system.write(time, &self.start[..n], &mut self.other[..n]);
+    }
+
+    /// Solves for the step in the lanes of `sought`, and makes the end where it is solved.
+    #[inline(always)]
+    pub(in crate::integrate::fixed) fn make_step<S: RightHandSide<R>>(
+        &mut self,
+        system: &mut S,
+        span: StepSpan<R>,
+        sought: &[bool],
+    ) {
+        self.guess(span.step);
+        self.solve(system, span, sought);
+        let solved = R::mask(|lane| self.iterations[lane].failure.is_none());
+        // The rates of a failed step say nothing: begin anew.
+        self.step = span.step.choose(R::from_f64(0.0), solved);
+        self.finish(span.step, solved);
     }
 
     /// Increments of the stages from the polynomial of the step before, or
     /// along the rates at the start where there is none.
-    fn guess(&mut self, step: T) {
-        let (n, s) = (self.start.len(), self.table.nodes.len());
-        let ratio = if self.step == T::ZERO {
-            T::ZERO
-        } else {
-            step / self.step
-        };
-        for (i, &node) in self.table.nodes.iter().enumerate() {
-            let own = &mut self.increments[i * n..(i + 1) * n];
-            if self.step == T::ZERO {
-                let part = T::from_f64(node) * step;
-                for (value, &rate) in own.iter_mut().zip(&self.other) {
-                    *value = part * rate;
-                }
-                continue;
-            }
-            own.fill(T::ZERO);
-            let place = T::ONE + ratio * T::from_f64(node);
-            for j in 0..s {
-                let weight =
-                    self.step * (self.order.integral(j, place) - self.order.integral(j, T::ONE));
-                for (value, &rate) in own.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
-                    *value += weight * rate;
+    #[inline(always)]
+    fn guess(&mut self, step: R) {
+        let before = self.step.to_chunk();
+        let is_new = |lane: usize| before.as_ref()[lane] == T::ZERO;
+        if !(0..R::LANES).all(is_new) {
+            self.extrapolate(step);
+        }
+        if (0..R::LANES).any(is_new) {
+            let n = self.start.len();
+            let mask = R::mask(is_new);
+            for (i, &node) in self.table.nodes.iter().enumerate() {
+                let part = R::from_f64(node) * step;
+                for k in 0..n {
+                    let value = &mut self.increments[i * n + k];
+                    *value = (part * self.other[k]).choose(*value, mask);
                 }
             }
         }
     }
 
-    /// y at the end of the step, from the rates of the stages.
-    fn finish(&mut self, step: T) {
+    /// Increments of the stages from the polynomial of the step before.
+    #[inline(always)]
+    fn extrapolate(&mut self, step: R) {
+        let (n, s) = (self.start.len(), self.table.nodes.len());
+        let (zero, one) = (R::from_f64(0.0), R::from_f64(1.0));
+        let ratio = step / self.step;
+        for (i, &node) in self.table.nodes.iter().enumerate() {
+            let own = &mut self.increments[i * n..(i + 1) * n];
+            own.fill(zero);
+            let place = one + ratio * R::from_f64(node);
+            for j in 0..s {
+                let weight =
+                    self.step * (self.order.integral(j, place) - self.order.integral(j, one));
+                for (value, &rate) in own.iter_mut().zip(&self.rates[j * n..(j + 1) * n]) {
+                    *value = *value + weight * rate;
+                }
+            }
+        }
+    }
+
+    /// y at the end of the step, from the rates of the stages, in the lanes of `solved`.
+    #[inline(always)]
+    fn finish(&mut self, step: R, solved: R::Mask) {
         let n = self.start.len();
+        let zero = R::from_f64(0.0);
         for i in 0..n {
-            let (mut main, mut rest) = (T::ZERO, T::ZERO);
+            let (mut main, mut rest) = (zero, zero);
             for (j, &(large, small)) in self.table.weights.iter().enumerate() {
-                main += T::from_f64(large) * self.rates[j * n + i];
-                rest += T::from_f64(small) * self.rates[j * n + i];
+                main = main + R::from_f64(large) * self.rates[j * n + i];
+                rest = rest + R::from_f64(small) * self.rates[j * n + i];
             }
             let increment = step * main + (step * rest + self.residue[i]);
             (self.end[i], self.end_residue[i]) = two_sum(self.start[i], increment);
-            self.sizes[i] = self.sizes[i].max(self.end[i].abs());
+            let size = self.sizes[i].larger_size(self.end[i]);
+            self.sizes[i] = size.choose(self.sizes[i], solved);
         }
+    }
+
+    /// Writes the solution at the fraction `s` of the step.
+    #[cfg(feature = "std")]
+    #[inline(always)]
+    pub(in crate::integrate::fixed) fn value(&self, s: R, out: &mut [R]) {
+        let weights = self.order.weights(self.step, s);
+        let n = self.start.len();
+        for i in 0..n {
+            out[i] = crate::integrate::piece::weigh(&weights, self.start[i], &self.rates, n, i);
+        }
+    }
+
+    /// Number of evaluations of the step in a lane.
+    #[cfg(feature = "std")]
+    pub(in crate::integrate::fixed) fn evaluations(&self, lane: usize) -> u64 {
+        self.iterations[lane].evaluations
+    }
+
+    /// Returns true if the step is solved in a lane.
+    #[cfg(feature = "std")]
+    pub(in crate::integrate::fixed) fn is_solved(&self, lane: usize) -> bool {
+        self.iterations[lane].failure.is_none()
+    }
+
+    /// Takes out why the step is not solved in a lane.
+    pub(in crate::integrate::fixed) fn take_failure(&mut self, lane: usize) -> Option<Failure<T>> {
+        self.iterations.get_mut(lane)?.failure.take()
+    }
+
+    /// Puts a state into a lane, where nothing is known of it.
+    #[cfg(feature = "std")]
+    pub(in crate::integrate::fixed) fn set_lane(&mut self, lane: usize, values: Option<&[T]>) {
+        use crate::integrate::registers::set_lane;
+        for i in 0..self.start.len() {
+            let value = values.map_or(T::ZERO, |values| values[i]);
+            set_lane(&mut self.start[i], lane, value);
+            set_lane(
+                &mut self.sizes[i],
+                lane,
+                value.abs().max(smallest_divisor()),
+            );
+            set_lane(&mut self.residue[i], lane, T::ZERO);
+            set_lane(&mut self.other[i], lane, T::ZERO);
+        }
+        for rate in &mut self.rates {
+            set_lane(rate, lane, T::ZERO);
+        }
+        set_lane(&mut self.step, lane, T::ZERO);
+        self.iterations[lane].newton_step = T::ZERO;
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T> {
+impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T, T> {
     fn begin(&mut self, system: &mut Evaluator<'_, T, O>, time: T) -> Result<(), NonFinite<T>> {
-        system.evaluate(time, &self.start, &mut self.other)
+        self.evaluate_start(system, time);
+        if all_finite(&self.other) {
+            Ok(())
+        } else {
+            Err(NonFinite::new(time, &self.start))
+        }
     }
 
     fn make(
@@ -144,15 +251,11 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T> {
         time: T,
         step: T,
     ) -> Result<(), Failure<T>> {
-        self.guess(step);
-        if let Err(failure) = self.solve(system, time, step) {
-            // The rates of a failed step say nothing: begin anew.
-            self.step = T::ZERO;
+        self.make_step(system, StepSpan { time, step }, &[true]);
+        if let Some(failure) = self.take_failure(0) {
             FixedStep::<T, O>::begin(self, system, time)?;
             return Err(failure);
         }
-        self.step = step;
-        self.finish(step);
         if all_finite(&self.end) {
             return Ok(());
         }
@@ -191,12 +294,13 @@ impl<T: Real, O: Ode<T> + ?Sized> FixedStep<T, O> for GaussStep<T> {
         memory.numbers(&mut self.rates);
         memory.numbers(&mut self.other);
         memory.number(&mut self.step);
-        self.newton.remember(memory);
-        memory.number(&mut self.newton_step);
+        for iteration in &mut self.iterations {
+            iteration.remember(memory);
+        }
     }
 }
 
-impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStep<T> {
+impl<T: Real, O: Ode<T> + ?Sized> Corrected<T, O> for GaussStep<T, T> {
     fn correct(
         &mut self,
         _system: &mut Evaluator<'_, T, O>,

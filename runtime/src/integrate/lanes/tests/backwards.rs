@@ -1,7 +1,7 @@
 //! Backwards in lanes is forwards with velocities and friction turned round, bit for bit.
 
 use super::{Cases, END, Each, Integrator, LaneMethod, LopsidedOde};
-use super::{lopsided, outcomes, starts, times, with_each};
+use super::{lopsided, outcomes, starts, times, with_mirrored};
 use crate::integrate::{Options, StopReason};
 use crate::scalar::InstructionSet;
 use crate::system::State;
@@ -60,6 +60,6 @@ fn backwards_is_forwards_mirrored() {
         ..basic.clone()
     };
     for options in [basic, limited] {
-        with_each(&options, &mut Mirrored);
+        with_mirrored(&options, &mut Mirrored);
     }
 }

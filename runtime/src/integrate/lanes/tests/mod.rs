@@ -4,6 +4,7 @@ mod agreement;
 mod backwards;
 mod bits;
 mod failures;
+mod fixed;
 mod model;
 mod models;
 
@@ -12,7 +13,8 @@ use core::ops::ControlFlow;
 use self::model::{Lopsided, LopsidedOde, lopsided};
 use super::{Cases, LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
-    DenseStep, Dop853, Dopri5, IntegrationError, Integrator, Options, Solution, Taylor, Verner98,
+    DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Options, Rk4,
+    Solution, Solver, Taylor, Verner98,
 };
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::{AbsoluteAngles, State};
@@ -29,13 +31,68 @@ trait Each<T: Lane> {
         M: Integrator<T, LopsidedOde<T>>;
 }
 
-/// Does it with all methods, with these options.
+/// Does it with all methods, with these options or with fixed steps.
 fn with_each<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
-    with_pairs(options, work);
-    work.each(&Taylor::new(options.clone()));
+    with_mirrored(options, work);
+    work.each(&Gauss {
+        solver: Solver::Newton,
+        ..gauss(GaussOrder::Six, options.step_limit)
+    });
 }
 
-/// Does it with all methods but the Taylor series.
+/// Does it with all methods whose bits backwards are those forwards. Newton's method takes
+/// differences in one direction.
+fn with_mirrored<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
+    with_pairs(options, work);
+    work.each(&Taylor::new(options.clone()));
+    work.each(&rk4(options.step_limit));
+    work.each(&gauss(GaussOrder::Four, options.step_limit));
+}
+
+/// Does it with all methods of fixed steps.
+fn with_fixed_steps<T: Lane>(step_limit: u64, work: &mut impl Each<T>) {
+    work.each(&rk4(step_limit));
+    for order in [
+        GaussOrder::Two,
+        GaussOrder::Four,
+        GaussOrder::Six,
+        GaussOrder::Eight,
+    ] {
+        for solver in [Solver::FixedPoint, Solver::Newton] {
+            work.each(&Gauss {
+                solver,
+                ..gauss(order, step_limit)
+            });
+        }
+    }
+    // Steps that are halved, and an iteration that ends at a tolerance.
+    work.each(&Gauss {
+        iteration_limit: 12,
+        ..Gauss::new(GaussOrder::Six, T::from_f64(0.3))
+    });
+    work.each(&Gauss::for_animation(T::from_f64(0.1)));
+}
+
+// Steps that are no divisors of the times, and limits beyond which some trajectories need not
+// go.
+
+fn rk4<T: Lane>(step_limit: u64) -> Rk4<T> {
+    let method = Rk4::new(T::from_f64(0.007));
+    Rk4 {
+        step_limit: step_limit.max(500),
+        ..method
+    }
+}
+
+fn gauss<T: Lane>(order: GaussOrder, step_limit: u64) -> Gauss<T> {
+    let method = Gauss::new(order, T::from_f64(0.037));
+    Gauss {
+        step_limit: step_limit.max(100),
+        ..method
+    }
+}
+
+/// Does it with all pairs.
 fn with_pairs<T: Lane>(options: &Options<T>, work: &mut impl Each<T>) {
     work.each(&Dopri5::new(options.clone()));
     work.each(&Dop853::new(options.clone()));

@@ -35,7 +35,7 @@ fn releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
 /// are in line.
 const BAD: [usize; 3] = [3, 13, 29];
 
-fn bad_releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
+pub(super) fn bad_releases<T: Lane>() -> Vec<(LopsidedOde<T>, State<T>)> {
     let mut releases = releases::<T>();
     releases[3].0.0.friction = T::NAN;
     releases[13].0.0.wall = T::from_f64(0.1);

@@ -1,8 +1,7 @@
-//! The numbers in registers, one by one.
+//! The numbers in registers, one by one. A single number is a register of one lane.
 
 use alloc::vec::Vec;
 
-use crate::integrate::options::Options;
 use crate::scalar::Real;
 use crate::simd::Simd;
 pub(crate) use crate::simd::WIDEST;
@@ -20,6 +19,7 @@ pub(crate) fn numbers<T: Real, R: Simd<T>>(register: R) -> Numbers<T> {
 }
 
 /// The register of these numbers.
+#[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn register<T: Real, R: Simd<T>>(numbers: &Numbers<T>) -> R {
     const { assert!(R::LANES <= WIDEST) }
@@ -36,6 +36,7 @@ pub(crate) fn numbers_in<T: Real, R: Simd<T>>(registers: &[R], lane: usize) -> V
 }
 
 /// Writes them to `out`.
+#[cfg(feature = "std")]
 pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: &mut [T]) {
     for (out, &register) in out.iter_mut().zip(registers) {
         *out = numbers(register)[lane];
@@ -43,6 +44,7 @@ pub(crate) fn copy_lane<T: Real, R: Simd<T>>(registers: &[R], lane: usize, out: 
 }
 
 /// Changes one of the numbers.
+#[cfg(feature = "std")]
 pub(crate) fn set_lane<T: Real, R: Simd<T>>(target: &mut R, lane: usize, value: T) {
     let mut changed = numbers(*target);
     changed[lane] = value;
@@ -67,22 +69,4 @@ pub(crate) fn smallest_divisor<T: Real>() -> T {
         smallest = smallest * half;
     }
     smallest
-}
-
-/// Tolerances of each component in every lane: relative ones, and absolute ones
-/// that are not zero. Where a component is exactly zero by symmetry, its error is
-/// too: zero over the smallest number, not over zero.
-pub(crate) fn tolerances<T: Real, R: Simd<T>>(
-    options: &Options<T>,
-    dimension: usize,
-) -> (Vec<R>, Vec<R>) {
-    let smallest = smallest_divisor();
-    let relative = options.relative.expand(dimension).into_iter();
-    let absolute = options.absolute.expand(dimension).into_iter();
-    (
-        relative.map(R::splat).collect(),
-        absolute
-            .map(|absolute| R::splat(absolute.max(smallest)))
-            .collect(),
-    )
 }

@@ -82,13 +82,13 @@ impl<T: Real> Ahead<'_, T> {
 
 /// The largest ratios of the last two coefficients to their tolerances, order
 /// by order.
-pub(super) struct LastTerms<'a, T> {
+pub(in crate::integrate) struct LastTerms<'a, T> {
     /// Coefficients of the last two orders.
-    pub(super) coefficients: &'a [T],
-    pub(super) start: &'a [T],
-    pub(super) relative: &'a [T],
-    pub(super) absolute: &'a [T],
-    pub(super) ratios: &'a mut [T; 2],
+    pub(in crate::integrate) coefficients: &'a [T],
+    pub(in crate::integrate) start: &'a [T],
+    pub(in crate::integrate) relative: &'a [T],
+    pub(in crate::integrate) absolute: &'a [T],
+    pub(in crate::integrate) ratios: &'a mut [T; 2],
 }
 
 impl<T: Real> Kernel<T> for LastTerms<'_, T> {

@@ -10,20 +10,20 @@
 //! Brouwer's law with implicit Runge–Kutta methods*, BIT 48 (2008) 231–243).
 
 /// A coefficient as a multiple of 1/1024 and the rest.
-pub(super) type Split = (f64, f64);
+pub(in crate::integrate) type Split = (f64, f64);
 
 /// One of the methods.
 #[derive(Debug)]
-pub(super) struct GaussTable {
+pub(in crate::integrate) struct GaussTable {
     /// Nodes c.
-    pub(super) nodes: &'static [f64],
+    pub(in crate::integrate) nodes: &'static [f64],
     /// Rows of the matrix a, one after the other.
-    pub(super) matrix: &'static [Split],
+    pub(in crate::integrate) matrix: &'static [Split],
     /// Weights b.
-    pub(super) weights: &'static [Split],
+    pub(in crate::integrate) weights: &'static [Split],
     /// Integral from 0 to x of the Lagrange polynomial of each node: the
     /// coefficients of x, x², …, one row a node.
-    pub(super) integrals: &'static [f64],
+    pub(in crate::integrate) integrals: &'static [f64],
 }
 
 /// The methods of 1 to 4 stages.

@@ -3,9 +3,14 @@
 // A sealed trait names the types.
 #![allow(unreachable_pub)]
 
-use super::explicit::{alternating, bernstein, blend};
-use super::fixed::GaussOrder;
-use super::taylor::Ahead;
+mod collocation;
+mod polynomials;
+mod series;
+
+pub use self::collocation::GaussOrder;
+pub(super) use self::collocation::{GaussTable, weigh};
+pub(super) use self::polynomials::{DEGREE, alternating, bernstein, blend, hermite};
+pub(super) use self::series::{Ahead, LastTerms};
 use crate::scalar::{Dual, Real, Scalar};
 use crate::simd::dispatch::in_fours;
 
@@ -104,7 +109,6 @@ impl<'a, T: Real> Piece<'a, T> {
     fn evaluate<S: Lift<T>>(&self, s: S, out: &mut [T], part: impl Fn(S) -> T) {
         let n = self.start.len();
         let [terms, apart] = self.terms;
-        let r = S::from_f64(1.0) - s;
         match self.form {
             Form::Alternating => {
                 for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
@@ -117,27 +121,18 @@ impl<'a, T: Real> Piece<'a, T> {
                     *out = part(blend(&weights, start, terms, n, i));
                 }
             }
-            // y + s (Δy + r (d₁ + s (d₂ − d₁))), d₁ = h k₀ − Δy, d₂ = Δy − h k₁
             Form::Hermite => {
                 let rates = terms.iter().zip(apart);
                 let ends = self.start.iter().zip(self.end);
                 for (out, ((&start, &end), (&first, &last))) in out.iter_mut().zip(ends.zip(rates))
                 {
-                    let increment = end - start;
-                    let left = self.length * first - increment;
-                    let right = increment - self.length * last;
-                    let bend = S::lift(left) + s * S::lift(right - left);
-                    *out = part(S::lift(start) + s * (S::lift(increment) + r * bend));
+                    *out = part(hermite(s, self.length, [start, end], [first, last]));
                 }
             }
             Form::Collocation(order) => {
-                let weight = |j| S::lift(self.length) * order.integral(j, s);
-                let weights: [S; 4] = core::array::from_fn(weight);
+                let weights = order.weights(self.length, s);
                 for (i, (out, &start)) in out.iter_mut().zip(self.start).enumerate() {
-                    let mut value = S::lift(start);
-                    for (rates, &weight) in terms.chunks_exact(n).zip(&weights) {
-                        value = value + weight * S::lift(rates[i]);
-                    }
+                    let mut value = weigh(&weights, start, terms, n, i);
                     if let Some(&correction) = apart.get(i) {
                         value = value + s * S::lift(correction);
                     }

@@ -1,0 +1,125 @@
+//! The right-hand sides of the systems in the lanes.
+
+// The interface of a sealed trait names the type.
+#![allow(unreachable_pub)]
+
+use alloc::vec::Vec;
+use core::convert::Infallible;
+
+use super::models::Models;
+use crate::integrate::registers::{Numbers, check_finite, numbers, numbers_in};
+use crate::integrate::right_hand_side::{MOST_STAGES, RightHandSide};
+use crate::scalar::Lane;
+use crate::simd::{Part, Simd, outlined};
+use crate::system::LaneOde;
+
+/// The systems in the lanes, and which of their evaluations were finite.
+pub struct LaneSystems<O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    pub(crate) models: Models<O, T, R>,
+    /// Zero after a stage, NaN from the first stage on whose rates are not finite.
+    checks: [R; MOST_STAGES],
+}
+
+/// In a function of its own, which all stages call: equations of large trees
+/// are long.
+impl<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> Part<0, (R, &'a [R], &'a mut [R])>
+    for Models<O, T, R>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn part(&self, (time, state, rates): (R, &'a [R], &'a mut [R])) {
+        O::rates_of(&self.registers, time, state, rates);
+    }
+}
+
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> LaneSystems<O, T, R> {
+    /// One system in every lane.
+    pub(crate) fn splat(system: &O) -> Self {
+        Self {
+            models: Models::splat(system),
+            checks: [R::from_f64(0.0); MOST_STAGES],
+        }
+    }
+
+    /// Numbers that are finite in lanes where the rates of this stage are, and of those
+    /// before it from the second one on.
+    #[inline(always)]
+    pub(crate) fn check(&self, stage: usize) -> Numbers<T> {
+        numbers(self.checks[stage - 1])
+    }
+
+    /// The first stage from `first` to `last` whose rates are not finite in a lane.
+    #[cold]
+    pub(crate) fn failed_stage(&self, lane: usize, first: usize, last: usize) -> usize {
+        let failed = |stage: &usize| !self.check(*stage)[lane].is_finite();
+        (first..last).find(failed).unwrap_or(last)
+    }
+}
+
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for LaneSystems<O, T, R> {
+    type Failure = Infallible;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.models.dimension()
+    }
+
+    #[inline(always)]
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        outlined::<0, R, _, _>(&self.models, (time, state, rates));
+    }
+
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        stage: usize,
+        time: R,
+        state: &[R],
+        rates: &mut [R],
+    ) -> Result<(), Infallible> {
+        self.write(time, state, rates);
+        let before = if stage > 2 {
+            self.checks[stage - 2]
+        } else {
+            R::from_f64(0.0)
+        };
+        self.checks[stage - 1] = check_finite(before, rates);
+        Ok(())
+    }
+}
+
+/// Systems that are evaluated once more to see time and state of one stage in one lane.
+pub(crate) struct StageOfLane<'a, O: LaneOde<T>, T: Lane, R: Simd<T>> {
+    pub(crate) systems: &'a mut LaneSystems<O, T, R>,
+    pub(crate) lane: usize,
+    pub(crate) stage: usize,
+    /// Time and state of the stage, once it has been evaluated.
+    pub(crate) place: (T, Vec<T>),
+}
+
+impl<O: LaneOde<T>, T: Lane, R: Simd<T>> RightHandSide<R> for StageOfLane<'_, O, T, R> {
+    type Failure = Infallible;
+
+    #[inline(always)]
+    fn dimension(&self) -> usize {
+        self.systems.dimension()
+    }
+
+    fn write(&mut self, time: R, state: &[R], rates: &mut [R]) {
+        self.systems.write(time, state, rates);
+    }
+
+    fn evaluate(
+        &mut self,
+        stage: usize,
+        time: R,
+        state: &[R],
+        rates: &mut [R],
+    ) -> Result<(), Infallible> {
+        if stage == self.stage {
+            self.place = (numbers(time)[self.lane], numbers_in(state, self.lane));
+        }
+        self.systems.evaluate(stage, time, state, rates)
+    }
+}
