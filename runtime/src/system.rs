@@ -46,6 +46,7 @@ pub use function::{At, Computes, Function, functions};
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;
+pub(crate) use model::known;
 pub use motion::{CastSecondOrder, Motion, SecondOrder};
 pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;

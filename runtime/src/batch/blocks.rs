@@ -2,6 +2,7 @@
 
 use crate::scalar::Lane;
 use crate::simd::{Kernel, Known, Simd};
+use crate::system::known;
 use crate::system::{InRegisters, Pendulum};
 
 /// All states, if they are enough for one register; lengths checked.
@@ -31,10 +32,10 @@ where
         let Some(last) = self.count.checked_sub(R::LANES) else {
             return 0;
         };
-        match P::KNOWN_LINKS {
-            Some(1) if R::AHEAD => self.ahead::<R, 1>(last),
-            Some(2) if R::AHEAD => self.ahead::<R, 2>(last),
-            Some(3) if R::AHEAD => self.ahead::<R, 3>(last),
+        match const { known(P::KNOWN_LINKS) } {
+            1 if R::AHEAD => self.ahead::<R, 1>(last),
+            2 if R::AHEAD => self.ahead::<R, 2>(last),
+            3 if R::AHEAD => self.ahead::<R, 3>(last),
             _ => self.in_turn::<R>(last),
         }
     }

@@ -11,6 +11,10 @@ use crate::scalar::Scalar;
 /// Equations of motion with torques that the caller hands over: wind, a hand, a motor,
 /// contact. Models have them with `emit(forces)`; what computes
 /// [`AccelerationsUnderTorques`](functions::AccelerationsUnderTorques) implements this.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` takes no torques from outside",
+    note = "a model takes them with `emit(forces)` in its attribute"
+)]
 pub trait Forced<T: Scalar>:
     Pendulum<T> + Computes<functions::AccelerationsUnderTorques, T>
 {

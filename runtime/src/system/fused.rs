@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use super::model::known;
 use super::{At, Computes, Function};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
@@ -26,8 +27,9 @@ pub(super) fn in_fused_arithmetic<F: Function, T: Scalar, M: Computes<F, T>>(
     results: &mut [&mut [T]],
 ) {
     const { assert!(F::GIVEN <= MOST_GIVEN && F::RESULTS <= MOST_RESULTS) }
-    let is_small = matches!(M::KNOWN_LINKS, Some(..=MOST_LINKS));
-    if !is_small || [given.len(), results.len()] != [F::GIVEN, F::RESULTS] {
+    if !const { is_small(known(M::KNOWN_LINKS)) }
+        || [given.len(), results.len()] != [F::GIVEN, F::RESULTS]
+    {
         return model.compute(at, given, results);
     }
     let mut state = OneState {
@@ -44,6 +46,10 @@ pub(super) fn in_fused_arithmetic<F: Function, T: Scalar, M: Computes<F, T>>(
         *own = slice;
     }
     T::by_kind(state);
+}
+
+const fn is_small(links: usize) -> bool {
+    0 < links && links <= MOST_LINKS
 }
 
 /// A state of a model, and where the results go: as many slices as the function has, none

@@ -126,6 +126,15 @@ impl<T: Scalar, M: Model<T>> Model<T> for &M {
     }
 }
 
+/// Returns the number of links that a type tells, 0 where it tells none. Choices by it are ones of
+/// the compiler: what is not chosen is not compiled.
+pub(crate) const fn known(links: Option<usize>) -> usize {
+    match links {
+        Some(links) => links,
+        None => 0,
+    }
+}
+
 /// Returns twice a number that may be known.
 pub(super) const fn twice(links: Option<usize>) -> Option<usize> {
     match links {

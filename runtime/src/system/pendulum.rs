@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 
+use super::model::known;
 use super::{Model, Workspace};
 use crate::scalar::{Scalar, at};
 use crate::simd::dispatch::in_fused;
@@ -203,10 +204,7 @@ struct OneStateOf<P>(PhantomData<P>);
 impl<T: Scalar, P: Pendulum<T>> StateKernel<T> for OneStateOf<P> {
     type Model = P;
 
-    const LINKS: usize = match P::KNOWN_LINKS {
-        Some(links) => links,
-        None => 0,
-    };
+    const LINKS: usize = known(P::KNOWN_LINKS);
 
     #[inline(always)]
     fn run<V: Simd<T>>(pendulum: &P, time: T, theta: &[T], omega: &[T], alpha: &mut [T]) {
