@@ -70,6 +70,7 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("More can be asked for with `emit(…)` in the attribute.".into());
         }
+        lines.extend(self.example());
         lines
     }
 

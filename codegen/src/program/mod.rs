@@ -87,12 +87,14 @@ pub fn lower(
     let mut program = lowering.builder.finish(entries, choice)?;
     program.strips = strips;
     let passes = PASSES.iter().filter(|(pass, _)| off != Some(*pass));
-    Ok(passes.fold(program, |program, (_, pass)| {
+    let mut program = passes.fold(program, |program, (_, pass)| {
         debug_assert_eq!(program.verify(), Ok(()), "before a pass");
         let program = pass(program);
         debug_assert_eq!(program.verify(), Ok(()), "after a pass");
         program
-    }))
+    });
+    program.name_constants(mechanics);
+    Ok(program)
 }
 
 /// All of a scene's code in one list.

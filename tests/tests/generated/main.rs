@@ -2,6 +2,7 @@
 
 mod any_number;
 mod bits;
+mod example;
 mod fused;
 mod generations;
 mod hints;
