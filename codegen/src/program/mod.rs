@@ -32,6 +32,7 @@ mod passes;
 mod positions;
 mod rebuild;
 mod rotations;
+mod rounding;
 mod rules;
 mod scale;
 mod sectors;
@@ -44,6 +45,7 @@ mod text;
 mod transfers;
 mod transverse;
 mod verify;
+mod wide;
 
 pub use choice::{SolveChoice, cost};
 pub use constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
@@ -56,6 +58,7 @@ pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use rounding::Rounding;
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 

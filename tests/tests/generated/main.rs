@@ -10,6 +10,7 @@ mod hygiene;
 mod loop_states;
 mod loops;
 mod positions;
+mod rounding;
 mod scalars;
 mod sectors;
 mod standing;
