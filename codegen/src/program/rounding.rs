@@ -234,7 +234,7 @@ mod tests {
         assert!(ulps > 0.3 && ulps <= 0.5, "{ulps}");
         assert_eq!(states, 16);
         let twice = rounding(|builder| {
-            let x = builder.input(Argument::Omega, 0);
+            let x = builder.input(Argument::Theta, 0);
             builder.add(x, x)
         });
         assert_eq!(twice.map(|twice| twice.ulps), Some(0.0));
@@ -253,12 +253,13 @@ mod tests {
     }
 
     #[test]
-    fn torques_have_no_size() {
-        let torque = rounding(|builder| {
-            let [x, torque] =
-                [Argument::Theta, Argument::Torques].map(|argument| builder.input(argument, 0));
-            builder.mul(x, torque)
+    fn parameters_have_no_value() {
+        let scaled = rounding(|builder| {
+            let mass = builder.setup.parameter(0, "mass");
+            let mass = builder.constant(mass);
+            let x = builder.input(Argument::Theta, 0);
+            builder.mul(x, mass)
         });
-        assert_eq!(torque, None);
+        assert_eq!(scaled, None);
     }
 }
