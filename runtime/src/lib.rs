@@ -126,7 +126,7 @@ pub mod transfer_forms;
 pub mod tree;
 
 // What emitted code names, at the shortest path.
-pub use model::{ParameterError, Transfer};
+pub use model::{ParameterError, Transfer, UnknownParameter};
 pub use scalar::Scalar;
 pub use sectors::{Budget, ScaleBudget, Scales, Sectors};
 pub use system::{

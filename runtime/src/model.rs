@@ -48,6 +48,39 @@ impl fmt::Display for ParameterError {
 
 impl core::error::Error for ParameterError {}
 
+/// A name that no parameter of a model has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct UnknownParameter {
+    /// The name.
+    pub name: String,
+    /// The names of the parameters, in their order.
+    pub known: &'static [&'static str],
+}
+
+impl UnknownParameter {
+    /// No parameter of these has the name.
+    pub fn new(name: &str, known: &'static [&'static str]) -> Self {
+        Self {
+            name: name.into(),
+            known,
+        }
+    }
+}
+
+impl fmt::Display for UnknownParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, known } = self;
+        write!(
+            f,
+            "no parameter `{name}`: there are `{}`",
+            known.join("`, `")
+        )
+    }
+}
+
+impl core::error::Error for UnknownParameter {}
+
 /// Returns a value as messages show it: with an exponent where it is far from 1.
 pub fn shown(value: f64) -> String {
     match value == 0.0 || (1e-5..1e16).contains(&value.abs()) || !value.is_finite() {

@@ -4,7 +4,7 @@ use super::Emission;
 use super::doc_text::doc_lines;
 use crate::functions::{Argument, Cause, Counting, EntryState, Purpose};
 use crate::mechanics::superscript;
-use crate::program::Entry;
+use crate::program::{Entry, Rounding};
 use crate::scene::{CoordinateKind, Reduction, Solve};
 use proc_macro2::TokenStream;
 
@@ -70,6 +70,7 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("More can be asked for with `emit(…)` in the attribute.".into());
         }
+        lines.extend(self.example());
         lines
     }
 
@@ -107,6 +108,13 @@ impl Emission<'_> {
             && let Some(factorization) = choice.factorization
         {
             cost += &format!(" By elimination: {factorization}.");
+        }
+        if let Some(Rounding { ulps, states }) = self.program.rounding(entry) {
+            // Rounded up.
+            let ulps = (10.0 * ulps).ceil() / 10.0;
+            cost += &format!(
+                " Rounding error: at most {ulps:.1} ulp of the largest result, at {states} states."
+            );
         }
         lines.push(cost);
         doc_lines(&lines)

@@ -3,7 +3,7 @@
 use super::Emission;
 use crate::description::StructItem;
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, latex};
+use crate::mechanics::{Mechanics, constant_latex, latex};
 use crate::program::Program;
 use crate::scene::Scene;
 
@@ -42,7 +42,7 @@ pub fn latex_document(
     let constants = mechanics.constants.iter();
     let constants = constants.map(|constant| {
         let left = &symbols.get(constant.symbol).latex;
-        line(left, &constant.value)
+        aligned(left, &constant_latex(&constant.value, symbols))
     });
     let mut document = format!(
         "\\documentclass{{article}}\n\\usepackage{{amsmath}}\n\

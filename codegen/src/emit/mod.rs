@@ -7,6 +7,7 @@ mod constants;
 mod doc_text;
 mod docs;
 mod drive;
+mod example;
 mod expressions;
 mod formulas;
 mod function;
@@ -49,6 +50,7 @@ pub use stub::stub;
 use crate::description::StructItem;
 use crate::functions::Purpose;
 use crate::mechanics::Mechanics;
+use crate::mechanics::expression::Symbol;
 use crate::program::{ConstantId, ConstantOp, Op, Program, ValueId};
 use crate::scene::Scene;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -106,8 +108,9 @@ pub fn emit(
         #[allow(dead_code, clippy::possible_missing_comma)]
         impl<T: #runtime::Scalar> #name<T> {
             #(#functions)*
-            #accessors
         }
+
+        #accessors
 
         #parts
 
@@ -172,15 +175,23 @@ impl Emission<'_> {
         if let ConstantOp::Parameter(_) = definition.op {
             let others = |name: &str| {
                 let mut constants = setup.iter().filter(|(other, _)| *other != id);
+                let mut read = setup.stand_ins.keys();
                 name == "parameters"
                     || self.is_loop_field(name)
                     || constants.any(|(_, constant)| constant.name == name)
+                    || read.any(|&index| self.letter(index).code == name)
             };
             while others(&name) {
                 name = format!("parameter_{name}");
             }
         }
         format_ident!("{name}")
+    }
+
+    /// The symbol of a constant of the mechanics.
+    fn letter(&self, index: usize) -> &Symbol {
+        let symbol = self.mechanics.constants[index].symbol;
+        self.mechanics.symbols.get(symbol)
     }
 
     fn op(&self, id: ValueId) -> &Op {

@@ -3,7 +3,9 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::float;
-use crate::program::ConstantOp;
+use crate::mechanics::constant_text;
+use crate::mechanics::expression::Symbol;
+use crate::program::ConstantId;
 use crate::scene::{
     LinkId, Magnitudes, NEGLIGIBLE, Offset, ParameterId, Quantity, Requirement, Sign,
 };
@@ -23,8 +25,8 @@ impl Emission<'_> {
         let docs = doc_lines(&docs);
         let derives = self.missing_derives();
         let fields = self.stored_constants().into_iter().map(|id| {
-            let field = self.field(id);
-            quote!(#field: T)
+            let (docs, field) = (self.shared_field(id), self.field(id));
+            quote!(#docs #field: T)
         });
         let fields: Vec<TokenStream> = match self.scene.in_loops() {
             true => self.strip_fields(),
@@ -44,6 +46,17 @@ impl Emission<'_> {
 
             #constructor
         }
+    }
+
+    /// The letters that a field stands for, where these are several.
+    fn shared_field(&self, id: ConstantId) -> Option<TokenStream> {
+        let read = self.program.setup.stand_ins.iter();
+        let letters = read.filter(|(_, own)| **own == id);
+        let letters: Vec<&str> = letters
+            .map(|(&index, _)| self.letter(index).text.as_str())
+            .collect();
+        let docs = || doc_lines(&[format!("{}.", letters.join(" = "))]);
+        (letters.len() > 1).then(docs)
     }
 
     fn missing_derives(&self) -> TokenStream {
@@ -145,12 +158,15 @@ impl Emission<'_> {
         let requirements = requirements.map(|requirement| self.requirement(requirement));
         let regular = self.regularity();
         let parametric = self.parametric();
+        let setter = self.setter();
         quote! {
             #[doc = #docs]
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
             #vis struct #parameters<T = f64> {
                 #(#fields),*
             }
+
+            #setter
 
             // As for the functions below.
             #[allow(dead_code, clippy::possible_missing_comma)]
@@ -178,6 +194,38 @@ impl Emission<'_> {
             }
 
             #parametric
+        }
+    }
+
+    /// Parameters by their names, as a file or a command line has them.
+    fn setter(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let parameters = format_ident!("{}Parameters", name);
+        let names = self.scene.parameters.iter();
+        let names: Vec<&String> = names.map(|parameter| &parameter.name).collect();
+        let fields = names.iter().map(|name| format_ident!("{name}"));
+        quote! {
+            #[allow(dead_code)]
+            impl<T> #parameters<T> {
+                /// Sets the parameter of that name.
+                ///
+                /// # Errors
+                /// A name that none of them has.
+                pub fn set(
+                    &mut self,
+                    name: &str,
+                    value: T,
+                ) -> ::core::result::Result<(), #runtime::UnknownParameter> {
+                    let parameter = match name {
+                        #(#names => &mut self.#fields,)*
+                        _ => return ::core::result::Result::Err(
+                            #runtime::UnknownParameter::new(name, &[#(#names),*]),
+                        ),
+                    };
+                    *parameter = value;
+                    ::core::result::Result::Ok(())
+                }
+            }
         }
     }
 
@@ -284,33 +332,45 @@ impl Emission<'_> {
         quote!(#runtime::emitted::require_regular(&[#(#bodies),*], [#(#negligible),*])?;)
     }
 
-    /// One reading function for each named constant.
+    /// One reading function for each named constant, apart from the functions of the state.
     pub(super) fn accessors(&self) -> TokenStream {
-        let accessors = self.stored_constants().into_iter().filter_map(|id| {
-            let definition = self.program.setup.get(id);
-            let ConstantOp::Named(index, _) = definition.op else {
-                return None;
-            };
+        let stored = self.stored_constants();
+        let read = self.program.setup.stand_ins.iter();
+        let mut read: Vec<(ConstantId, usize)> = read
+            .filter(|(_, id)| stored.contains(id))
+            .map(|(&index, &id)| (id, index))
+            .collect();
+        read.sort_unstable();
+        let accessors = read.iter().map(|&(id, index)| {
             let constant = &self.mechanics.constants[index];
-            let symbol = self.mechanics.symbols.get(constant.symbol);
+            let Symbol { text, code, .. } = self.letter(index);
+            let value = constant_text(&constant.value, &self.mechanics.symbols);
             let docs = doc_lines(&[
-                format!(
-                    "{} (in {}): {}.",
-                    symbol.text, constant.unit, constant.meaning
-                ),
+                format!("{text} (in {}): {}.", constant.unit, constant.meaning),
                 String::new(),
-                format!("{} = {}", symbol.text, self.text(&constant.value)),
+                format!("{text} = {value}"),
             ]);
-            let name = self.field(id);
-            Some(quote! {
+            let (name, field) = (format_ident!("{code}"), self.field(id));
+            quote! {
                 #docs
                 #[inline]
                 #[must_use]
                 pub fn #name(&self) -> T {
-                    self.#name
+                    self.#field
                 }
-            })
+            }
         });
-        quote!(#(#accessors)*)
+        let accessors: Vec<TokenStream> = accessors.collect();
+        if accessors.is_empty() {
+            return TokenStream::new();
+        }
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        quote! {
+            /// Constants of the model.
+            #[allow(dead_code)]
+            impl<T: #runtime::Scalar> #name<T> {
+                #(#accessors)*
+            }
+        }
     }
 }

@@ -6,7 +6,9 @@ use crate::mechanics;
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::scene::PassiveTorques;
 
-/// Formulas of more rows than this are shown up to here.
+/// Most formulas that are all shown: those of four links with springs and friction.
+const MOST_ROWS: usize = 24;
+/// Formulas that are shown of more than these.
 const ROWS: usize = 8;
 /// A formula longer than this is left to `branched-pendulum --stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
@@ -80,7 +82,11 @@ impl Emission<'_> {
 
     /// Formulas as a text block and, folded away, as LaTeX.
     pub(super) fn show(&self, formulas: &[NamedFormula], lines: &mut Vec<String>) {
-        let shown = self.show_text(formulas, ROWS, lines);
+        let most = match formulas.len() <= MOST_ROWS {
+            true => MOST_ROWS,
+            false => ROWS,
+        };
+        let shown = self.show_text(formulas, most, lines);
         if shown == 0 {
             return;
         }

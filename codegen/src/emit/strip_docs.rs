@@ -37,6 +37,7 @@ impl Emission<'_> {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);
         }
+        lines.extend(self.example());
         lines
     }
 

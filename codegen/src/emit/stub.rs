@@ -298,6 +298,17 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
         #vis struct #parameters<T = f64> { #(#vis #names: T),* }
 
         #[allow(missing_docs, unused_variables, clippy::all)]
+        impl<T> #parameters<T> {
+            pub fn set(
+                &mut self,
+                name: &str,
+                value: T,
+            ) -> ::core::result::Result<(), #runtime::UnknownParameter> {
+                ::core::unimplemented!()
+            }
+        }
+
+        #[allow(missing_docs, unused_variables, clippy::all)]
         impl<T: #runtime::scalar::Real> #name<T> {
             pub fn new(
                 parameters: #parameters<T>,

@@ -52,7 +52,7 @@ impl Rational {
 
     /// The terminating decimal expansion, where there is one of at most
     /// [`DECIMAL_DIGITS`] digits.
-    fn terminating_decimal(&self) -> Option<String> {
+    pub(crate) fn terminating_decimal(&self) -> Option<String> {
         let mut ten = Integer::one();
         for places in 0..=DECIMAL_DIGITS {
             let (quotient, rest) = ten.quot_rem(self.0.denominator_ref());

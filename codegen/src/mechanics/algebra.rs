@@ -6,6 +6,7 @@
 //! and unlocks. Nothing else in the workspace names Symbolica; what crosses
 //! the door outwards is our own [`Expr`].
 
+mod cancel;
 mod read;
 mod work;
 

@@ -91,7 +91,7 @@ impl Derivation<'_> {
             .iter()
             .map(|(&symbol, entry)| Constant {
                 symbol,
-                value: entry.value.expand().to_expr(&self.symbols),
+                value: entry.value.cancelled(&self.symbols),
                 meaning: entry.meaning.clone(),
                 unit: entry.unit,
             })

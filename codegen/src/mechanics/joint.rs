@@ -74,6 +74,8 @@ impl Derivation<'_> {
             return Formula::symbol(difference.own);
         }
         let (code, text, latex) = match quantity {
+            // Without its rest it is the angle of the joint.
+            JointQuantity::Angle if !difference.rest.is_zero() => ("deflection", "φ", "\\varphi"),
             JointQuantity::Angle => ("joint_angle", "φ", "\\varphi"),
             JointQuantity::Rate => ("joint_rate", "φ̇", "\\dot\\varphi"),
             JointQuantity::SmallAngle => ("joint_delta", "δφ", "\\delta\\varphi"),

@@ -53,7 +53,7 @@ pub use observables::{
 };
 pub use positions::{LinkPositions, RelativePosition};
 pub(crate) use print::superscript;
-pub use print::{latex, text};
+pub use print::{constant_latex, constant_text, latex, text};
 pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
 pub use small::{SmallFormulas, SmallMechanics};
@@ -299,6 +299,18 @@ impl Mechanics {
     /// The constant behind a symbol, if it is one.
     pub fn constant(&self, symbol: SymbolId) -> Option<&Constant> {
         self.constants.iter().find(|c| c.symbol == symbol)
+    }
+
+    /// The constant, by its index, whose place a constant takes: of all that have the same
+    /// value in the same unit, the one of the shortest name, and of these the first. That of
+    /// copies that do not differ in it is the one of all copies, where there is one.
+    pub fn representative(&self, index: usize) -> usize {
+        let Constant { value, unit, .. } = &self.constants[index];
+        let equal = self.constants.iter().enumerate();
+        let equal = equal.filter(|(_, other)| other.unit == *unit && other.value == *value);
+        let length = |constant: &Constant| self.symbols.get(constant.symbol).code.len();
+        let shortest = equal.min_by_key(|(_, constant)| length(constant));
+        shortest.map_or(index, |(index, _)| index)
     }
 }
 

@@ -6,7 +6,7 @@ use super::derivation::Derivation;
 use super::expression::{Expr, SymbolId};
 use super::frame::DerivedFrame;
 use super::print::latex_name;
-use crate::scene::{LinkId, Offset};
+use crate::scene::{LINK_PROPERTIES, LinkId, Offset};
 
 /// A point of a link, from the pivot of that link: x to the side, y upwards.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,8 @@ pub struct LinkPositions {
     pub centre: RelativePosition,
     /// End of the link.
     pub end: RelativePosition,
+    /// The properties of the link, in the order of [`Link::properties`](crate::scene::Link).
+    pub properties: [Expr; LINK_PROPERTIES.len()],
 }
 
 /// Letters and words of a kind of points.
@@ -96,6 +98,9 @@ impl Derivation<'_> {
                     false => self.position(END, index, &link.end, index, frame),
                 },
                 centre,
+                properties: link
+                    .properties()
+                    .map(|quantity| self.quantity(quantity).cancelled(&self.symbols)),
             }
         });
         positions.collect()

@@ -1,10 +1,13 @@
 //! Expressions as text and as LaTeX, for docs and for `branched-pendulum --stage`.
 
 use super::expression::{Expr, Symbols};
+use crate::exact::Rational;
 
 /// Spelling of the parts of an expression in one notation.
 struct Notation {
     latex: bool,
+    /// Finite decimals are written as such, as descriptions write them.
+    decimals: bool,
 }
 
 /// The expression in plain text: `μ cos(θ_2 − θ_1) ω_1² / (2 M)`.
@@ -12,12 +15,43 @@ pub fn text(expr: &Expr, symbols: &Symbols) -> String {
     if let Expr::Number(number) = expr {
         return number.to_string();
     }
-    Notation { latex: false }.sum(expr, symbols)
+    let notation = Notation {
+        latex: false,
+        decimals: false,
+    };
+    notation.sum(expr, symbols)
 }
 
 /// The expression in LaTeX.
 pub fn latex(expr: &Expr, symbols: &Symbols) -> String {
-    Notation { latex: true }.sum(expr, symbols)
+    let notation = Notation {
+        latex: true,
+        decimals: false,
+    };
+    notation.sum(expr, symbols)
+}
+
+/// The value of a constant in plain text: `1 / 30 + 0.25 m`. A number in it is a decimal where
+/// it is a finite one, as [`Rational`] has it, and a fraction where not; in the formulas
+/// of motion ½ stays a fraction.
+pub fn constant_text(value: &Expr, symbols: &Symbols) -> String {
+    if let Expr::Number(number) = value {
+        return number.to_string();
+    }
+    let notation = Notation {
+        latex: false,
+        decimals: true,
+    };
+    notation.sum(value, symbols)
+}
+
+/// The value of a constant in LaTeX, with numbers as in [`constant_text`].
+pub fn constant_latex(value: &Expr, symbols: &Symbols) -> String {
+    let notation = Notation {
+        latex: true,
+        decimals: true,
+    };
+    notation.sum(value, symbols)
 }
 
 impl Notation {
@@ -51,7 +85,7 @@ impl Notation {
                 Expr::Number(number) => {
                     negative = number.is_negative();
                     let size = if negative { -number } else { number.clone() };
-                    let (numerator, denominator) = (size.numerator_text(), size.denominator_text());
+                    let (numerator, denominator) = self.number(&size);
                     if numerator != "1" {
                         above.push(numerator);
                     }
@@ -78,6 +112,14 @@ impl Notation {
             (_, false) => format!("{} / ({})", product(&above), product(&below)),
         };
         (negative, body)
+    }
+
+    /// Numerator and denominator of a number, the latter 1 of a decimal.
+    fn number(&self, size: &Rational) -> (String, String) {
+        match size.terminating_decimal() {
+            Some(decimal) if self.decimals => (decimal, "1".to_owned()),
+            _ => (size.numerator_text(), size.denominator_text()),
+        }
     }
 
     fn power(&self, base: &Expr, exponent: i32, symbols: &Symbols) -> String {

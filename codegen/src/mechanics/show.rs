@@ -3,7 +3,7 @@
 use super::expression::{Expr, SymbolId};
 use super::{
     DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
-    Mechanics, OrbitMechanics, RelativePosition, Temporal, text,
+    Mechanics, OrbitMechanics, RelativePosition, Temporal, constant_text, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -18,7 +18,7 @@ impl fmt::Display for Mechanics {
                 f,
                 "  {} = {} [{}]: {}",
                 self.name(constant.symbol),
-                self.text(&constant.value),
+                constant_text(&constant.value, &self.symbols),
                 constant.unit,
                 constant.meaning
             )?;

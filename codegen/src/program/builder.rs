@@ -115,9 +115,13 @@ impl Builder {
         id
     }
 
-    /// Gives a value a name, unless it has one or is a leaf. A change of sign
-    /// costs nothing where the value is used, so what it changes is named.
+    /// Gives a value a name, unless it has one or is a leaf; of a constant it is a hint. A
+    /// change of sign costs nothing where the value is used, so what it changes is named.
     pub(super) fn name(&mut self, id: ValueId, name: &str) -> ValueId {
+        if let Op::Constant(constant) = *self.op(id) {
+            self.setup.hint(constant, name);
+            return id;
+        }
         if let Op::Neg(inner) = *self.op(id) {
             self.name(inner, &format!("minus_{name}"));
             return id;
@@ -132,6 +136,9 @@ impl Builder {
     /// Gives a value a name without a line of its own: code that needs a name
     /// for it takes this one. The first hint stays.
     pub(super) fn hint(&mut self, id: ValueId, name: &str) {
+        if let Op::Constant(constant) = *self.op(id) {
+            return self.setup.hint(constant, name);
+        }
         if let Op::Neg(inner) = *self.op(id) {
             return self.hint(inner, &format!("minus_{name}"));
         }

@@ -1,33 +1,176 @@
 //! Names for constants that nothing but their formation explains, and for numbers.
 
-use super::constants::{ConstantId, ConstantOp, Setup};
+use super::constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
+use super::{Op, Program};
 use crate::exact::Rational;
+use crate::mechanics::Mechanics;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// `twice_gravity_child`, `coupling_child_parent_over_inertia_child`.
-pub(super) fn constant(setup: &Setup, op: &ConstantOp) -> String {
-    let name = |id: ConstantId| setup.get(id).name.clone();
-    match op {
-        ConstantOp::Number(number) => number_name(number),
-        ConstantOp::Parameter(index) => format!("parameter_{index}"),
-        ConstantOp::Named(_, a) | ConstantOp::Called(a) => name(*a),
-        ConstantOp::Add(a, b) => format!("{}_plus_{}", name(*a), name(*b)),
-        ConstantOp::Sub(a, b) => format!("{}_minus_{}", name(*a), name(*b)),
-        ConstantOp::Product(number, powers) => product(setup, number, powers),
+/// Longer products of names say less than a number.
+const LONGEST_PRODUCT: usize = 72;
+
+/// Longer sums of names say less than a number.
+const LONGEST_SUM: usize = 40;
+
+impl Program {
+    /// Names all constants, those that code reads first.
+    ///
+    /// Constants of the mechanics have their letters' names, and those that are formed under a
+    /// name have that. A product of these is called by its factors:
+    /// `coupling_child_parent_over_inertia_child`. A sum, and a product with a sum in it, has the
+    /// name of the value that it is, as `reduced_inertia_trunk`; without one it is called by its
+    /// members where that is short, and `constant_1` where it is not.
+    pub(super) fn name_constants(&mut self, mechanics: &Mechanics) {
+        let mut read = Vec::new();
+        for entry in &self.entries {
+            for value in self.needed(&entry.outputs) {
+                if let Op::Constant(id) = self.definition(value).op {
+                    read.push(id);
+                }
+            }
+        }
+        let strips = self.strips.iter().flat_map(|tree| &tree.strips);
+        read.extend(strips.flat_map(|strip| strip.constants.iter().copied()));
+        let read = self.setup.behind(read, |constant| constant.exact.is_none());
+        let all: Vec<ConstantId> = self.setup.iter().map(|(id, _)| id).collect();
+        let setup = std::mem::take(&mut self.setup);
+        let mut naming = Naming::new(setup, mechanics);
+        for id in read.into_iter().chain(all) {
+            naming.assign(id);
+        }
+        self.setup = naming.setup;
     }
 }
 
-fn product(setup: &Setup, number: &Rational, powers: &[(ConstantId, i32)]) -> String {
+/// Constants that are being named.
+struct Naming {
+    setup: Setup,
+    /// The constants that have their final names.
+    named: BTreeSet<ConstantId>,
+    /// The names in use, and the number after which to look for a free one.
+    used: BTreeMap<String, u32>,
+    /// What constants should be called, as far as that was asked for.
+    known: BTreeMap<ConstantId, Option<String>>,
+    /// Constants that have numbers for names.
+    numbered: u32,
+}
+
+impl Naming {
+    /// With the names of the mechanics, which no symbol shares with another, and of constants
+    /// that are formed under a name.
+    fn new(setup: Setup, mechanics: &Mechanics) -> Self {
+        let codes = mechanics.constants.iter();
+        let codes = codes.map(|constant| mechanics.symbols.get(constant.symbol).code.clone());
+        let mut naming = Self {
+            setup,
+            named: BTreeSet::new(),
+            used: codes.map(|code| (code, 1)).collect(),
+            known: BTreeMap::new(),
+            numbered: 0,
+        };
+        for index in 0..naming.setup.definitions.len() {
+            let id = ConstantId(index as u32);
+            let ConstantDefinition { op, name, .. } = naming.setup.get(id);
+            match op {
+                // A parameter keeps its name in texts, so it claims none; should it become
+                // a field, `emit` tells the two apart.
+                ConstantOp::Named(..) | ConstantOp::Parameter(_) => {
+                    let name = name.clone();
+                    naming.known.insert(id, Some(name));
+                    naming.named.insert(id);
+                }
+                ConstantOp::Called(_) => {
+                    let name = name.clone();
+                    naming.name(id, name);
+                }
+                _ => {}
+            }
+        }
+        naming
+    }
+
+    fn name(&mut self, id: ConstantId, wanted: String) {
+        // A name with a number may be another constant's own: that of a link's copy.
+        let mut name = wanted.clone();
+        let mut count = self.used.get(&wanted).copied().unwrap_or(0);
+        while self.used.contains_key(&name) {
+            count += 1;
+            name = format!("{wanted}_{count}");
+        }
+        self.used.insert(wanted, count.max(1));
+        self.used.entry(name.clone()).or_insert(1);
+        self.known.insert(id, Some(name.clone()));
+        self.setup.definitions[id.0 as usize].name = name;
+        self.named.insert(id);
+    }
+
+    fn assign(&mut self, id: ConstantId) {
+        if self.named.contains(&id) {
+            return;
+        }
+        let name = self.wanted(id).unwrap_or_else(|| {
+            self.numbered += 1;
+            format!("constant_{}", self.numbered)
+        });
+        self.name(id, name);
+    }
+
+    /// What a constant should be called; `None` where nothing says what it is.
+    fn wanted(&mut self, id: ConstantId) -> Option<String> {
+        if let Some(wanted) = self.known.get(&id) {
+            return wanted.clone();
+        }
+        let ConstantDefinition { op, hint, .. } = self.setup.get(id).clone();
+        let has_sums = op.operands().any(|operand| self.is_sum(operand));
+        let wanted = match op {
+            ConstantOp::Product(..) if !has_sums => self.described(&op).or(hint),
+            _ => hint.or_else(|| self.described(&op)),
+        };
+        self.known.insert(id, wanted.clone());
+        wanted
+    }
+
+    fn is_sum(&self, id: ConstantId) -> bool {
+        let op = &self.setup.get(id).op;
+        matches!(op, ConstantOp::Add(..) | ConstantOp::Sub(..))
+    }
+
+    /// A name that says how a constant is formed, if that is short enough.
+    fn described(&mut self, op: &ConstantOp) -> Option<String> {
+        let (name, longest) = match op {
+            ConstantOp::Number(value) => (number(value), LONGEST_PRODUCT),
+            ConstantOp::Product(factor, powers) => {
+                let factors = powers.iter();
+                let factors = factors.map(|&(id, power)| Some((self.wanted(id)?, power)));
+                let factors = factors.collect::<Option<Vec<_>>>()?;
+                (product(factor, &factors), LONGEST_PRODUCT)
+            }
+            ConstantOp::Add(a, b) => {
+                let (a, b) = (self.wanted(*a)?, self.wanted(*b)?);
+                (format!("{a}_plus_{b}"), LONGEST_SUM)
+            }
+            ConstantOp::Sub(a, b) => {
+                let (a, b) = (self.wanted(*a)?, self.wanted(*b)?);
+                (format!("{a}_minus_{b}"), LONGEST_SUM)
+            }
+            ConstantOp::Parameter(_) | ConstantOp::Named(..) | ConstantOp::Called(_) => {
+                return None;
+            }
+        };
+        (name.len() <= longest).then_some(name)
+    }
+}
+
+/// `twice_gravity_child`, `coupling_child_parent_over_inertia_child`.
+fn product(number: &Rational, powers: &[(String, i32)]) -> String {
     let side = |above: bool| -> Vec<String> {
         powers
             .iter()
             .filter(|(_, power)| (*power > 0) == above)
-            .map(|(id, power)| {
-                let name = &setup.get(*id).name;
-                match power.unsigned_abs() {
-                    1 => name.clone(),
-                    2 => format!("{name}_squared"),
-                    other => format!("{name}_to_{other}"),
-                }
+            .map(|(name, power)| match power.unsigned_abs() {
+                1 => name.clone(),
+                2 => format!("{name}_squared"),
+                other => format!("{name}_to_{other}"),
             })
             .collect()
     };
@@ -38,7 +181,8 @@ fn product(setup: &Setup, number: &Rational, powers: &[(ConstantId, i32)]) -> St
         None => ("", numerator),
     };
     let denominator = number.denominator_text();
-    let long = is_long(&numerator) || is_long(&denominator);
+    // Digits would say less than that there is a factor.
+    let long = numerator.len().max(denominator.len()) > MOST_FACTOR_DIGITS;
     if numerator == "1" && denominator == "2" && below.is_empty() {
         above.insert(0, "half".into());
     } else if !long {
@@ -51,7 +195,6 @@ fn product(setup: &Setup, number: &Rational, powers: &[(ConstantId, i32)]) -> St
         }
     }
     let (above, below) = (above.join("_"), below.join("_"));
-    // Digits would say less than that there is a factor.
     let scaled = if long { "scaled_" } else { "" };
     let name = match (above.is_empty(), below.is_empty()) {
         (false, true) => above,
@@ -61,43 +204,34 @@ fn product(setup: &Setup, number: &Rational, powers: &[(ConstantId, i32)]) -> St
     started(format!("{sign}{scaled}{name}"))
 }
 
-/// `half`, `three_over_five`, `number` where digits say more than a name.
-fn number_name(number: &Rational) -> String {
+/// The name of a number: `half`, `two_over_three`, `number_0_15`, and `coefficient` where
+/// digits would say more than a name.
+pub(crate) fn number(number: &Rational) -> String {
     let sign = if number.is_negative() { "minus_" } else { "" };
     let numerator = number.numerator_text();
     let numerator = numerator.trim_start_matches('-');
     let denominator = number.denominator_text();
-    if is_long(numerator) || is_long(&denominator) {
-        return format!("{sign}number");
-    }
+    let decimal = number.to_string();
+    let decimal = decimal.trim_start_matches('-');
     let name = match (numerator, denominator.as_str()) {
-        (_, "1") => word(numerator),
+        (_, "1") if numerator.len() <= MOST_DIGITS => word(numerator),
         ("1", "2") => "half".to_owned(),
         ("1", "4") => "quarter".to_owned(),
         ("1", "8") => "eighth".to_owned(),
-        (_, denominator) => format!("{}_over_{}", word(numerator), word(denominator)),
-    };
-    started(format!("{sign}{name}"))
-}
-
-/// The name of a number in a function: `quarter`, `number_0_15`.
-pub(crate) fn number(number: &Rational) -> String {
-    let decimal = number.to_string();
-    let short = decimal.len() <= MOST_DIGITS + 2;
-    match decimal.strip_prefix("0.") {
-        Some(digits) if short && !["5", "25", "125"].contains(&digits) => {
-            format!("number_0_{digits}")
+        _ if decimal.contains('.') && decimal.len() <= MOST_DIGITS + 1 => decimal.replace('.', "_"),
+        _ if numerator.len().max(denominator.len()) <= MOST_FACTOR_DIGITS => {
+            format!("{}_over_{}", word(numerator), word(&denominator))
         }
-        _ => number_name(number),
-    }
+        _ => "coefficient".to_owned(),
+    };
+    format!("{sign}{}", started(name))
 }
 
 /// A number of more digits than this has no name.
-const MOST_DIGITS: usize = 3;
+const MOST_DIGITS: usize = 8;
 
-fn is_long(digits: &str) -> bool {
-    digits.len() > MOST_DIGITS
-}
+/// A factor of more digits than this is not named.
+const MOST_FACTOR_DIGITS: usize = 2;
 
 /// A name begins with a letter.
 fn started(name: String) -> String {

@@ -2,7 +2,6 @@
 //! description's numbers and parameters; everything else is formed from them
 //! once, exactly where no parameter is involved.
 
-use super::constant_names;
 use crate::exact::Rational;
 use crate::scene::{Scene, Sign};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -60,8 +59,21 @@ pub struct ConstantDefinition {
     pub op: ConstantOp,
     /// Value of the constant, where no parameter is involved.
     pub exact: Option<Rational>,
-    /// Name of the constant in code.
+    /// Name of the constant in code, given to all of them at the end; until then, that of
+    /// whoever formed it, if any.
     pub name: String,
+    /// What code calls a constant that nobody has named.
+    pub(super) hint: Option<String>,
+}
+
+impl ConstantDefinition {
+    /// Returns true if nothing but its formation says what the constant is.
+    pub(super) fn is_anonymous(&self) -> bool {
+        matches!(
+            self.op,
+            ConstantOp::Product(..) | ConstantOp::Add(..) | ConstantOp::Sub(..)
+        )
+    }
 }
 
 /// The constants of a model; each uses earlier ones only.
@@ -69,12 +81,11 @@ pub struct ConstantDefinition {
 pub struct Setup {
     /// The constants.
     pub definitions: Vec<ConstantDefinition>,
+    /// The constants of the mechanics, by their index there, and those that stand for them:
+    /// equal ones are one.
+    pub stand_ins: BTreeMap<usize, ConstantId>,
     known: HashMap<ConstantOp, ConstantId>,
-    names: BTreeMap<String, u32>,
 }
-
-/// Names longer than this say less than a number.
-const LONGEST_NAME: usize = 72;
 
 impl Setup {
     /// The constants that `outputs` are formed of, these included, in the order of their
@@ -119,6 +130,14 @@ impl Setup {
     /// A constant of the mechanics.
     pub(super) fn named(&mut self, index: usize, formed: ConstantId, name: &str) -> ConstantId {
         self.intern(ConstantOp::Named(index, formed), Some(name))
+    }
+
+    /// Says what an anonymous constant is called where it is formed. The first hint stays.
+    pub(super) fn hint(&mut self, id: ConstantId, name: &str) {
+        let definition = &mut self.definitions[id.0 as usize];
+        if definition.is_anonymous() && definition.hint.is_none() {
+            definition.hint = Some(name.to_owned());
+        }
     }
 
     /// A constant that is read under a name of its own.
@@ -217,6 +236,18 @@ impl Setup {
         }
     }
 
+    /// The n of a = 2ⁿ b, up to 3 of either sign; `None` where a is no such multiple.
+    pub(super) fn binary_exponent(&self, a: ConstantId, b: ConstantId) -> Option<i32> {
+        let ((a, powers_a), (b, powers_b)) = (self.as_product(a), self.as_product(b));
+        let ratio = a.checked_div(&b)?;
+        let is = |exponent: &i32| {
+            let power = Rational::from(2).checked_pow(*exponent);
+            power.is_ok_and(|power| power == ratio)
+        };
+        let exponent = (-3..=3).find(is)?;
+        (powers_a == powers_b).then_some(exponent)
+    }
+
     fn as_number(&self, id: ConstantId) -> Option<Rational> {
         match &self.get(id).op {
             ConstantOp::Number(number) => Some(number.clone()),
@@ -240,16 +271,14 @@ impl Setup {
         }
         let id = ConstantId(self.definitions.len() as u32);
         let exact = self.value(&op);
-        let wanted = name.map_or_else(|| constant_names::constant(self, &op), str::to_owned);
-        // A parameter keeps its name in texts, so it claims none; should it become
-        // a field, `emit` tells the two apart.
-        let name = match op {
-            ConstantOp::Parameter(_) => wanted,
-            _ => self.unique(wanted, id),
-        };
+        let name = name.unwrap_or_default().to_owned();
         self.known.insert(op.clone(), id);
-        self.definitions
-            .push(ConstantDefinition { op, exact, name });
+        self.definitions.push(ConstantDefinition {
+            op,
+            exact,
+            name,
+            hint: None,
+        });
         id
     }
 
@@ -267,23 +296,5 @@ impl Setup {
             ConstantOp::Add(a, b) => Some(exact(*a)? + exact(*b)?),
             ConstantOp::Sub(a, b) => Some(exact(*a)? - exact(*b)?),
         }
-    }
-
-    fn unique(&mut self, wanted: String, id: ConstantId) -> String {
-        let wanted = if wanted.len() > LONGEST_NAME {
-            format!("constant_{}", id.0)
-        } else {
-            wanted
-        };
-        // A name with a number may be another constant's own: that of a link's copy.
-        let mut name = wanted.clone();
-        let mut count = self.names.get(&wanted).copied().unwrap_or(0);
-        while self.names.contains_key(&name) {
-            count += 1;
-            name = format!("{wanted}_{count}");
-        }
-        self.names.insert(wanted, count.max(1));
-        self.names.entry(name.clone()).or_insert(1);
-        name
     }
 }

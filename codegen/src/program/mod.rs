@@ -32,6 +32,7 @@ mod passes;
 mod positions;
 mod rebuild;
 mod rotations;
+mod rounding;
 mod rules;
 mod scale;
 mod sectors;
@@ -44,6 +45,7 @@ mod text;
 mod transfers;
 mod transverse;
 mod verify;
+mod wide;
 
 pub use choice::{SolveChoice, cost};
 pub use constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
@@ -56,6 +58,7 @@ pub use operation::{Definition, Op, ValueId};
 use passes::PASSES;
 pub use passes::{Pass, worth};
 pub use rebuild::Rebuilt;
+pub use rounding::Rounding;
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 
@@ -87,12 +90,14 @@ pub fn lower(
     let mut program = lowering.builder.finish(entries, choice)?;
     program.strips = strips;
     let passes = PASSES.iter().filter(|(pass, _)| off != Some(*pass));
-    Ok(passes.fold(program, |program, (_, pass)| {
+    let mut program = passes.fold(program, |program, (_, pass)| {
         debug_assert_eq!(program.verify(), Ok(()), "before a pass");
         let program = pass(program);
         debug_assert_eq!(program.verify(), Ok(()), "after a pass");
         program
-    }))
+    });
+    program.name_constants(mechanics);
+    Ok(program)
 }
 
 /// All of a scene's code in one list.

@@ -1,6 +1,7 @@
 //! Parameters and named constants of the mechanics become constants of the
 //! setup.
 
+use super::ValueId;
 use super::constants::{ConstantId, Setup};
 use super::lower::Lowering;
 use crate::exact::Rational;
@@ -20,14 +21,31 @@ impl Lowering<'_> {
         let id = match (parameter, constant) {
             (Some(index), _) => self.builder.setup.parameter(index, code),
             (None, Some(index)) => {
-                let value = mechanics.constants[index].value.clone();
-                let formed = self.constant_expr(&value);
-                self.builder.setup.named(index, formed, code)
+                // Equal constants are one.
+                let own = mechanics.representative(index);
+                let constant = &mechanics.constants[own];
+                let code = &mechanics.symbols.get(constant.symbol).code;
+                let formed = self.constant_expr(&constant.value);
+                let id = self.builder.setup.named(own, formed, code);
+                self.builder.setup.stand_ins.insert(index, id);
+                id
             }
             (None, None) => unreachable!("{code} is neither parameter nor constant"),
         };
         self.constants.insert(symbol, id);
         id
+    }
+
+    /// A property of a link: the constant of the mechanics that it is, if it is one.
+    pub(super) fn property(&mut self, value: &Expr, unit: &str) -> ValueId {
+        let mechanics = self.mechanics;
+        let mut constants = mechanics.constants.iter();
+        let known = constants.find(|constant| constant.unit == unit && constant.value == *value);
+        let constant = match (value, known) {
+            (Expr::Number(_), _) | (_, None) => self.constant_expr(value),
+            (_, Some(constant)) => self.constant(constant.symbol),
+        };
+        self.builder.constant(constant)
     }
 
     /// An expression in parameters as a constant of the setup.

@@ -8,7 +8,19 @@ use super::pair::Pair;
 use crate::functions::{Argument, PointKind, Purpose};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
-use crate::scene::{LinkId, Scene};
+use crate::scene::{LINK_PROPERTIES, LinkId, Scene};
+
+/// Names and units of the properties of a link, in their order.
+const PROPERTIES: [(&str, &str); LINK_PROPERTIES.len()] = [
+    ("mass", "kg"),
+    ("inertia_about_centre", "kg m²"),
+    ("along_centre", "m"),
+    ("across_centre", "m"),
+    ("along_pivot", "m"),
+    ("across_pivot", "m"),
+    ("along_end", "m"),
+    ("across_end", "m"),
+];
 
 /// The tree, the positions in it, and a kind of points.
 #[derive(Clone, Copy)]
@@ -59,10 +71,14 @@ impl EntryList<'_, '_> {
             let torques = self.torques(&mut environment, points);
             self.push(Purpose::PointTorques(kind), torques);
         }
-        let properties = scene.links.iter().flat_map(|link| link.properties());
-        let properties: Vec<_> = properties
-            .map(|quantity| self.lowering.value_of(quantity))
-            .collect();
+        let mut properties = Vec::new();
+        for (link, positions) in scene.links.iter().zip(links) {
+            for ((kind, unit), value) in PROPERTIES.iter().zip(&positions.properties) {
+                let value = self.lowering.property(value, unit);
+                let name = format!("{kind}_{}", link.name);
+                properties.push(self.lowering.builder.name(value, &name));
+            }
+        }
         self.push(Purpose::LinkProperties, properties);
     }
 

@@ -25,6 +25,7 @@ impl fmt::Display for Program {
                 ConstantOp::Sub(a, b) => write!(f, "{} - {}", at(*a), at(*b))?,
             }
             match &definition.exact {
+                Some(_) if matches!(definition.op, ConstantOp::Number(_)) => writeln!(f)?,
                 Some(exact) => writeln!(f, "    # {} = {exact}", definition.name)?,
                 None => writeln!(f, "    # {}", definition.name)?,
             }

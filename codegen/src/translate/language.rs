@@ -89,7 +89,11 @@ impl Language {
     pub(super) fn output(self, array: &str, index: usize, value: &str, remark: &str) -> String {
         let place = self.element(array, index);
         let end = if self == Self::C { ";" } else { "" };
-        format!("    {place} = {value}{end} {}", self.comment(remark))
+        let line = format!("    {place} = {value}{end}");
+        match remark.is_empty() {
+            true => line,
+            false => format!("{line} {}", self.comment(remark)),
+        }
     }
 
     /// The first lines of a function.

@@ -100,7 +100,12 @@ impl Translation<'_> {
                 (None, ConstantOp::Add(a, b)) => format!("{} + {}", at(*a), at(*b)),
                 (None, ConstantOp::Sub(a, b)) => format!("{} - {}", at(*a), at(*b)),
             };
-            language.output("k", id.0 as usize, &value, &definition.name)
+            // A number says itself what it is.
+            let remark = match definition.op {
+                ConstantOp::Number(_) => "",
+                _ => &definition.name,
+            };
+            language.output("k", id.0 as usize, &value, remark)
         });
         language.filled(&head, values.collect())
     }

@@ -2,6 +2,7 @@
 
 mod any_number;
 mod bits;
+mod example;
 mod fused;
 mod generations;
 mod hints;
@@ -9,6 +10,7 @@ mod hygiene;
 mod loop_states;
 mod loops;
 mod positions;
+mod rounding;
 mod scalars;
 mod sectors;
 mod standing;

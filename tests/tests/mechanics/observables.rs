@@ -31,6 +31,13 @@ fn no_emitted_function_can_be_defined_again() {
             let syn::Item::Impl(block) = block else {
                 continue;
             };
+            // Parameters are a type of their own.
+            if let syn::Type::Path(own) = &*block.self_ty
+                && let Some(own) = own.path.segments.last()
+                && own.ident.to_string().ends_with("Parameters")
+            {
+                continue;
+            }
             functions.extend(block.items.into_iter().filter_map(|member| match member {
                 syn::ImplItem::Fn(function) => Some(function.sig.ident),
                 _ => None,

@@ -332,3 +332,29 @@ fn values_that_are_formed_of_parameters_are_refused() {
         assert!(error.requirement.contains("of a magnitude "), "{error}");
     }
 }
+
+/// By their names, as a command line has them.
+#[test]
+fn parameters_are_set_by_name() {
+    let mut parameters = PAPER;
+    parameters.set("l", 0.3).expect("it has a length");
+    parameters.set("c", 1e-4).expect("it has friction");
+    let expected = NamedParameters {
+        l: 0.3,
+        c: 1e-4,
+        ..PAPER
+    };
+    assert_eq!(parameters, expected);
+    let unknown = parameters
+        .set("m_3", 1.0)
+        .expect_err("it has no third mass");
+    assert_eq!(unknown.name, "m_3");
+    let known = <Named as branched_pendulum::Parametric<f64>>::PARAMETERS;
+    assert_eq!(unknown.known, known);
+    assert_eq!(
+        unknown.to_string(),
+        "no parameter `m_3`: there are `g`, `m_1`, `d_1`, `i_1`, `l`, `m_2`, `d_2`, `i_2`, `c`"
+    );
+    // Nothing has changed.
+    assert_eq!(parameters, expected);
+}

@@ -1,8 +1,8 @@
 //! The factor that is taken out of a sum of products, and the terms that stand
 //! then.
 
-use crate::program::ValueId;
 use crate::program::builder::Builder;
+use crate::program::{ConstantId, Op, ValueId};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
@@ -55,7 +55,60 @@ pub(super) fn extract(builder: &mut Builder, terms: &mut Vec<Term>, fused: bool)
         };
         terms.insert(place, term);
     }
+    share_constants(builder, terms);
     saved
+}
+
+/// 4 c x + 2 c y becomes 2 c (2 x + y), of as many operations: the model holds one constant less
+/// where that is all that 4 c is for.
+fn share_constants(builder: &mut Builder, terms: &mut Vec<Term>) {
+    let mut first = 0;
+    while first < terms.len() {
+        let partner = (first + 1..terms.len()).find_map(|second| {
+            let [a, b] = [first, second].map(|index| constant_factor(builder, &terms[index]));
+            let ((place, a), (other, b)) = (a?, b?);
+            let exponent = builder.setup.binary_exponent(a, b)?;
+            (exponent != 0).then_some((second, [place, other], exponent))
+        });
+        let Some((second, places, exponent)) = partner else {
+            first += 1;
+            continue;
+        };
+        let other = terms.remove(second);
+        let mut both = [terms.remove(first), other];
+        let mut constants = [0, 1].map(|index| both[index].factors.remove(places[index]));
+        // The smaller constant stays before the sum.
+        if exponent > 0 {
+            constants.swap(0, 1);
+        }
+        let larger = usize::from(exponent < 0);
+        let power = builder.integer(1 << exponent.unsigned_abs());
+        both[larger].factors.push(power);
+        for term in &mut both {
+            term.value = None;
+        }
+        let negative = both.iter().all(|term| term.negative);
+        for term in &mut both {
+            term.negative ^= negative;
+        }
+        let term = Term {
+            negative,
+            factors: vec![constants[0], sum(builder, &both)],
+            value: None,
+        };
+        terms.insert(first, term);
+    }
+}
+
+/// The place of the only constant of the model among the factors of a term, beside others.
+fn constant_factor(builder: &Builder, term: &Term) -> Option<(usize, ConstantId)> {
+    let constant = |&id: &ValueId| match builder.op(id) {
+        Op::Constant(id) => Some(*id),
+        _ => None,
+    };
+    let place = term.factors.iter().position(|id| constant(id).is_some())?;
+    let own = constant(&term.factors[place])?;
+    (term.factors.len() > 1).then_some((place, own))
 }
 
 /// A sum's value; it starts with a positive term if it has one.

@@ -21,6 +21,10 @@
 //! factor that both have: it is zero where they are equal factor by factor, before and
 //! after.
 //!
+//! Of constants that are powers of two of one another the smaller is taken out where nothing
+//! else can be, which takes as many operations and one constant less: 4 c x + 2 c y becomes
+//! 2 c (2 x + y).
+//!
 //! Where products are fused with sums (accelerations), a product of two
 //! values costs nothing in a sum; the saving is counted accordingly.
 //!

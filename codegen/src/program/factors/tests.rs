@@ -3,7 +3,7 @@
 use super::common_factors;
 use crate::functions::{Argument, Purpose};
 use crate::program::builder::Builder;
-use crate::program::{Program, ValueId};
+use crate::program::{Op, Program, ValueId};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -167,4 +167,30 @@ fn random_sums_keep_their_values_within_the_bound() {
         assert!((old - new).abs() <= bound, "{old} {new} {bound}");
     }
     assert!(smaller > 100, "{smaller}");
+}
+
+/// a (4 c b + 2 c d) = a (2 c (2 b + d)), and 4 c is no constant of the model any more.
+#[test]
+fn constants_that_are_powers_of_two_of_others_go() {
+    let mut builder = Builder::default();
+    let [a, b, d] = inputs(&mut builder);
+    let three = builder.setup.number(3.into());
+    let c = builder.setup.called(three, "c");
+    let terms = [(4, b), (2, d)].map(|(number, value)| {
+        let number = builder.setup.number(number.into());
+        let constant = builder.setup.mul(number, c);
+        let constant = builder.constant(constant);
+        let product = builder.mul(constant, value);
+        builder.mul(product, a)
+    });
+    let sum = builder.add(terms[0], terms[1]);
+    let [before, after] = pass(builder, Purpose::KineticEnergy, vec![sum]);
+    // Without the second rule it would be four as well, of two constants.
+    assert_eq!((total(&before), total(&after)), (5, 4));
+    let read = |program: &Program| {
+        let definitions = program.definitions.iter();
+        let constants = definitions.filter(|one| matches!(one.op, Op::Constant(_)));
+        constants.count()
+    };
+    assert_eq!((read(&before), read(&after)), (2, 1));
 }

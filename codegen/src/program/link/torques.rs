@@ -71,11 +71,11 @@ impl Lowering<'_> {
                         Some(parent) => builder.sub(state[link], state[parent]),
                         None => state[link],
                     };
-                    if what == "joint_angle" && !builder.is(unit.passive.rest, 0) {
-                        builder.name(relative, &format!("{what}_{}", scene.links[link].name));
-                        relative = builder.sub(relative, unit.passive.rest);
-                    }
                     builder.name(relative, &format!("{what}_{}", scene.links[link].name));
+                    if what == "joint_angle" && !builder.is(unit.passive.rest, 0) {
+                        relative = builder.sub(relative, unit.passive.rest);
+                        builder.name(relative, &format!("deflection_{}", scene.links[link].name));
+                    }
                     let reduced = builder.mul(coefficient, unit.per_torque);
                     let torque = builder.mul(reduced, relative);
                     torques[link] = builder.sub(torques[link], torque);

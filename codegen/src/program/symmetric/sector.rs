@@ -312,6 +312,9 @@ impl<'b> SymmetricTree<'b> {
                     let product = self.series.mul(&ratio, entry);
                     let old = block.remove(&(*above, *other)).unwrap_or_default();
                     let new = self.series.sub(&old, &product);
+                    let other_name = name(self, *other);
+                    let reduced = format!("block_reduced_mass_{above_name}_{other_name}");
+                    self.series.hint(&new, &reduced);
                     block.insert((*above, *other), new);
                 }
                 let product = self.series.mul(&ratio, &solution[&orbit]);

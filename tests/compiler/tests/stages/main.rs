@@ -3,6 +3,7 @@
 
 mod architecture;
 mod book;
+mod constants;
 mod determinism;
 mod ladder;
 mod languages;
