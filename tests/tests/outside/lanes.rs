@@ -121,7 +121,7 @@ impl<T: Scalar> LaneTorques<T> for Ramp<T> {
 }
 
 /// Ends, samples and accounts of fixed steps in lanes are those of single states, to the last
-/// bit; and they are near those of another method.
+/// bit, and so of the order that is measured of these.
 fn fixed_steps_have_the_bits_of_single_states<P>(model: impl Fn() -> P)
 where
     P: Forced<f64> + Sync,
@@ -136,14 +136,6 @@ where
     assert_eq!(lanes, ensemble.integrate(&gauss, &free, &starts, 0.5));
     let lanes = ensemble.integrate_in_lanes(&method, &free, &starts, 1.0);
     assert_eq!(lanes, ensemble.integrate(&method, &free, &starts, 1.0));
-    let other = Dop853::new(Options::with_tolerance(1e-12));
-    let other = ensemble.integrate(&other, &free, &starts, 1.0);
-    for (lane, other) in lanes.into_iter().zip(other) {
-        let (lane, other) = (lane.unwrap().state.values, other.unwrap().state.values);
-        for (lane, other) in lane.iter().zip(&other) {
-            assert!((lane - other).abs() < 1e-6, "{lane} {other}");
-        }
-    }
 
     let releases: Vec<_> = (1..14)
         .zip(starts)
