@@ -117,13 +117,16 @@ struct WindowMotion<'a, P> {
     counts: bool,
 }
 
+/// A state at the end of a window, and the sums over it.
+type Moved = (Vec<f64>, Window);
+
 impl<P: RodTree> WindowMotion<'_, P> {
     /// Moves starts through the window, in lanes: their states at its end, and sums over it.
     fn follow(
         &self,
         starts: &[Followed],
         motors: &[Motor],
-    ) -> Vec<Result<(Vec<f64>, Window), IntegrationError<f64>>> {
+    ) -> Vec<Result<Moved, IntegrationError<f64>>> {
         let Arguments { steps, samples, .. } = *self.arguments;
         let first = u64::from(steps) * self.window as u64;
         let time = self.arguments.time(first);
@@ -151,7 +154,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
     }
 }
 
-/// StateBudgets of states of a tree, in memory that is kept.
+/// Budgets of states of a tree, in memory that is kept.
 struct StateBudgets<'a, P> {
     tree: &'a P,
     workspace: Workspace<f64>,

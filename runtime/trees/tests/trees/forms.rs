@@ -60,10 +60,10 @@ fn batches_compute_what_one_state_computes() {
             let number = |state: usize| (factor * (1 + link) as f64 + 0.1 * state as f64).sin();
             (0..21).map(number).collect()
         };
-        let [theta, omega, torques] =
-            [1.3, 4.1, 0.7].map(|factor| (0..links).map(|link| column(link, factor)).collect());
-        let (theta, omega, torques): (Vec<Vec<f64>>, Vec<Vec<f64>>, Vec<Vec<f64>>) =
-            (theta, omega, torques);
+        let columns = |factor: f64| -> Vec<Vec<f64>> {
+            (0..links).map(|link| column(link, factor)).collect()
+        };
+        let (theta, omega, torques) = (columns(1.3), columns(4.1), columns(0.7));
         let mut alpha = vec![vec![0.0; 21]; links];
         let mut under = alpha.clone();
         let mut batch = Batch::new(&tree);
