@@ -5,7 +5,7 @@
 //! absolute angles), [`Energy`], and, where the tree has identical siblings,
 //! [`SymmetricPendulum`]. Integrators know none of these: they integrate an
 //! [`Ode`], a first-order system. [`AbsoluteAngles`] and
-//! [`SymmetricCoordinates`] turn one into the other.
+//! [`SymmetricCoordinates`](type@SymmetricCoordinates) turn one into the other.
 
 mod by_reference;
 mod canonical;

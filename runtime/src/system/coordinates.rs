@@ -76,7 +76,7 @@ impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
 /// the coordinates followed by their rates. Holds a pendulum, or a reference to one.
 pub type SymmetricCoordinates<P> = Motion<Symmetric<P>>;
 
-/// A model in symmetric coordinates: [`SymmetricCoordinates`].
+/// A model in symmetric coordinates: [`SymmetricCoordinates`](type@SymmetricCoordinates).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Symmetric<P>(P);
 

@@ -40,8 +40,8 @@ pub trait CastSecondOrder<T: Scalar>: SecondOrder<T> {
 /// A function of a model as a first-order system: the state is the coordinates followed by
 /// their velocities. [`UnderTorques`](super::UnderTorques),
 /// [`PrescribedOde`](super::PrescribedOde), [`TransverseOde`](super::TransverseOde),
-/// [`SmallOde`](super::SmallOde), [`SmallUnderTorques`](super::SmallUnderTorques) and
-/// [`SymmetricCoordinates`](super::SymmetricCoordinates) are some.
+/// [`SmallOde`](type@super::SmallOde), [`SmallUnderTorques`](super::SmallUnderTorques) and
+/// [`SymmetricCoordinates`](type@super::SymmetricCoordinates) are some.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion<E>(pub(super) E);
 

@@ -126,7 +126,7 @@ pub(super) const fn coordinates(
 /// ```
 pub type SmallOde<P> = Motion<Nearly<P>>;
 
-/// A model nearly in phase: [`SmallOde`].
+/// A model nearly in phase: [`SmallOde`](type@SmallOde).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearly<P> {
     model: P,

@@ -113,7 +113,7 @@ impl<'a> ModelForm<'a> {
         )
     }
 
-    /// The model has small differences that act back, [`SmallOde`](crate::system::SmallOde):
+    /// The model has small differences that act back, [`SmallOde`](type@crate::system::SmallOde):
     /// a start enters as means and differences of these patterns; what else it has of
     /// differences shows as an error.
     #[must_use]
@@ -128,7 +128,7 @@ impl<'a> ModelForm<'a> {
     /// The links of the model, or of the whole tree behind a reduced one, stand in another
     /// order than those of the scene: trees in loops by a rule go generation by
     /// generation, others branch by branch. `places` has the place of each link of the
-    /// scene; [`link_name`](crate::Pendulum::link_name) tells which is which.
+    /// scene; [`link_name`](crate::Model::link_name) tells which is which.
     #[must_use]
     pub fn ordered(mut self, places: &[usize]) -> Self {
         let mut back = vec![usize::MAX; places.len()];

@@ -56,7 +56,7 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 {
 }
 
-/// [`SmallOde`](super::SmallOde) under [`Torques`]: functions of the time, of angles and
+/// [`SmallOde`](type@super::SmallOde) under [`Torques`]: functions of the time, of angles and
 /// differences one behind the other, and of their rates, which write as many generalized
 /// torques.
 ///
