@@ -299,7 +299,7 @@ fn load_few<T: Scalar, V: Simd<T>>(few: &[T]) -> V {
 /// Returns memory of plain numbers as wide ones, from where the first one would lie;
 /// none of a type that is not its numbers alone.
 #[allow(unsafe_code)]
-pub(crate) fn wide_slice_mut<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
+pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
     if size_of::<V>() != V::LANES * size_of::<T>() {
         return None;
     }
@@ -307,12 +307,29 @@ pub(crate) fn wide_slice_mut<T: Scalar, V: Simd<T>>(numbers: &mut [T]) -> Option
     Some(unsafe { numbers.align_to_mut().1 })
 }
 
-/// Returns memory of plain numbers as wide ones, likewise.
+/// Returns true if a number `V` is one `T` and nothing else, wherever that may lie.
+const fn is_one<T, V: Simd<T>>() -> bool {
+    V::LANES == 1 && size_of::<V>() == size_of::<T>() && align_of::<V>() <= align_of::<T>()
+}
+
+/// Returns plain numbers as numbers of one lane; none of a type that is more than that lane.
 #[allow(unsafe_code)]
-pub(crate) fn wide_slice<T: Scalar, V: Simd<T>>(numbers: &[T]) -> Option<&[V]> {
-    if size_of::<V>() != V::LANES * size_of::<T>() {
+#[inline(always)]
+pub(crate) fn one_slice<T, V: Simd<T>>(numbers: &[T]) -> Option<&[V]> {
+    if !const { is_one::<T, V>() } {
         return None;
     }
-    // SAFETY: as above.
-    Some(unsafe { numbers.align_to().1 })
+    // SAFETY: each is one such number, by its lanes, its size and its alignment.
+    Some(unsafe { core::slice::from_raw_parts(numbers.as_ptr().cast(), numbers.len()) })
+}
+
+/// Does so with memory that is written to.
+#[allow(unsafe_code)]
+#[inline(always)]
+pub(crate) fn one_slice_mut<T, V: Simd<T>>(numbers: &mut [T]) -> Option<&mut [V]> {
+    if !const { is_one::<T, V>() } {
+        return None;
+    }
+    // SAFETY: as above, and any number of one kind is one of the other.
+    Some(unsafe { core::slice::from_raw_parts_mut(numbers.as_mut_ptr().cast(), numbers.len()) })
 }

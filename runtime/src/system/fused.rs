@@ -7,7 +7,7 @@ use super::{At, Computes, Function};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
-use crate::simd::{Kernel, Simd, wide_slice, wide_slice_mut};
+use crate::simd::{Kernel, Simd, one_slice, one_slice_mut};
 
 /// Most links of a model that is written out and computed so: code of larger ones is compiled
 /// in parts.
@@ -89,12 +89,11 @@ impl<F: Function, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M,
 
     #[inline(always)]
     fn run<V: Simd<T>>(self) {
-        let given: [&[V]; MOST_GIVEN] = self
-            .given
-            .map(|slice| wide_slice(slice).unwrap_or_default());
+        let given: [&[V]; MOST_GIVEN] =
+            self.given.map(|slice| one_slice(slice).unwrap_or_default());
         let mut results: [&mut [V]; MOST_RESULTS] = self
             .results
-            .map(|slice| wide_slice_mut(slice).unwrap_or_default());
+            .map(|slice| one_slice_mut(slice).unwrap_or_default());
         if let (Some(given), Some(results)) = (given.get(..F::GIVEN), results.get_mut(..F::RESULTS))
         {
             let model = self.model.on(V::splat);

@@ -71,7 +71,7 @@ pub use small::{LinkStates, SmallTree};
 
 use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};
-use crate::simd::{Simd, wide_slice_mut};
+use crate::simd::{Simd, wide_slice};
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
 use copies::links;
@@ -277,7 +277,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         WithRoom {
             tree: self,
             drive: drive.map(|drive| drive.map(V::splat)),
-            room: match wide_slice_mut::<T, V>(room) {
+            room: match wide_slice::<T, V>(room) {
                 Some(values) => LentOrOwn::Lent(values),
                 None => LentOrOwn::Own(alloc::vec![V::from_f64(0.0); self.room()]),
             },
