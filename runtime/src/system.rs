@@ -20,13 +20,13 @@ mod fused;
 mod lane_ode;
 mod link_name;
 mod model;
-mod motion;
 mod ode;
 mod parametric;
 mod patterns;
 pub(crate) mod pendulum;
 pub(crate) mod positions;
 mod prescribed;
+mod second_order;
 mod small;
 mod state;
 mod taylor;
@@ -42,12 +42,11 @@ pub use derivatives::{Slopes, gradient};
 pub use energy::Energy;
 pub use first_integral::{CanonicalEnergy, FirstIntegral, TotalEnergy};
 pub use forced::{Forced, LaneTorques, Pushed, Torques, UnderTorques};
-pub use function::{At, Computes, Function, functions};
+pub use function::{At, Computes, SliceCounts, functions};
 pub use lane_ode::LaneOde;
 pub use link_name::LinkName;
 pub use model::Model;
 pub(crate) use model::known;
-pub use motion::{CastSecondOrder, Motion, SecondOrder};
 pub use ode::{Ode, OdeFn};
 pub use parametric::Parametric;
 pub use patterns::{DifferencePatterns, PatternError};
@@ -56,8 +55,10 @@ pub use pendulum::InRegisters;
 pub use pendulum::Pendulum;
 pub use positions::{LinkPoint, LinkProperties, Positions};
 pub use prescribed::{
-    Held, LaneCourses, LinkCourse, LinkCourses, Prescribed, PrescribedMotion, PrescribedOde,
+    LaneCourses, LinkCourse, LinkCourses, LinksOnCourse, Prescribed, PrescribedMotion,
+    PrescribedOde,
 };
+pub use second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
 pub use small::{
     ForcedDifferences, Nearly, NearlyPushed, SmallDifferences, SmallOde, SmallUnderTorques,
 };

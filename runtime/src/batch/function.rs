@@ -7,7 +7,7 @@ use crate::model::Transfer;
 use crate::scalar::{Lane, Scalar};
 use crate::sectors::Budget;
 use crate::simd::{Kernel, Simd, dispatch};
-use crate::system::{At, Computes, Forced, Function, Model, Pendulum, functions};
+use crate::system::{At, Computes, Forced, Model, Pendulum, SliceCounts, functions};
 
 /// A function of one state of a pendulum `P`, on any scalar, of `A` arguments with a
 /// number for each link: [`state_function!`](crate::state_function) writes it.
@@ -298,7 +298,7 @@ where
 /// A function `F` of a model, of `A` arguments with a number for each link.
 struct Applied<F, const A: usize>(PhantomData<F>);
 
-impl<F: Function, P: Computes<F, T>, T: Scalar, const A: usize> RegisterFunction<P, T>
+impl<F: SliceCounts, P: Computes<F, T>, T: Scalar, const A: usize> RegisterFunction<P, T>
     for Applied<F, A>
 {
     type On<S: Scalar> = P::On<S>;

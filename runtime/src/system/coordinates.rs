@@ -2,9 +2,9 @@
 
 use super::function::{At, Computes, compute_in, functions};
 use super::model::twice;
-use super::motion::{CastSecondOrder, Motion, SecondOrder};
 use super::ode::halves;
 use super::pendulum::put;
+use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
 use super::{CastOde, LaneOde, Model, Ode, Pendulum, Workspace};
 use crate::scalar::{Scalar, at};
 
@@ -74,7 +74,7 @@ impl<T: Scalar, P: SymmetricPendulum<T>> SymmetricPendulum<T> for &P {
 
 /// A pendulum as a first-order system in symmetric coordinates: the state is
 /// the coordinates followed by their rates. Holds a pendulum, or a reference to one.
-pub type SymmetricCoordinates<P> = Motion<Symmetric<P>>;
+pub type SymmetricCoordinates<P> = SecondOrderOde<Symmetric<P>>;
 
 /// A model in symmetric coordinates: [`SymmetricCoordinates`](type@SymmetricCoordinates).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub struct Symmetric<P>(P);
 /// Returns a pendulum, or a reference to one, in symmetric coordinates as a first-order system.
 #[allow(non_snake_case)]
 pub const fn SymmetricCoordinates<P>(pendulum: P) -> SymmetricCoordinates<P> {
-    Motion(Symmetric(pendulum))
+    SecondOrderOde(Symmetric(pendulum))
 }
 
 impl<T: Scalar, P: Computes<functions::SymmetricAccelerations, T>> SecondOrder<T> for Symmetric<P> {

@@ -1,10 +1,9 @@
 //! Pendulums under torques from outside.
 
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::function::{At, Computes, compute_in, functions};
-use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
 use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
@@ -188,16 +187,16 @@ pub trait LaneTorques<T: Scalar>: Torques<T> {
 /// assert!(end.state.values[0] > 0.1);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```
-pub type UnderTorques<P, F> = Motion<Pushed<P, F>>;
+pub type UnderTorques<P, F> = SecondOrderOde<Pushed<P, F>>;
 
 /// A pendulum and the torques on it: [`UnderTorques`].
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Pushed<P, F> {
     pendulum: P,
-    torques: F,
+    torques: HandedOver<F>,
 }
 
-impl<P, F> Motion<Pushed<P, F>> {
+impl<P, F> SecondOrderOde<Pushed<P, F>> {
     /// The pendulum, or a reference to one, under the torques that
     /// `torques(time, theta, omega, out)` writes.
     pub fn new<T>(pendulum: P, torques: F) -> Self
@@ -210,31 +209,21 @@ impl<P, F> Motion<Pushed<P, F>> {
     /// The pendulum, or a reference to one, under [`Torques`] of a type of their own, or
     /// under a vector of those that stay as they are.
     pub fn of(pendulum: P, torques: F) -> Self {
-        Motion(Pushed { pendulum, torques })
+        SecondOrderOde(Pushed {
+            pendulum,
+            torques: HandedOver(torques),
+        })
     }
 
     /// The torques.
     pub fn torques(&self) -> &F {
-        &self.0.torques
+        &self.0.torques.0
     }
 
     /// The torques, to change them: a vector between two frames of
     /// [`Frames`](crate::integrate::Frames), for example.
     pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.0.torques
-    }
-}
-
-impl<P: fmt::Debug, F> fmt::Debug for Pushed<P, F> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            pendulum,
-            torques: _,
-        } = self;
-        formatter
-            .debug_struct("Pushed")
-            .field("pendulum", pendulum)
-            .finish_non_exhaustive()
+        &mut self.0.torques.0
     }
 }
 
@@ -256,7 +245,7 @@ where
         [velocities, alpha]: [&mut [T]; 2],
     ) {
         // Torques stand where the velocities will.
-        self.torques.torques_into(time, theta, omega, velocities);
+        self.torques.0.torques_into(time, theta, omega, velocities);
         let given = [theta, omega, velocities];
         compute_in(
             &self.pendulum,
@@ -281,7 +270,7 @@ where
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
         Pushed {
             pendulum: self.pendulum.on(&convert),
-            torques: self.torques.on_scalar(&convert),
+            torques: HandedOver(self.torques.0.on_scalar(&convert)),
         }
     }
 

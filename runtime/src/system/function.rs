@@ -30,7 +30,7 @@ impl<T> At<T> {
 }
 
 /// A function of a state: how many slices it takes and writes.
-pub trait Function {
+pub trait SliceCounts {
     /// Number of slices that it takes.
     const GIVEN: usize;
 
@@ -44,7 +44,7 @@ macro_rules! function {
         #[derive(Clone, Copy, Debug)]
         pub struct $name;
 
-        impl super::Function for $name {
+        impl super::SliceCounts for $name {
             const GIVEN: usize = $given;
             const RESULTS: usize = $results;
         }
@@ -92,12 +92,12 @@ pub mod functions {
 /// A model that has a function `F` of [`functions`]. Emitted code implements it: once, in the
 /// arithmetic of the model's own scalar. All forms of the function are made of that:
 /// one state in fused arithmetic, many in registers ([`Batch`](crate::batch::Batch)), a system
-/// of equations ([`Motion`](super::Motion)) and its lanes, the same on other scalars.
+/// of equations ([`SecondOrderOde`](super::SecondOrderOde)) and its lanes, the same on other scalars.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no function `{F}` in `{T}`",
     note = "torques from outside are asked for by `emit(forces)`, held links by `prescribed(LINK)`, linear differences by `in_phase(…)` with `emit(transverse)`, those that act back by `emit(small)`, symmetric coordinates by `emit(symmetric)`"
 )]
-pub trait Computes<F: Function, T: Scalar>: Model<T> {
+pub trait Computes<F: SliceCounts, T: Scalar>: Model<T> {
     /// The model on other scalars, which has the function too.
     type On<S: Scalar>: Computes<F, S>;
 
@@ -127,7 +127,7 @@ pub trait Computes<F: Function, T: Scalar>: Model<T> {
     }
 }
 
-impl<F: Function, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
+impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
     type On<S: Scalar> = M::On<S>;
 
     #[inline(always)]
@@ -154,7 +154,7 @@ impl<F: Function, T: Scalar, M: Computes<F, T>> Computes<F, T> for &M {
 
 /// Computes in memory that the caller keeps, or without any in the arithmetic of `T`.
 #[inline(always)]
-pub(super) fn compute_in<F: Function, T: Scalar, M: Computes<F, T>>(
+pub(super) fn compute_in<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
     model: &M,
     workspace: Option<&mut Workspace<T>>,
     at: At<T>,

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::model::known;
-use super::{At, Computes, Function};
+use super::{At, Computes, SliceCounts};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lane, Scalar};
 use crate::simd::dispatch::in_fused_numbers;
@@ -20,7 +20,7 @@ const MOST_RESULTS: usize = 2;
 /// Computes a function in fused arithmetic where the type and the machine have it, else in
 /// that of `T`.
 #[inline(always)]
-pub(super) fn in_fused_arithmetic<F: Function, T: Scalar, M: Computes<F, T>>(
+pub(super) fn in_fused_arithmetic<F: SliceCounts, T: Scalar, M: Computes<F, T>>(
     model: &M,
     at: At<T>,
     given: &[&[T]],
@@ -62,7 +62,7 @@ struct OneState<'a, F, M, T> {
     results: [&'a mut [T]; MOST_RESULTS],
 }
 
-impl<F: Function, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M, T> {
+impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]
@@ -84,7 +84,7 @@ impl<F: Function, T: Scalar, M: Computes<F, T>> ByKind<T> for OneState<'_, F, M,
     }
 }
 
-impl<F: Function, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M, T> {
+impl<F: SliceCounts, T: Scalar, M: Computes<F, T>> Kernel<T> for OneState<'_, F, M, T> {
     type Output = ();
 
     #[inline(always)]

@@ -1,10 +1,9 @@
 //! Pendulums of which some links are moved.
 
 use alloc::vec::Vec;
-use core::fmt;
 
 use super::function::{At, Computes, compute_in, functions};
-use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
 use super::{Forced, Workspace};
 use crate::scalar::Scalar;
 
@@ -182,18 +181,18 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// assert!((alpha + pace * pace * theta[0]).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type PrescribedOde<P, F> = Motion<Held<P, F>>;
+pub type PrescribedOde<P, F> = SecondOrderOde<LinksOnCourse<P, F>>;
 
 /// A pendulum and the course of some of its links: [`PrescribedOde`].
-#[derive(Clone)]
-pub struct Held<P, F> {
+#[derive(Clone, Debug)]
+pub struct LinksOnCourse<P, F> {
     pendulum: P,
     set: usize,
     links: Vec<usize>,
-    course: F,
+    course: HandedOver<F>,
 }
 
-impl<P, F> Motion<Held<P, F>> {
+impl<P, F> SecondOrderOde<LinksOnCourse<P, F>> {
     /// The pendulum, or a reference to one, of which the links of that set move as
     /// `course(time, out)` writes; `None` without such a set.
     pub fn new<T: Scalar>(pendulum: P, set: usize, course: F) -> Option<Self>
@@ -212,11 +211,11 @@ impl<P, F> Motion<Held<P, F>> {
         F: LinkCourses<T>,
     {
         let links = pendulum.prescribed_links(set)?.to_vec();
-        Some(Motion(Held {
+        Some(SecondOrderOde(LinksOnCourse {
             pendulum,
             set,
             links,
-            course,
+            course: HandedOver(course),
         }))
     }
 
@@ -250,7 +249,7 @@ impl<P, F> Motion<Held<P, F>> {
     }
 }
 
-impl<P, F> Held<P, F> {
+impl<P, F> LinksOnCourse<P, F> {
     /// Writes velocities and accelerations, and reactions for whom asks for them.
     #[inline(always)]
     fn write<T: Scalar>(
@@ -279,7 +278,7 @@ impl<P, F> Held<P, F> {
         angles.copy_from_slice(theta);
         rates.copy_from_slice(omega);
         let (courses, _) = courses.as_chunks_mut::<3>();
-        self.course.courses_into(time, courses);
+        self.course.0.courses_into(time, courses);
         for ((&link, &mut [angle, rate, alpha]), prescribed) in
             self.links.iter().zip(courses).zip(&mut *prescribed)
         {
@@ -305,23 +304,7 @@ impl<P, F> Held<P, F> {
     }
 }
 
-impl<P: fmt::Debug, F> fmt::Debug for Held<P, F> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            pendulum,
-            set: _,
-            links,
-            course: _,
-        } = self;
-        formatter
-            .debug_struct("Held")
-            .field("pendulum", pendulum)
-            .field("links", links)
-            .finish_non_exhaustive()
-    }
-}
-
-impl<T: Scalar, P, F> SecondOrder<T> for Held<P, F>
+impl<T: Scalar, P, F> SecondOrder<T> for LinksOnCourse<P, F>
 where
     P: Computes<functions::AccelerationsOfHeldLinks, T>,
     F: LinkCourses<T>,
@@ -342,21 +325,21 @@ where
     }
 }
 
-impl<T: Scalar, P, F> CastSecondOrder<T> for Held<P, F>
+impl<T: Scalar, P, F> CastSecondOrder<T> for LinksOnCourse<P, F>
 where
     P: Computes<functions::AccelerationsOfHeldLinks, T>,
     F: LaneCourses<T>,
 {
-    type On<S: Scalar> = Held<P::On<S>, F::Of<S>>;
+    type On<S: Scalar> = LinksOnCourse<P::On<S>, F::Of<S>>;
 
     const COORDINATES: Option<usize> = P::KNOWN_LINKS;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::On<S> {
-        Held {
+        LinksOnCourse {
             pendulum: self.pendulum.on(&convert),
             set: self.set,
             links: self.links.clone(),
-            course: self.course.on_scalar(&convert),
+            course: HandedOver(self.course.0.on_scalar(&convert)),
         }
     }
 

@@ -6,7 +6,7 @@ pub use forced::{ForcedDifferences, NearlyPushed, SmallUnderTorques};
 
 use super::by_reference::by_reference;
 use super::function::{At, Computes, functions};
-use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
 use super::transverse::{parts, with_differences};
 use super::{Transverse, TransverseSector, Workspace};
 use crate::scalar::Scalar;
@@ -124,7 +124,7 @@ pub(super) const fn coordinates(
 /// assert!((reaction(2e-3) / reaction(1e-3) - 1.0).abs() < 1e-3);
 /// # }
 /// ```
-pub type SmallOde<P> = Motion<Nearly<P>>;
+pub type SmallOde<P> = SecondOrderOde<Nearly<P>>;
 
 /// A model nearly in phase: [`SmallOde`](type@SmallOde).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,13 +137,13 @@ pub struct Nearly<P> {
 /// as a first-order system.
 #[allow(non_snake_case)]
 pub fn SmallOde<T: Scalar, P: SmallDifferences<T>>(model: P) -> SmallOde<P> {
-    Motion(Nearly {
+    SecondOrderOde(Nearly {
         model,
         differences: differences(P::TRANSVERSE, P::SMALL),
     })
 }
 
-impl<P> Motion<Nearly<P>> {
+impl<P> SecondOrderOde<Nearly<P>> {
     /// Returns the energy (in J) of a state; NaN for one of another length.
     pub fn energy<T: Scalar>(&self, state: &[T]) -> T
     where

@@ -1,8 +1,8 @@
 //! Small differences between copies that move in phase.
 
 use super::by_reference::by_reference;
-use super::function::{At, Computes, Function, compute_in, functions};
-use super::motion::{CastSecondOrder, Motion, SecondOrder};
+use super::function::{At, Computes, SliceCounts, compute_in, functions};
+use super::second_order::{CastSecondOrder, SecondOrder, SecondOrderOde};
 use super::{Pendulum, Workspace};
 use crate::scalar::Scalar;
 
@@ -156,7 +156,7 @@ pub trait Transverse<T: Scalar>: Pendulum<T> + Computes<functions::LinearDiffere
 /// assert!(growth(42.0).unwrap() < 10.0 && growth(44.0).unwrap() > 10.0);
 /// # }
 /// ```
-pub type TransverseOde<P> = Motion<Beside<P>>;
+pub type TransverseOde<P> = SecondOrderOde<Beside<P>>;
 
 /// A model and one of its sectors: [`TransverseOde`].
 #[derive(Clone, Copy, Debug)]
@@ -166,14 +166,14 @@ pub struct Beside<P> {
     sector: TransverseSector,
 }
 
-impl<P> Motion<Beside<P>> {
+impl<P> SecondOrderOde<Beside<P>> {
     /// The differences of the sector with that index beside the motion of a model, or
     /// of a reference to one; `None` without such a sector.
     pub fn new<T: Scalar>(model: P, sector: usize) -> Option<Self>
     where
         P: Transverse<T>,
     {
-        Some(Motion(Beside {
+        Some(SecondOrderOde(Beside {
             model,
             index: sector,
             sector: *P::TRANSVERSE.get(sector)?,
@@ -246,7 +246,7 @@ const fn common_links(sectors: &[TransverseSector]) -> Option<usize> {
 /// Writes the rates of angles and differences, and of their velocities, by a function of
 /// angles, angular velocities, differences and their rates.
 #[inline(always)]
-pub(super) fn with_differences<F: Function, T: Scalar, P: Computes<F, T>>(
+pub(super) fn with_differences<F: SliceCounts, T: Scalar, P: Computes<F, T>>(
     model: &P,
     workspace: Option<&mut Workspace<T>>,
     at: At<T>,

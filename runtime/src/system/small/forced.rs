@@ -1,11 +1,9 @@
 //! Small differences that act back, under torques from outside.
 
-use core::fmt;
-
 use super::{SmallDifferences, coordinates, differences};
 use crate::scalar::Scalar;
 use crate::system::function::{At, Computes, compute_in, functions};
-use crate::system::motion::{CastSecondOrder, Motion, SecondOrder};
+use crate::system::second_order::{CastSecondOrder, HandedOver, SecondOrder, SecondOrderOde};
 use crate::system::transverse::parts;
 use crate::system::{Forced, LaneTorques, Torques, Workspace};
 
@@ -91,17 +89,17 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 /// assert!(one > other && other > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type SmallUnderTorques<P, F> = Motion<NearlyPushed<P, F>>;
+pub type SmallUnderTorques<P, F> = SecondOrderOde<NearlyPushed<P, F>>;
 
 /// A model nearly in phase and the torques on it: [`SmallUnderTorques`].
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct NearlyPushed<P, F> {
     model: P,
     differences: usize,
-    torques: F,
+    torques: HandedOver<F>,
 }
 
-impl<P, F> Motion<NearlyPushed<P, F>> {
+impl<P, F> SecondOrderOde<NearlyPushed<P, F>> {
     /// The model, or a reference to one, under the torques that
     /// `torques(time, angles, rates, out)` writes.
     pub fn new<T: Scalar>(model: P, torques: F) -> Self
@@ -118,30 +116,16 @@ impl<P, F> Motion<NearlyPushed<P, F>> {
     where
         P: SmallDifferences<T>,
     {
-        Motion(NearlyPushed {
+        SecondOrderOde(NearlyPushed {
             model,
             differences: differences(P::TRANSVERSE, P::SMALL),
-            torques,
+            torques: HandedOver(torques),
         })
     }
 
     /// Returns the torques, to change them.
     pub fn torques_mut(&mut self) -> &mut F {
-        &mut self.0.torques
-    }
-}
-
-impl<P: fmt::Debug, F> fmt::Debug for NearlyPushed<P, F> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            model,
-            differences: _,
-            torques: _,
-        } = self;
-        formatter
-            .debug_struct("NearlyPushed")
-            .field("model", model)
-            .finish_non_exhaustive()
+        &mut self.0.torques.0
     }
 }
 
@@ -163,7 +147,7 @@ where
         [first, second]: [&mut [T]; 2],
     ) {
         // Torques stand where the rates of the angles will.
-        self.torques.torques_into(time, angles, velocities, first);
+        self.torques.0.torques_into(time, angles, velocities, first);
         let split = |values| parts(self.model.links(), values);
         let ([theta, difference], [omega, rate]) = (split(angles), split(velocities));
         let [torques, on_differences] = parts(self.model.links(), first);
@@ -194,7 +178,7 @@ where
         NearlyPushed {
             model: Computes::<functions::SmallDifferencesUnderTorques, T>::on(model, &convert),
             differences: self.differences,
-            torques: self.torques.on_scalar(&convert),
+            torques: HandedOver(self.torques.0.on_scalar(&convert)),
         }
     }
 

@@ -1,5 +1,7 @@
 //! Functions of a model as systems of first-order equations.
 
+use core::fmt;
+
 use super::model::twice;
 use super::ode::halves;
 use super::{CastOde, LaneOde, Ode, Workspace};
@@ -37,15 +39,25 @@ pub trait CastSecondOrder<T: Scalar>: SecondOrder<T> {
     fn shape(&self) -> usize;
 }
 
+/// What a caller hands over, as torques, which need not be something to show.
+#[derive(Clone, Copy)]
+pub struct HandedOver<A>(pub(super) A);
+
+impl<A> fmt::Debug for HandedOver<A> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("..")
+    }
+}
+
 /// A function of a model as a first-order system: the state is the coordinates followed by
 /// their velocities. [`UnderTorques`](super::UnderTorques),
 /// [`PrescribedOde`](super::PrescribedOde), [`TransverseOde`](super::TransverseOde),
 /// [`SmallOde`](type@super::SmallOde), [`SmallUnderTorques`](super::SmallUnderTorques) and
 /// [`SymmetricCoordinates`](type@super::SymmetricCoordinates) are some.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion<E>(pub(super) E);
+pub struct SecondOrderOde<E>(pub(super) E);
 
-impl<E> Motion<E> {
+impl<E> SecondOrderOde<E> {
     #[inline(always)]
     fn write<T: Scalar>(
         &self,
@@ -63,7 +75,7 @@ impl<E> Motion<E> {
     }
 }
 
-impl<T: Scalar, E: SecondOrder<T>> Ode<T> for Motion<E> {
+impl<T: Scalar, E: SecondOrder<T>> Ode<T> for SecondOrderOde<E> {
     fn dimension(&self) -> usize {
         2 * self.0.coordinates()
     }
@@ -79,13 +91,13 @@ impl<T: Scalar, E: SecondOrder<T>> Ode<T> for Motion<E> {
     }
 }
 
-impl<T: Scalar, E: CastSecondOrder<T>> LaneOde<T> for Motion<E> {
-    type Of<S: Scalar> = Motion<E::On<S>>;
+impl<T: Scalar, E: CastSecondOrder<T>> LaneOde<T> for SecondOrderOde<E> {
+    type Of<S: Scalar> = SecondOrderOde<E::On<S>>;
 
     const DIMENSION: Option<usize> = twice(E::COORDINATES);
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Self::Of<S> {
-        Motion(self.0.on(convert))
+        SecondOrderOde(self.0.on(convert))
     }
 
     #[inline(always)]
@@ -98,10 +110,10 @@ impl<T: Scalar, E: CastSecondOrder<T>> LaneOde<T> for Motion<E> {
     }
 }
 
-impl<T: Scalar, S: Scalar, E: CastSecondOrder<T>> CastOde<T, S> for Motion<E> {
-    type Of = Motion<E::On<S>>;
+impl<T: Scalar, S: Scalar, E: CastSecondOrder<T>> CastOde<T, S> for SecondOrderOde<E> {
+    type Of = SecondOrderOde<E::On<S>>;
 
     fn cast(&self, convert: impl Fn(T) -> S) -> Self::Of {
-        Motion(self.0.on(convert))
+        SecondOrderOde(self.0.on(convert))
     }
 }
