@@ -343,7 +343,8 @@ where
         }
     }
 
+    // The links of lane 0 stand for those of all.
     fn shape(&self) -> usize {
-        self.pendulum.shape()
+        self.pendulum.shape().wrapping_add(self.set)
     }
 }

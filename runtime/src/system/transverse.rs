@@ -224,7 +224,7 @@ impl<T: Scalar, P: Transverse<T>> CastSecondOrder<T> for Beside<P> {
     }
 
     fn shape(&self) -> usize {
-        self.index
+        self.model.shape().wrapping_add(self.index)
     }
 }
 

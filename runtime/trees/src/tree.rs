@@ -126,8 +126,15 @@ impl<T: Scalar> PendulumTree<T> {
             in_numbers(&rows::held(&links, &carries))
         });
         let equations = Equations::new(form, &parents, rows, above);
+        // All that is no constant: trees in the lanes of one share it.
+        let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
+        let held_sets: Vec<Vec<usize>> = scene
+            .prescribed
+            .iter()
+            .map(|set| set.links.iter().map(|link| link.0).collect())
+            .collect();
         let mut hasher = DefaultHasher::new();
-        (&parents, form).hash(&mut hasher);
+        (&parents, form, functions, stands, held_sets).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),

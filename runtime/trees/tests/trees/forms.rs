@@ -3,7 +3,10 @@
 use branched_pendulum::integrate::Frames;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::system::{CastOde, LaneTorques, Torques, UnderTorques};
+use branched_pendulum::system::{
+    CastOde, LaneCourses, LaneTorques, LinkCourse, LinkCourses, PrescribedOde, Torques,
+    UnderTorques,
+};
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 use super::mechanics::{BENT, OMEGA, THETA, bent, near};
@@ -119,6 +122,53 @@ fn systems_of_a_tree_go_to_other_scalars() {
     }
     for (own, other) in frames.state().iter().zip(&end.values) {
         near(*own, *other, 1e-6);
+    }
+}
+
+/// Trees whose constants alone would not tell them apart share no lanes: another drive, other
+/// links that are held, another side that is up.
+#[test]
+fn trees_that_differ_in_more_than_constants_share_no_lanes() {
+    let tree = |gravity: f64, more: &str| {
+        let rods = "a: rod(mass = 0.2, length = 0.3) [b: rod(mass = 0.1, length = 0.2)]";
+        PendulumTree::parse(&format!("gravity = {gravity}, {rods}, {more}")).unwrap()
+    };
+    let start = State::at_rest(0.0, &[0.3, -0.2]);
+    let method = Dop853::new(Options::with_tolerance(1e-9));
+    let refused = |trees: [PendulumTree; 2]| {
+        let releases = trees.map(|tree| (AbsoluteAngles(tree), start.clone()));
+        let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 0.5);
+        assert!(ends[0].is_ok() && ends[1].is_err(), "{ends:?}");
+    };
+    let [sine, cosine] = ["sin", "cos"].map(|name| format!("drive(torque = 0.1 * {name}(3 * t))"));
+    refused([tree(9.81, &sine), tree(9.81, &cosine)]);
+    let lifted = "drive(y = 0.1 * sin(3 * t))";
+    refused([tree(9.81, lifted), tree(-9.81, lifted)]);
+    refused([tree(9.81, "prescribed(a)"), tree(9.81, "prescribed(b)")]);
+    // One tree, of which other sets are held.
+    let tree = tree(9.81, "prescribed(a), prescribed(b)");
+    let releases: Vec<_> = (0..2)
+        .map(|set| (PrescribedOde::of(&tree, set, Still).unwrap(), start.clone()))
+        .collect();
+    let ends = Ensemble::new().integrate_models_in_lanes(&method, &releases, 0.5);
+    assert!(ends[0].is_ok() && ends[1].is_err(), "{ends:?}");
+}
+
+/// Links that stay at an angle of 0.3 rad.
+#[derive(Clone, Copy)]
+struct Still;
+
+impl<T: Scalar> LinkCourses<T> for Still {
+    fn courses_into(&self, _: T, course: &mut [LinkCourse<T>]) {
+        course.fill([0.3, 0.0, 0.0].map(T::from_f64));
+    }
+}
+
+impl<T: Scalar> LaneCourses<T> for Still {
+    type Of<S: Scalar> = Still;
+
+    fn on_scalar<S: Scalar>(&self, _: impl Fn(T) -> S) -> Still {
+        Still
     }
 }
 
