@@ -45,22 +45,25 @@ impl Emission<'_> {
             (None, None) => ident("_at"),
             _ => ident("at"),
         };
+        let arguments = quote! {
+            #at: #runtime::system::At<T>,
+            given: &[&[T]],
+            results: &mut [&mut [T]],
+        };
+        let whole = |body: &TokenStream| quote! { #slices #time #index #body };
         let with_workspace = with_workspace.map(|body| {
+            let body = whole(body);
             quote! {
                 fn compute_with(
                     &self,
                     workspace: &mut #runtime::system::Workspace<T>,
-                    #at: #runtime::system::At<T>,
-                    given: &[&[T]],
-                    results: &mut [&mut [T]],
+                    #arguments
                 ) {
-                    #slices
-                    #time
-                    #index
                     #body
                 }
             }
         });
+        let body = whole(body);
         let function = ident(function.name);
         quote! {
             impl<T: #runtime::Scalar> #runtime::system::Computes<
@@ -77,15 +80,7 @@ impl Emission<'_> {
                 }
 
                 #[inline(always)]
-                fn compute(
-                    &self,
-                    #at: #runtime::system::At<T>,
-                    given: &[&[T]],
-                    results: &mut [&mut [T]],
-                ) {
-                    #slices
-                    #time
-                    #index
+                fn compute(&self, #arguments) {
                     #body
                 }
 

@@ -3,7 +3,7 @@
 use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{InRegisters, Workspace};
-use branched_pendulum::tree::RootDrive;
+use branched_pendulum::tree::{LinkEquations, RootDrive};
 
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 use crate::rows::Form;
@@ -142,5 +142,23 @@ impl<R, A: InRegisters<R>, B: InRegisters<R>> InRegisters<R> for OneOf<A, B> {
             Self::First(form) => form.evaluate(theta, omega, alpha),
             Self::Second(form) => form.evaluate(theta, omega, alpha),
         }
+    }
+}
+
+/// A tree whose constants are registers, with its drive at one time.
+pub(crate) struct AtOneTime<E, R> {
+    pub(crate) ways: Ways<E, R>,
+    pub(crate) drive: Option<RootDrive<R>>,
+}
+
+impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        self.ways.evaluate(self.drive, theta, omega, alpha);
     }
 }

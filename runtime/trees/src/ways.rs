@@ -5,7 +5,7 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
-use crate::forms::{Acting, OneOf};
+use crate::forms::{Acting, AtOneTime, OneOf};
 use crate::rows::Form;
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
@@ -124,7 +124,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         room: &mut [T],
     ) -> impl InRegisters<R> {
         match self.has_one_driven_link(drive) {
-            true => OneOf::First(Driven {
+            true => OneOf::First(AtOneTime {
                 ways: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
             }),
@@ -137,23 +137,5 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     #[inline(always)]
     fn has_one_driven_link(&self, drive: Option<RootDrive<T>>) -> bool {
         self.links == 1 && drive.is_some()
-    }
-}
-
-/// One link in registers, with its drive at one time.
-struct Driven<E, R> {
-    ways: Ways<E, R>,
-    drive: Option<RootDrive<R>>,
-}
-
-impl<E: LinkEquations, R: Scalar> InRegisters<R> for Driven<E, R> {
-    #[inline(always)]
-    fn evaluate(
-        &mut self,
-        theta: impl Fn(usize) -> R,
-        omega: impl Fn(usize) -> R,
-        alpha: impl FnMut(usize, R),
-    ) {
-        self.ways.evaluate(self.drive, theta, omega, alpha);
     }
 }

@@ -5,7 +5,7 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree};
 
-use crate::forms::Acting;
+use crate::forms::{Acting, AtOneTime};
 use crate::rows::Form;
 
 /// A tree of any size, link by link.
@@ -90,27 +90,9 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         drive: Option<RootDrive<T>>,
         _: &mut [T],
     ) -> impl InRegisters<R> {
-        Registers {
+        AtOneTime {
             ways: self.cast(R::splat),
             drive: drive.map(|drive| drive.map(R::splat)),
         }
-    }
-}
-
-/// A tree in registers, with its drive at one time.
-struct Registers<E, R> {
-    ways: Ways<E, R>,
-    drive: Option<RootDrive<R>>,
-}
-
-impl<E: LinkEquations, R: Scalar> InRegisters<R> for Registers<E, R> {
-    #[inline(always)]
-    fn evaluate(
-        &mut self,
-        theta: impl Fn(usize) -> R,
-        omega: impl Fn(usize) -> R,
-        alpha: impl FnMut(usize, R),
-    ) {
-        self.ways.evaluate(self.drive, theta, omega, alpha);
     }
 }
