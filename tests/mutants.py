@@ -25,14 +25,15 @@ LINK = ["-p", "branched-pendulum-codegen", "--test", "link"]
 LIBRARY = ["-p", "branched-pendulum", "--lib"]
 RUNTIME = ["-p", "branched-pendulum", "--test", "runtime"]
 DATA = ["-p", "branched-pendulum-data", "--test", "data"]
-IDENTIFICATION = ["-p", "branched-pendulum", "--test", "identification"]
+MEASURE = ["-p", "branched-pendulum-measure", "--test", "measure"]
+MEASURE_LIBRARY = ["-p", "branched-pendulum-measure", "--lib"]
 OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
 CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
 
-C, R, D = "codegen/src", "runtime/src", "runtime/data/src"
+C, R, D, M = "codegen/src", "runtime/src", "runtime/data/src", "runtime/measure/src"
 
 # Name, file, text, mutant, test binary, test.
 EXPRESSIONS = [
@@ -184,14 +185,14 @@ EXPRESSIONS = [
      "statistics::drifts_and_left_out_members_know_their_errors"),
     ("slope of the squared difference halved", f"{R}/analysis/growth/record.rs",
      "2.0 * dot(angles, rates)", "dot(angles, rates)", LIBRARY, "growth::record"),
-    ("factorials of the jerk's noise", f"{R}/analysis/smoothing/kinematic.rs",
-     "power as f64 * factorial[2 - i] * factorial[2 - j]", "power as f64", RUNTIME,
+    ("factorials of the jerk's noise", f"{M}/smoothing/kinematic.rs",
+     "power as f64 * factorial[2 - i] * factorial[2 - j]", "power as f64", MEASURE,
      "dense_regression::a_white_jerk"),
-    ("noise of angles by white torques", f"{R}/analysis/smoothing/model_filter.rs",
-     "h.powi(3) / 3.0", "h.powi(3) / 2.0", RUNTIME, "dense_regression::white_torques"),
-    ("correlation of sine and cosine of a line", f"{R}/analysis/spectrum/fit.rs",
+    ("noise of angles by white torques", f"{M}/smoothing/model_filter.rs",
+     "h.powi(3) / 3.0", "h.powi(3) / 2.0", MEASURE, "dense_regression::white_torques"),
+    ("correlation of sine and cosine of a line", f"{M}/spectrum/fit.rs",
      "2.0 * c * s * all[(first, first + 1)]", "0.0 * c * s * all[(first, first + 1)]",
-     LIBRARY, "spectrum::fit"),
+     MEASURE_LIBRARY, "spectrum::fit"),
     ("deviations along the first coordinates", f"{R}/analysis/variational/lyapunov.rs",
      "let mut vectors: Vec<f64> = parts.collect();",
      "let mut vectors: Vec<f64> = DMatrix::identity(dimension, count).as_slice().to_vec();",
@@ -203,9 +204,9 @@ EXPRESSIONS = [
      "other.total_cmp(one)", "one.total_cmp(other)", RUNTIME,
      "exponents::the_largest_exponent_is_found_wherever_it_is"),
     ("size of what is left over in naive deviations",
-     f"{R}/analysis/identification/covariance.rs",
-     "variance * row.norm_squared()", "row.norm_squared()", IDENTIFICATION,
-     "deviations::bars_hold_the_truth"),
+     f"{M}/identification/covariance.rs",
+     "variance * row.norm_squared()", "row.norm_squared()", MEASURE,
+     "identification::deviations::bars_hold_the_truth"),
 ]
 
 CONSTANTS = [

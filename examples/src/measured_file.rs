@@ -9,8 +9,8 @@ use branched_pendulum_data::{
 };
 use clap::{Args, ValueEnum};
 
-use crate::failure::Failure;
-use crate::program::command_line::{number, parts};
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::command_line::{number, parts};
 
 /// A file of angles or of dots against time, and what is known of it.
 #[derive(Args, Clone, Debug, Default, PartialEq)]

@@ -15,7 +15,7 @@
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
 //! - [`taylor`]: the recurrences of Taylor coefficients that emitted code uses,
 //! - [`transfer_forms`]: several forms of one energy transfer,
-//! - [`analysis`]: linear modes of trees and sectors, spectra, growth of deviations,
+//! - [`analysis`]: linear modes of trees and sectors, averages, growth of deviations,
 //!   errors of truncated transfers,
 //! - [`model`]: what emitted models return, and what they refuse.
 //!
@@ -94,8 +94,6 @@
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
-//! - `spectra` (default): amplitudes against frequency and the lines of a motion, with five
-//!   crates more for the fast Fourier transform.
 //! - `serde`: states, options, methods, reports and trajectories can be written and
 //!   read. Finite numbers keep their bits wherever the format keeps them; of `serde_json`
 //!   the feature `float_roundtrip` does so.

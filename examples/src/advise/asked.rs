@@ -1,17 +1,15 @@
 //! One scene as an advisor sees it: exact equations, starts, outputs, candidates.
 
-use branched_pendulum::analysis::advice::{
-    AdviceError, Advisor, Candidates, ModelForm, TimeLimit, Wanted,
-};
 use branched_pendulum::approximate::{Approximation, Linear};
 use branched_pendulum::prelude::*;
+use branched_pendulum_advice::{AdviceError, Advisor, Candidates, ModelForm, TimeLimit, Wanted};
 use clap::ValueEnum;
 
 use super::scenes::{
     Branch, BranchInPhase, BranchLoops, Cascade, CascadeInPhase, CascadeWrittenOut, PaperInPhase,
 };
-use crate::failure::Failure;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
 
 /// A scene by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

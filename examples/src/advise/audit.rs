@@ -1,11 +1,11 @@
 //! Is what the advisor chooses the cheapest? Twelve questions, and beside each answer
 //! everything that might be cheaper, at many settings.
 
-use branched_pendulum::analysis::advice::{Advisor, Candidates, Measured};
+use branched_pendulum_advice::{Advisor, Candidates, Measured};
 
 use super::asked::{self, OutputName, Question, SceneName};
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// The questions: scene, output, largest error, time followed, samples a second, starts.
 const QUESTIONS: [(SceneName, OutputName, f64, f64, f64, u32); 12] = [

@@ -3,14 +3,14 @@
 
 use std::collections::BTreeMap;
 
-use branched_pendulum::analysis::advice::{Advice, CandidateName, Measured, pareto};
+use branched_pendulum_advice::{Advice, CandidateName, Measured, pareto};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
 use super::asked::{self, OutputName, Question, SceneName};
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Largest errors of the angles that advice is asked for, rad.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];

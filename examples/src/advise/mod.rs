@@ -1,6 +1,6 @@
 //! Which model, method, tolerance or step and scalar is the cheapest that is right?
 //!
-//! [`analysis::advice`](branched_pendulum::analysis::advice) measures; here are scenes
+//! [`branched_pendulum_advice`] measures; here are scenes
 //! to ask it about, and the chart of accuracy against cost.
 //!
 //! - [`arguments`]: the command line,
@@ -15,14 +15,14 @@ pub mod audit;
 pub mod chart;
 pub mod scenes;
 
-use branched_pendulum::analysis::advice::Advice;
+use branched_pendulum_advice::Advice;
 use branched_pendulum_data::{Cell, Column};
 
 pub use arguments::Arguments;
 pub use asked::SceneName;
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Asks for advice, or draws the chart.
 ///

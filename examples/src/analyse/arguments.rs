@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 
 use crate::branched_double::Friction;
 use crate::measured_file::MeasuredFile;
-use crate::program::command_line::number;
+use branched_pendulum_program::frame::command_line::number;
 
 /// From measured angles of a pendulum to its energy and power with their errors: of the
 /// paper's pendulum H_d and W, of a chain of two links H and the power of friction. The
@@ -105,7 +105,7 @@ impl Default for Arguments {
     }
 }
 
-impl crate::program::Arguments for Arguments {
+impl branched_pendulum_program::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
 
     fn check(&self) -> Result<(), String> {
@@ -137,7 +137,7 @@ mod tests {
     use clap::Parser;
 
     use super::Arguments;
-    use crate::program::command_line as program;
+    use branched_pendulum_program::frame::command_line as program;
 
     #[test]
     fn lists_are_one_option() {

@@ -8,7 +8,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 use super::scenes::{RealApparatus, RealApparatusParameters};
 use crate::branched_double::Friction;
-use crate::failure::Failure;
+use branched_pendulum_program::Failure;
 
 /// Pictures of the apparatus by a camera, each link by two dots.
 #[derive(Clone, Copy, Debug, PartialEq)]

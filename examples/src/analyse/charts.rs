@@ -1,7 +1,7 @@
 //! Angle, energy and power against time, with their errors.
 
-use branched_pendulum::analysis::Bands;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_measure::Bands;
 
 use super::camera::Truth;
 use super::estimate::{Estimate, quantity};

@@ -1,6 +1,6 @@
 //! A motion, its energy and power from measured angles, with their errors.
 
-use branched_pendulum::analysis::{
+use branched_pendulum_measure::{
     Bands, KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, bands,
     running_integral,
 };
@@ -10,7 +10,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 use super::motion::{Disturbances, Motion, Record, Smoothed, one_by_one};
 use super::subject::Subject;
-use crate::failure::Failure;
+use branched_pendulum_program::Failure;
 
 /// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {

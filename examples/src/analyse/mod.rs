@@ -36,10 +36,10 @@ use branched_pendulum::Parametric;
 use branched_pendulum_data::{Table, TableOptions};
 
 use crate::branched_double::Apparatus;
-use crate::failure::Failure;
 use crate::identify::scene::Chain;
-use crate::program::{Job, Progress};
 use arguments::Tree;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::{Job, Progress};
 use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use branched_pendulum::analysis::variational::Linearised;
-use branched_pendulum::analysis::{
+use branched_pendulum::prelude::Rk4;
+use branched_pendulum_measure::{
     ModelSmoother, SmoothedCoordinates, SmoothedMotion, SmoothingError,
 };
-use branched_pendulum::prelude::Rk4;
 
 /// Coordinates and their rates.
 pub type Motion<const N: usize> = [[f64; N]; 2];

@@ -6,8 +6,8 @@ use std::path::Path;
 use branched_pendulum::Parametric;
 use serde_json::{Map, Value};
 
-use crate::failure::Failure;
 use crate::identify::scene::Chain;
+use branched_pendulum_program::Failure;
 
 /// Values that the authors of the measured double pendulum fitted (K. Kaheman et al.,
 /// arXiv:2205.06231; their repository's `ParameterEstimation/DoublePendulum`). Their friction
@@ -65,7 +65,7 @@ pub fn read(path: &Path) -> Result<Vec<f64>, Failure> {
 #[cfg(test)]
 mod tests {
     use super::{NAMES, fitted, read};
-    use crate::program::messages;
+    use branched_pendulum_program::frame::messages;
 
     #[test]
     fn constants_come_from_a_file() {

@@ -8,8 +8,8 @@ use super::arguments::Arguments;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
 use super::subject::Names;
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Writes the estimate: a row a time, each quantity with its standard deviation.
 ///

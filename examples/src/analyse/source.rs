@@ -5,7 +5,7 @@ use branched_pendulum_data::{Finding, Table};
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
 use super::motion::Record;
-use crate::failure::Failure;
+use branched_pendulum_program::Failure;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;

@@ -1,17 +1,15 @@
 //! The lines of a motion that friction moves, one stretch of time after the other.
 
-use branched_pendulum::analysis::{
-    LineSearch, Lines, Passage, Passages, Spectrum, SpectrumOptions,
-};
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
 use branched_pendulum_data::Column;
+use branched_pendulum_measure::{LineSearch, Lines, Passage, Passages, Spectrum, SpectrumOptions};
 
 use super::estimate::Estimate;
 use super::motion::Motion;
 use super::source::Source;
 use super::subject::Names;
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Length of a stretch, s: longer than ten swings of the pendulums here.
 const SPAN: f64 = 10.0;

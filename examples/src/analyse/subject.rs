@@ -1,10 +1,10 @@
 //! The pendulums that can be analysed.
 
 use branched_pendulum::analysis::variational::linearised;
-use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::{Model, Parametric};
+use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 
 use super::motion::{Motion, Record, Smoothed, by_equations};
 use crate::branched_double::apparatus::EXACT;

@@ -249,7 +249,7 @@ fn friction_that_equations_lack_is_found() {
 fn a_measured_chain_is_read_and_its_energy_falls() {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../runtime/tests/identification/double-pendulum.csv"
+        "/../runtime/measure/tests/measure/identification/double-pendulum.csv"
     );
     let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain"]);
     let chain = TwoLinks::new(&fitted());

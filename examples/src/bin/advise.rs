@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{advise, program};
+use branched_pendulum_examples::advise;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(advise::run)
+    frame::main(advise::run)
 }

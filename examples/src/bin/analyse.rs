@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{analyse, program};
+use branched_pendulum_examples::analyse;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(analyse::run)
+    frame::main(analyse::run)
 }

@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{branched_double, program};
+use branched_pendulum_examples::branched_double;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(branched_double::run::run)
+    frame::main(branched_double::run::run)
 }

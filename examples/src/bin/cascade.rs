@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{cascade, program};
+use branched_pendulum_examples::cascade;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(cascade::run)
+    frame::main(cascade::run)
 }

@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{critical_angle, program};
+use branched_pendulum_examples::critical_angle;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(critical_angle::run)
+    frame::main(critical_angle::run)
 }

@@ -4,8 +4,9 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{identify, program};
+use branched_pendulum_examples::identify;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
-    program::main(identify::run)
+    frame::main(identify::run)
 }

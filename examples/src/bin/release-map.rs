@@ -7,5 +7,5 @@ use std::process::ExitCode;
 use branched_pendulum_examples::{program, release_map};
 
 fn main() -> ExitCode {
-    program::main(release_map::run)
+    frame::main(release_map::run)
 }

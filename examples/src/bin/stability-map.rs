@@ -7,5 +7,5 @@ use std::process::ExitCode;
 use branched_pendulum_examples::{program, stability_map};
 
 fn main() -> ExitCode {
-    program::main(stability_map::run)
+    frame::main(stability_map::run)
 }

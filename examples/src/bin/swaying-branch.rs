@@ -7,5 +7,5 @@ use std::process::ExitCode;
 use branched_pendulum_examples::{program, swaying_branch};
 
 fn main() -> ExitCode {
-    program::main(swaying_branch::run)
+    frame::main(swaying_branch::run)
 }

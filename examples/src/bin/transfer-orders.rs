@@ -7,5 +7,5 @@ use std::process::ExitCode;
 use branched_pendulum_examples::{program, transfer_orders};
 
 fn main() -> ExitCode {
-    program::main(transfer_orders::run)
+    frame::main(transfer_orders::run)
 }

@@ -7,5 +7,5 @@ use std::process::ExitCode;
 use branched_pendulum_examples::{program, work_precision};
 
 fn main() -> ExitCode {
-    program::main(work_precision::run)
+    frame::main(work_precision::run)
 }

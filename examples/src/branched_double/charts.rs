@@ -2,17 +2,17 @@
 
 use std::f64::consts::PI;
 
-use branched_pendulum::analysis::{Spectrum, SpectrumOptions};
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_measure::{Spectrum, SpectrumOptions};
 
 use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, folded};
 use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::Frequencies;
 use super::lines;
-use crate::failure::Failure;
-use crate::program::Job;
-use crate::program::command_line::plain;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
+use branched_pendulum_program::frame::command_line::plain;
 
 /// Initial angles, in degrees, that the paper compares: just without growth,
 /// and just with it.

@@ -3,9 +3,9 @@
 use branched_pendulum_charts::{Film, FilmLink};
 
 use super::{Arguments, Run};
-use crate::failure::Failure;
-use crate::program::Job;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Pictures in a second, between which browsers interpolate.
 const RATE: f64 = 20.0;

@@ -10,8 +10,8 @@ use super::arguments::Arguments;
 use super::charts::conditions;
 use super::experiment::Run;
 use super::findings::Findings;
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Fewest angles that make a scan: with less there is no band to tell.
 const SCAN: usize = 3;

@@ -1,6 +1,6 @@
 //! The lines of θ_m that a record as long as the paper's tells apart.
 
-use branched_pendulum::analysis::{LineSearch, Lines, SpectrumError};
+use branched_pendulum_measure::{LineSearch, Lines, SpectrumError};
 
 use super::apparatus::MEAN;
 use super::experiment::Run;

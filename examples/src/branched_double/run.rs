@@ -7,9 +7,9 @@ use super::table;
 use super::{
     Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples,
 };
-use crate::failure::Failure;
-use crate::program::Job;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// What a run without friction is not, and which run comes nearest.
 const NEAREST_THE_PAPER: &str = "\

@@ -3,9 +3,9 @@
 use clap::Parser;
 
 use super::scene::{Shape, TREES};
-use crate::program::Sharding;
-use crate::program::command_line::number;
-use crate::program::sweep::Shard;
+use branched_pendulum_program::frame::Sharding;
+use branched_pendulum_program::frame::command_line::number;
+use branched_pendulum_program::frame::sweep::Shard;
 
 /// A motor turns the root of a tree of rods, friction brakes the youngest. Does the
 /// energy go down the generations, and what is there of it at each scale?
@@ -114,7 +114,7 @@ impl Arguments {
     }
 }
 
-impl crate::program::Arguments for Arguments {
+impl branched_pendulum_program::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("cascade-output");
 
     fn shard(&self) -> Option<Shard> {

@@ -21,8 +21,8 @@ pub mod scene;
 pub use arguments::Arguments;
 pub use findings::{Balance, Findings};
 
-use crate::failure::Failure;
-use crate::program::{Checkpoint, Job, sweep};
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::{Checkpoint, Job, sweep};
 use motion::{film, follow};
 use scene::of_shape;
 

@@ -13,8 +13,8 @@ use super::arguments::Arguments;
 use super::density::Density;
 use super::motor::{Motor, Random};
 use super::scene::RodTree;
-use crate::failure::Failure;
-use crate::program::{Checkpoint, Job};
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::{Checkpoint, Job};
 
 /// Quantities of each scale whose means over a window are kept.
 pub const QUANTITIES: usize = 4;

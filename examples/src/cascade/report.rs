@@ -6,9 +6,9 @@ use branched_pendulum_data::Column;
 use super::arguments::Arguments;
 use super::findings::{Balance, Findings, Scale};
 use super::motion::{Followed, QUANTITIES};
-use crate::failure::Failure;
-use crate::program::Job;
-use crate::program::command_line::plain;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
+use branched_pendulum_program::frame::command_line::plain;
 
 /// Everything that is printed, as Markdown.
 pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -> String {

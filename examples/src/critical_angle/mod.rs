@@ -2,7 +2,7 @@
 //! small differences: windows in which it grows, without friction and with.
 //!
 //! - [`arguments`]: the command line, [`scene`]: the pendulum in phase,
-//! - [`scan`]: growth at every angle, [`windows`]: where it is large,
+//! - [`scan`]: growth at every angle, [`windows`](branched_pendulum_program::windows): where it is large,
 //! - [`report`]: words and table, [`charts`]: charts,
 //! - [`trees`]: the threshold of trees by rule.
 
@@ -12,13 +12,12 @@ pub mod report;
 pub mod scan;
 pub mod scene;
 pub mod trees;
-pub mod windows;
 
 pub use arguments::Arguments;
 pub use scan::{Friction, Scan};
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Computes the growth with every friction, prints the windows and writes table and
 /// charts. Ctrl-C leaves the frictions that are done.

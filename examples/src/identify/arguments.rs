@@ -1,12 +1,12 @@
 //! The command line.
 
 use branched_pendulum::Parametric;
-use branched_pendulum::analysis::IdentificationError;
+use branched_pendulum_measure::IdentificationError;
 use clap::{Parser, ValueEnum};
 
 use super::scene::{Branched, Chain};
 use crate::measured_file::MeasuredFile;
-use crate::program::command_line::{number, parts};
+use branched_pendulum_program::frame::command_line::{number, parts};
 
 /// Masses, lengths, inertias and friction of a pendulum from its measured motion: a chain of
 /// two links, or the paper's pendulum. Prints how well viscous friction, Coulomb friction and
@@ -110,7 +110,7 @@ impl Default for Arguments {
     }
 }
 
-impl crate::program::Arguments for Arguments {
+impl branched_pendulum_program::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
 
     /// Names are looked at before any file.
@@ -154,7 +154,7 @@ mod tests {
     use clap::{CommandFactory, ValueEnum};
 
     use super::{Arguments, Law, Tree};
-    use crate::program::command_line::parse_line;
+    use branched_pendulum_program::frame::command_line::parse_line;
 
     #[test]
     fn lists_are_read() {

@@ -1,7 +1,7 @@
 //! Errors of the identified model, and the energy, against time.
 
-use branched_pendulum::analysis::identification::AngleErrors;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_measure::identification::AngleErrors;
 
 use super::source::Measurement;
 use super::study::{Energies, Outcome};

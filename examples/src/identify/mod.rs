@@ -17,11 +17,11 @@ pub use source::Measurement;
 pub use study::{Outcome, Study};
 
 use arguments::Tree;
-use branched_pendulum::analysis::IdentificationError;
+use branched_pendulum_measure::IdentificationError;
 use scene::{Branched, Chain, Described};
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Reads or simulates the angles, fits them with each law of friction, prints the report and
 /// writes table and chart. Ctrl-C leaves the laws that are done.

@@ -2,16 +2,16 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::analysis::identification::{DIVIDED, ParameterEstimate, Standing, TIMES};
 use branched_pendulum_data::Column;
+use branched_pendulum_measure::identification::{DIVIDED, ParameterEstimate, Standing, TIMES};
 use serde_json::{Map, Value, json};
 
 use super::arguments::Arguments;
 use super::scene::{Described, MEASURABLE};
 use super::source::Measurement;
 use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// The report.
 pub fn report(

@@ -1,15 +1,15 @@
 //! The angles: out of a file, or simulated.
 
-use branched_pendulum::analysis::identification::AngleRecord;
 use branched_pendulum::prelude::{AbsoluteAngles, Dop853, Integrator, Options, State};
 use branched_pendulum_data::Finding;
+use branched_pendulum_measure::identification::AngleRecord;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use super::arguments::Arguments;
 use super::scene::{Described, simulated};
-use crate::failure::Failure;
+use branched_pendulum_program::Failure;
 
 /// Pictures a second of a simulated record.
 const RATE: f64 = 100.0;

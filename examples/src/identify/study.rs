@@ -2,13 +2,13 @@
 
 use std::marker::PhantomData;
 
-use branched_pendulum::analysis::identification::{
+use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::prelude::AbsoluteAngles;
+use branched_pendulum_measure::identification::{
     AngleErrors, FamilyOf, Fit, Identification, IdentificationError, SearchFailure, Shooting,
     Unfound,
 };
-use branched_pendulum::analysis::variational::linearised;
-use branched_pendulum::analysis::{KinematicSmoother, ModelSmoother, bands};
-use branched_pendulum::prelude::AbsoluteAngles;
+use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, bands};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
@@ -17,7 +17,7 @@ use super::arguments::{Arguments, Law, Sign};
 use super::scene::{COULOMB, Described, FRICTION, GRAVITY, QUADRATIC};
 use super::source::Measurement;
 use crate::analyse::motion::{Motion, Record, Smoothed, by_equations, one_by_one};
-use crate::failure::Failure;
+use branched_pendulum_program::Failure;
 
 /// Length of windows, s.
 pub const WINDOW: f64 = 1.0;
@@ -350,7 +350,7 @@ mod tests {
     fn three_laws_of_friction_follow_one_another() {
         let file = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/../runtime/tests/identification/double-pendulum.csv"
+            "/../runtime/measure/tests/measure/identification/double-pendulum.csv"
         );
         let line = [
             "identify",

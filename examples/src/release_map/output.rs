@@ -2,17 +2,17 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::analysis::CombinationTone;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, Symbol};
 use branched_pendulum_data::{Cell, Column};
+use branched_pendulum_measure::CombinationTone;
 
 use super::arguments::{Arguments, Scene};
 use super::map::{Map, RATIOS};
 use super::normal_modes::NormalMode;
 use super::tongues::{Resonance, Tongue, span};
 use crate::critical_angle::scan::PAPER;
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Growth rates between which colours change, 1/s.
 const RATES: [f64; 2] = [0.01, 5.0];

@@ -11,8 +11,8 @@ pub mod verdict;
 
 use clap::Parser;
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Where does each method fail? Runs the paper's branched double pendulum with
 /// every method at many steps (or tolerances), amplitudes and frictions, and maps
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub map: String,
 }
 
-impl crate::program::Arguments for Arguments {
+impl branched_pendulum_program::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("stability-map-output");
 }
 

@@ -7,9 +7,9 @@ use branched_pendulum::{TransferForm, TransferForms};
 use branched_pendulum_charts::{Axis, Chart, Panel};
 use branched_pendulum_data::{Cell, Column};
 
-use crate::failure::Failure;
-use crate::program::Job;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Random states at each place.
 const STATES: usize = 400;

@@ -3,9 +3,9 @@
 use branched_pendulum::integrate::Solver;
 use branched_pendulum::prelude::*;
 
-use crate::failure::Failure;
 use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::solvers::configured;
+use branched_pendulum_program::Failure;
 
 /// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use super::arguments::Arguments;
 use super::motion::{Branches, Seen, Trial};
 use super::scene::{Branch, LINKS};
 use super::storm::Storm;
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Writes the angles of all frames.
 ///

@@ -21,9 +21,9 @@ pub use cost::Costs;
 pub use scenes::Arms;
 pub use study::{Settings, Study};
 
-use crate::failure::Failure;
-use crate::program::Job;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Studies all trees; prints and writes what one gives before the next begins.
 ///

@@ -8,8 +8,8 @@ use branched_pendulum::analysis::truncation::Background;
 use branched_pendulum::branched_pendulum;
 
 use super::study::Settings;
-use crate::failure::Failure;
 use crate::scenes::BranchedDouble;
+use branched_pendulum_program::Failure;
 
 /// Two jointed arms on a body: a sector of two coordinates.
 #[branched_pendulum(

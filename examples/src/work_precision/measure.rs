@@ -6,9 +6,9 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
 
 use super::reference::{Problem, Tree};
-use crate::program::Progress;
 use crate::scenes::{BranchedDouble, Rods};
 use crate::solvers::configured;
+use branched_pendulum_program::frame::Progress;
 
 /// The methods that are compared.
 pub const METHODS: [Method; 8] = [

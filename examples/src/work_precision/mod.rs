@@ -15,8 +15,8 @@ pub mod reference;
 
 use clap::Parser;
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// What does a given error cost, with which method? Runs the paper's branched
 /// double pendulum and seven rods with every method at many tolerances or steps,
@@ -25,7 +25,7 @@ use crate::program::Job;
 #[command(name = "work-precision", version, verbatim_doc_comment)]
 pub struct Arguments {}
 
-impl crate::program::Arguments for Arguments {
+impl branched_pendulum_program::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("work-precision-output");
 }
 

@@ -5,8 +5,8 @@
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 
-use crate::failure::Failure;
 use crate::scenes::Rods;
+use branched_pendulum_program::Failure;
 
 /// The file, as it was when the program was built.
 const FILE: &str = include_str!("../../../tests/fixtures/reference/trajectories.json");

@@ -6,7 +6,7 @@ use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthEr
 use branched_pendulum::analysis::variational::{
     Copies, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
-use branched_pendulum::analysis::{ModelSmoother, SmoothingError};
+use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,

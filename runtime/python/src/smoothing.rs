@@ -1,9 +1,6 @@
 //! Motions behind measured angles: the class `SmoothedMotion`.
 
-use branched_pendulum::analysis::{
-    KinematicSmoother, LocalPolynomials, SmoothedCoordinates, SmoothedMotion as Smoothed,
-    SmoothingError,
-};
+use branched_pendulum_measure::{SmoothedMotion as Smoothed, KinematicSmoother, LocalPolynomials, SmoothedCoordinates, SmoothingError};
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods,
 };

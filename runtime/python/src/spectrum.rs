@@ -1,8 +1,6 @@
 //! Spectra of series and their lines: the class `Lines`.
 
-use branched_pendulum::analysis::{
-    LineSearch, Lines as Found, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window,
-};
+use branched_pendulum_measure::{Lines as Found, LineSearch, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -197,5 +195,5 @@ pub(crate) fn running_integral<'py>(
         let text = format!("t has {times} times for {values} values in x");
         return Err(PyValueError::new_err(text));
     }
-    Ok(branched_pendulum::analysis::running_integral(&times, &values).into_pyarray(py))
+    Ok(branched_pendulum_measure::running_integral(&times, &values).into_pyarray(py))
 }

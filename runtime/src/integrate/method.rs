@@ -1,6 +1,7 @@
 //! Methods by name, for programs whose users choose one.
 
 use alloc::boxed::Box;
+use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
@@ -99,7 +100,35 @@ methods! {
     Animation: "animation", "midpoint";
 }
 
+/// Tolerance below which series are summed with their roundings.
+const COMPENSATED_BELOW: f64 = 1e-12;
+
 impl Method {
+    /// Returns the expression that makes this method as [`Method::with`] does, in Rust, on
+    /// the scalar of that name: `Dop853::new(Options::with_tolerance(1e-10))`.
+    #[must_use]
+    pub fn as_source(self, scalar: &str, setting: f64) -> String {
+        let options = match self {
+            Self::Taylor if setting < COMPENSATED_BELOW => {
+                format!("Options {{ compensated: true, ..Options::with_tolerance({setting:e}) }}")
+            }
+            _ => format!("Options::with_tolerance({setting:e})"),
+        };
+        let of = match scalar {
+            "f64" => String::new(),
+            other => format!("::<{other}>"),
+        };
+        match self {
+            Self::Dopri5 => format!("Dopri5{of}::new({options})"),
+            Self::Dop853 => format!("Dop853{of}::new({options})"),
+            Self::Verner98 => format!("Verner98{of}::new({options})"),
+            Self::Taylor => format!("Taylor{of}::new({options})"),
+            Self::Rk4 => format!("Rk4{of}::new({setting})"),
+            Self::Animation => format!("Gauss{of}::for_animation({setting})"),
+            Self::Gauss(order) => format!("Gauss{of}::new(GaussOrder::{order:?}, {setting})"),
+        }
+    }
+
     /// Returns true if the method takes a tolerance; the others take a step.
     pub fn is_adaptive(self) -> bool {
         matches!(
@@ -115,7 +144,7 @@ impl Method {
     /// below 1e-12, where they begin to count.
     pub fn with<T: Real>(self, setting: T) -> AnyIntegrator<T> {
         if self.is_adaptive() {
-            let near_rounding = self == Self::Taylor && setting.to_f64() < 1e-12;
+            let near_rounding = self == Self::Taylor && setting.to_f64() < COMPENSATED_BELOW;
             self.with_options(Options {
                 compensated: near_rounding,
                 ..Options::with_tolerance(setting)

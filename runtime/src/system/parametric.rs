@@ -5,7 +5,7 @@ use crate::model::ParameterError;
 use crate::scalar::Scalar;
 
 /// A pendulum with named parameters. Emitted code implements it where a description has
-/// some; [`identification`](crate::analysis::identification) fits them to measurements.
+/// some; `branched_pendulum_measure::identification` fits them to measurements.
 ///
 /// # Examples
 ///

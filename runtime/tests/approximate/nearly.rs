@@ -1,6 +1,5 @@
 //! Copies nearly in phase, by frames, against the full model.
 
-use branched_pendulum::analysis::advice::{Advisor, Candidates, ModelForm, Wanted};
 use branched_pendulum::approximate::{
     Approximation, ForcedApproximation, Linear, NearlyInPhase, Switched,
 };
@@ -243,26 +242,4 @@ fn torques_beyond_the_patterns_are_for_the_full_model() {
     switched.advance_under(&alone);
     assert_eq!(switched.log().full_frames, 1);
     assert!(switched.state().iter().all(|value| value.is_finite()));
-}
-
-/// As a candidate it is right where differences are small, and wrong where they are not.
-#[test]
-fn the_advisor_measures_it() {
-    let (whole, model) = (branched(1e-4), branched_small(1e-4));
-    let patterns = DifferencePatterns::of(&model, BranchedSmall::WHOLE).unwrap();
-    let form = ModelForm::new("nearly in phase")
-        .entry("in_phase(child), emit(small)")
-        .nearly_in_phase(patterns);
-    let exact = AbsoluteAngles(&whole);
-    let right = |difference: f64| {
-        let start = [0.3, 0.1 + difference, 0.1 - difference];
-        let advice = Advisor::new(&exact)
-            .start(State::at_rest(0.0, &start))
-            .until(2.0)
-            .wanted(Wanted::angles(1e-4))
-            .advise(&Candidates::new().rates(&form, SmallOde(&model)))
-            .unwrap();
-        advice.chosen().is_some_and(|chosen| chosen.is_right())
-    };
-    assert!(right(0.01) && !right(0.3));
 }

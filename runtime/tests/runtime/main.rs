@@ -7,15 +7,11 @@ mod accuracy;
 mod animation;
 mod backwards;
 mod continuation;
-mod dense_regression;
 mod ensemble;
 mod events;
 mod exponents;
 mod failures;
 mod gauss;
-#[cfg(feature = "spectra")]
-mod lacking_friction;
-mod lines;
 mod modes;
 mod normal;
 mod order;
@@ -27,9 +23,6 @@ mod restarts;
 mod sector_modes;
 #[cfg(feature = "serde")]
 mod serde;
-mod smoothing;
-#[cfg(feature = "spectra")]
-mod spectrum;
 mod stability;
 mod statistics;
 mod stepper;

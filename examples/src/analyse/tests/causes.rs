@@ -21,7 +21,7 @@ use super::super::{Arguments, Source};
 use super::super::{judged, run};
 use crate::branched_double::{Apparatus, Friction};
 use crate::identify::scene::Chain;
-use crate::program::{Job, Progress};
+use branched_pendulum_program::frame::{Job, Progress};
 
 /// Angles of links against time.
 struct Record<const N: usize> {

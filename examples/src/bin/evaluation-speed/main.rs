@@ -41,7 +41,7 @@ const REPEATS: usize = 301;
 const STATES: usize = 2000;
 
 fn main() -> ExitCode {
-    program::main(|_: &Arguments, job| {
+    frame::main(|_: &Arguments, job| {
         let progress = job.progress(4);
         job.report("seeds", states::SEEDS.to_vec());
         progress.begin("one state");

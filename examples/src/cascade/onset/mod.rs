@@ -13,8 +13,8 @@ pub mod scene;
 pub use run::Onset;
 pub use scene::{Level, Tree};
 
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 use scene::TreeParameters;
 
 /// The quantities that are followed.

@@ -6,8 +6,8 @@ use branched_pendulum_data::Column;
 use super::Release;
 use super::run::{DEFINITIONS, Onset, PARSEVAL};
 use super::scene::{Level, SECTORS, by_level, sectors};
-use crate::failure::Failure;
-use crate::program::Job;
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
 
 /// Everything that is printed, as Markdown.
 pub fn report(release: &Release, modes: &SectorModes, run: &Onset) -> String {

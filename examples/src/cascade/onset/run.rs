@@ -11,8 +11,8 @@ use branched_pendulum::prelude::{
 
 use super::Release;
 use super::scene::{LINKS, SECTORS, Tree, TreeParameters};
-use crate::failure::Failure;
 use crate::quadrature::GAUSS;
+use branched_pendulum_program::Failure;
 
 /// Samples per second.
 const RATE: f64 = 50.0;

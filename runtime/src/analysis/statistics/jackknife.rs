@@ -12,8 +12,10 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The mean of independent values.
-    pub(crate) fn of_independent(values: &[f64]) -> Self {
+    /// Returns the mean of independent values with its standard error √(s²/k), s² being their
+    /// variance. The error of one value alone is NaN.
+    #[must_use]
+    pub fn of_independent(values: &[f64]) -> Self {
         let count = values.len() as f64;
         let value = values.iter().sum::<f64>() / count;
         let squares: f64 = values.iter().map(|other| (other - value).powi(2)).sum();

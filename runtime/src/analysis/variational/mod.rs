@@ -54,7 +54,6 @@ use crate::system::{Ode, State};
 
 pub use self::copies::Copies;
 pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
-pub(super) use self::system::TangentMemory;
 pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};
 
 /// The start with one deviation along each component, of size one.

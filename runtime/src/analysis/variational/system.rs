@@ -60,15 +60,15 @@ pub struct ByTangents<O, D, Q = O> {
 }
 
 /// Memory for one evaluation in numbers that carry derivatives.
-pub(in crate::analysis) struct TangentMemory<D> {
-    pub(in crate::analysis) state: Vec<D>,
-    pub(in crate::analysis) rates: Vec<D>,
-    pub(in crate::analysis) workspace: Workspace<D>,
+struct TangentMemory<D> {
+    state: Vec<D>,
+    rates: Vec<D>,
+    workspace: Workspace<D>,
 }
 
 impl<D: Scalar> TangentMemory<D> {
     /// Memory for states of `dimension` numbers.
-    pub(in crate::analysis) fn new(dimension: usize) -> Self {
+    fn new(dimension: usize) -> Self {
         let zeros = vec![D::from_f64(0.0); dimension];
         Self {
             state: zeros.clone(),

@@ -3,12 +3,12 @@
 
 use std::error::Error;
 
-use branched_pendulum::analysis::advice::{
+use branched_pendulum::analysis::variational::{linearised, trusted_until};
+use branched_pendulum::prelude::*;
+use branched_pendulum_advice::{
     Advisor, Candidate, CandidateName, Candidates, Criterion, ModelForm, SettingRange, TimeLimit,
     Visit, Wanted,
 };
-use branched_pendulum::analysis::variational::{linearised, trusted_until};
-use branched_pendulum::prelude::*;
 
 use crate::scenes::Paper;
 
@@ -221,7 +221,7 @@ fn lanes_are_candidates_for_many_starts() {
         .lanes_with_series(&form, AbsoluteAngles(&paper));
     let advice = advisor.advise(&all).unwrap();
     println!("{advice}");
-    let right = |run: &branched_pendulum::analysis::advice::Measured| {
+    let right = |run: &branched_pendulum_advice::Measured| {
         run.is_right() && advice.names[run.candidate].in_lanes
     };
     assert!(advice.runs.iter().any(right));

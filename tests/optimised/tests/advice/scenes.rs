@@ -16,6 +16,17 @@ use branched_pendulum::system::TaylorOde;
 )]
 pub(crate) struct Paper;
 
+/// The apparatus with children in phase, but for small differences.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    in_phase(child),
+    emit(small),
+)]
+pub(crate) struct PaperSmall;
+
 /// Seven rods.
 #[branched_pendulum(
     gravity = 9.80665,

@@ -1,11 +1,11 @@
 //! Tasks of different outputs, tolerances and lengths.
 
-use branched_pendulum::analysis::advice::{Advice, Advisor, Candidates, ModelForm, Wanted};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
-use branched_pendulum::system::CastOde;
+use branched_pendulum::system::{CastOde, DifferencePatterns, SmallOde};
+use branched_pendulum_advice::{Advice, Advisor, Candidates, ModelForm, Wanted};
 
-use crate::scenes::{InPhase, Paper, Rods, states};
+use crate::scenes::{InPhase, Paper, PaperSmall, Rods, states};
 
 /// The file of trusted trajectories.
 const FILE: &str = include_str!("../../../fixtures/reference/trajectories.json");
@@ -265,12 +265,33 @@ fn rods_out_of_phase() {
     let advice = rods_task(&[0.8, 0.21, 0.2, 0.2, 0.19, 0.2, 0.2], 3.0, 1e-6, &angles);
     let chosen = advice.chosen().unwrap();
     assert_eq!(advice.names[chosen.candidate].model, "written out");
-    let chain =
-        |name: &branched_pendulum::analysis::advice::CandidateName| name.model == "in phase";
+    let chain = |name: &branched_pendulum_advice::CandidateName| name.model == "in phase";
     assert!(
         advice
             .runs
             .iter()
             .all(|run| !chain(&advice.names[run.candidate]) || !run.is_right())
     );
+}
+
+/// A model nearly in phase is right where differences are small, and wrong where they are not.
+#[test]
+fn nearly_in_phase_is_right_for_small_differences_alone() {
+    let (whole, model) = (Paper::new(), PaperSmall::new());
+    let patterns = DifferencePatterns::of(&model, PaperSmall::WHOLE).unwrap();
+    let form = ModelForm::new("nearly in phase")
+        .entry("in_phase(child), emit(small)")
+        .nearly_in_phase(patterns);
+    let exact = AbsoluteAngles(&whole);
+    let right = |difference: f64| {
+        let start = [0.3, 0.1 + difference, 0.1 - difference];
+        let advice = Advisor::new(&exact)
+            .start(State::at_rest(0.0, &start))
+            .until(2.0)
+            .wanted(Wanted::angles(1e-4))
+            .advise(&Candidates::new().rates(&form, SmallOde(&model)))
+            .unwrap();
+        advice.chosen().is_some_and(|chosen| chosen.is_right())
+    };
+    assert!(right(0.01) && !right(0.3));
 }

@@ -1,0 +1,275 @@
+//! Answer of an advisor.
+
+use std::fmt;
+
+use crate::candidate::{CandidateName, SettingRange};
+use crate::candidates::Candidates;
+use crate::choice::{ChosenRuns, Measured, TimeLimit};
+use crate::comparison::{Comparison, Criterion};
+
+/// How far an output could be followed, and how well it is known so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// Name of the output.
+    pub name: String,
+    /// Unit of the output.
+    pub unit: &'static str,
+    /// Largest error that is allowed.
+    pub tolerance: f64,
+    /// Largest error of the reference itself.
+    pub reference_error: f64,
+    /// Time from which on its values are not known, s: none if there is no such time.
+    pub chaotic_from: Option<f64>,
+    /// Measure by which it is judged from then on.
+    pub beyond: Option<Criterion>,
+}
+
+/// The choice, with its evidence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// All runs that were measured.
+    pub runs: Vec<Measured>,
+    /// Names of the candidates, in their order.
+    pub names: Vec<CandidateName>,
+    /// The outputs.
+    pub outputs: Vec<Followed>,
+    /// How the reference was computed.
+    pub reference: String,
+    /// Rate at which small deviations grow, 1/s, where they were looked at: those that
+    /// rounding makes, which leave equal components equal and zeros zero. Of copies in phase
+    /// it is the rate [within](branched_pendulum::analysis::variational::Lyapunov::within) the motions in
+    /// phase; differences between them may grow faster.
+    pub growth: Option<f64>,
+    /// Lines to write for the choice.
+    pub to_write: Vec<String>,
+    ranges: Vec<SettingRange>,
+    conserved: Option<(String, &'static str, f64)>,
+    choice: ChosenRuns,
+    limit: Option<TimeLimit>,
+    samples: usize,
+    end: f64,
+}
+
+impl Advice {
+    pub(crate) fn new(
+        comparison: &Comparison<'_>,
+        candidates: &Candidates<'_>,
+        runs: Vec<Measured>,
+        choice: ChosenRuns,
+        limit: Option<TimeLimit>,
+    ) -> Self {
+        let outputs = comparison
+            .wanted
+            .iter()
+            .enumerate()
+            .map(|(output, wanted)| {
+                let trusted = comparison.truth.trusted[output];
+                let short = comparison.is_short(output);
+                Followed {
+                    name: wanted.name.clone(),
+                    unit: wanted.unit,
+                    tolerance: wanted.tolerance,
+                    reference_error: comparison.truth.error(output),
+                    chaotic_from: comparison.times.get(trusted).copied(),
+                    beyond: short.then(|| comparison.beyond(output)).flatten(),
+                }
+            });
+        let to_write = choice.chosen.map(|index| {
+            let run = &runs[index];
+            candidates.all[run.candidate].to_write(run.setting)
+        });
+        Self {
+            names: candidates.names().collect(),
+            outputs: outputs.collect(),
+            reference: comparison.truth.method.clone(),
+            growth: comparison.truth.digits.growth,
+            to_write: to_write.unwrap_or_default(),
+            ranges: candidates.all.iter().map(|one| one.settings()).collect(),
+            conserved: comparison
+                .conserved
+                .map(|kept| (kept.name.clone(), kept.unit, kept.tolerance)),
+            runs,
+            choice,
+            limit,
+            samples: comparison.times.len(),
+            end: comparison.times.last().copied().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The run to take: the cheapest of those that are right and within the limit.
+    pub fn chosen(&self) -> Option<&Measured> {
+        self.run(self.choice.chosen)
+    }
+
+    /// The cheapest run of another candidate that is right; without a choice the
+    /// cheapest that is right and too slow.
+    pub fn runner_up(&self) -> Option<&Measured> {
+        self.run(self.choice.runner_up)
+    }
+
+    /// Of the runs that cost less than the choice and are wrong the dearest; of another
+    /// candidate where there is one.
+    pub fn next_cheaper(&self) -> Option<&Measured> {
+        self.run(self.choice.next_cheaper)
+    }
+
+    /// Without a choice, the run within the limit that is least wrong.
+    pub fn closest(&self) -> Option<&Measured> {
+        self.run(self.choice.closest)
+    }
+
+    fn run(&self, index: Option<usize>) -> Option<&Measured> {
+        self.runs.get(index?)
+    }
+
+    /// Name and setting of a run, as one says them.
+    pub fn describe(&self, run: &Measured) -> String {
+        let setting = self.ranges[run.candidate].describe(run.setting);
+        format!("{}, {setting}", self.names[run.candidate])
+    }
+
+    /// Where a run is worst, as one says it.
+    pub fn evidence(&self, run: &Measured) -> String {
+        let Some(worst) = &run.worst else {
+            let why = run.failure.as_deref().unwrap_or("it failed");
+            return format!("no result: {why}");
+        };
+        let (name, unit, tolerance) = match self.outputs.get(worst.output) {
+            Some(output) => (output.name.as_str(), output.unit, output.tolerance),
+            None => match &self.conserved {
+                Some((name, unit, tolerance)) => (name.as_str(), *unit, *tolerance),
+                None => ("", "", f64::NAN),
+            },
+        };
+        let gap = if unit.is_empty() { "" } else { " " };
+        let (error, time, tolerance) = (worst.error, worst.time, plain(tolerance));
+        match worst.criterion {
+            Criterion::Values => {
+                format!("{name} off by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance} allowed")
+            }
+            Criterion::Conserved => format!(
+                "{name} drifts by {error:.1e}{gap}{unit} at {time:.4} s, {tolerance} allowed"
+            ),
+            Criterion::Statistics => format!(
+                "means of {name} from {time:.4} s on off by {:.1} of what chance makes",
+                worst.ratio
+            ),
+        }
+    }
+
+    fn cost(&self, run: &Measured) -> String {
+        let per_sample = run.seconds / self.samples.max(1) as f64;
+        format!("{}, {} a sample", time(run.seconds), time(per_sample))
+    }
+}
+
+/// A number, as one writes it.
+fn plain(value: f64) -> String {
+    if (1e-3..1e6).contains(&value) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+/// A time, as one says it.
+fn time(seconds: f64) -> String {
+    let (value, unit) = match seconds {
+        s if s < 1e-6 => (1e9 * s, "ns"),
+        s if s < 1e-3 => (1e6 * s, "µs"),
+        s if s < 1.0 => (1e3 * s, "ms"),
+        s => (s, "s"),
+    };
+    let decimals = if value < 10.0 {
+        2
+    } else {
+        usize::from(value < 100.0)
+    };
+    format!("{value:.decimals$} {unit}")
+}
+
+impl fmt::Display for Followed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let gap = if self.unit.is_empty() { "" } else { " " };
+        let (name, unit, tolerance) = (&self.name, self.unit, plain(self.tolerance));
+        write!(f, "{name} to {tolerance}{gap}{unit}")?;
+        let error = self.reference_error;
+        write!(f, "; the reference is good to {error:.1e}{gap}{unit}")?;
+        if let Some(from) = self.chaotic_from {
+            write!(
+                f,
+                "\n  from {from:.4} s on, what rounding leaves of the start does not tell them; \
+                 judged there: "
+            )?;
+            f.write_str(match self.beyond {
+                Some(Criterion::Conserved) => "what the motion keeps",
+                Some(Criterion::Statistics) => "means and mean squares",
+                _ => "nothing",
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Advice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for output in &self.outputs {
+            writeln!(f, "{output}")?;
+        }
+        writeln!(f, "reference: {}", self.reference)?;
+        if let Some(growth) = self.growth {
+            writeln!(f, "small deviations grow e-fold each {:.2} s", 1.0 / growth)?;
+        }
+        let (samples, end) = (self.samples, self.end);
+        writeln!(
+            f,
+            "{} runs of {} candidates, {samples} samples to {end} s\n",
+            self.runs.len(),
+            self.names.len()
+        )?;
+        let mut line = |title: &str, run: &Measured| {
+            writeln!(f, "{title}: {}", self.describe(run))?;
+            writeln!(f, "  {}; {}", self.cost(run), self.evidence(run))
+        };
+        match self.chosen() {
+            Some(run) => line("take", run)?,
+            None => {
+                if let Some(run) = self.closest() {
+                    line("nothing is right; the closest", run)?;
+                }
+            }
+        }
+        if let Some(run) = self.runner_up() {
+            let title = match self.chosen() {
+                Some(_) => "runner-up",
+                None => "right, but too slow",
+            };
+            line(title, run)?;
+        }
+        if let Some(run) = self.next_cheaper() {
+            line("cheaper, but wrong", run)?;
+        }
+        if let Some(limit) = self.limit
+            && let Some(run) = self.chosen().or(self.runner_up())
+        {
+            let (allowed, found) = limit.compare(run, self.samples);
+            let what = match limit {
+                TimeLimit::Step(_) => "step",
+                TimeLimit::Sample(_) => "sample",
+            };
+            writeln!(
+                f,
+                "a {what} takes {}, {} allowed",
+                time(found),
+                time(allowed)
+            )?;
+        }
+        if !self.to_write.is_empty() {
+            writeln!(f, "\nwrite:")?;
+            for line in &self.to_write {
+                writeln!(f, "    {line}")?;
+            }
+        }
+        Ok(())
+    }
+}

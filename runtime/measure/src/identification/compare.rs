@@ -1,0 +1,123 @@
+//! A fit against records: the one that was fitted, or others.
+
+use super::error::{IdentificationError, positive};
+use super::family::Family;
+use super::fit::{AngleErrors, Fit};
+use super::least_squares::{DAMPING, FULL, FitStage};
+use super::problem::{Identification, no_motion};
+use super::record::{AngleRecord, MeasuredLink};
+use super::start::SmoothedRecord;
+use super::task::split;
+use crate::smoothing::misplaced;
+use branched_pendulum::integrate::{Dop853, Integrator, Options};
+use branched_pendulum::system::State;
+
+impl<F: Family> Identification<F> {
+    /// Follows the motion of a fit from the record's start on: angles and velocities of all
+    /// links at these times, none of which may be before it.
+    ///
+    /// # Errors
+    ///
+    /// [`IdentificationError::Time`], [`IdentificationError::NoMotion`].
+    pub fn predict(
+        &self,
+        fit: &Fit,
+        times: &[f64],
+    ) -> Result<Vec<State<f64>>, IdentificationError> {
+        let Some(start) = fit.starts.first() else {
+            return Ok(Vec::new());
+        };
+        let before = times.first().filter(|&&first| first < start.time);
+        let before = before.map(|&first| (0, first));
+        if let Some((index, value)) = before.or_else(|| misplaced(times)) {
+            return Err(IdentificationError::Time { index, value });
+        }
+        let equations = self.family.equations(fit.parameters());
+        let method = Dop853::new(Options::with_tolerance(self.shooting.tolerance));
+        let motion = method.sample_to_vec(&equations, start, times);
+        motion.map_err(|_| IdentificationError::NoMotion { time: start.time })
+    }
+
+    /// Compares the motion of a fit, followed from its start on without any correction, with
+    /// a record: the one that was fitted, or what comes after it.
+    ///
+    /// # Errors
+    ///
+    /// As [`predict`](Self::predict), and for a record that makes no sense.
+    pub fn errors(
+        &self,
+        fit: &Fit,
+        record: &AngleRecord,
+    ) -> Result<AngleErrors, IdentificationError> {
+        let indices = record.check(&self.family.links())?;
+        let motion = self.predict(fit, record.times())?;
+        let row = |(sample, state): (usize, &State<f64>)| {
+            let links = record.links.iter().zip(&indices);
+            let error = |(link, &index): (&MeasuredLink, &usize)| {
+                let angle = link.angles[sample]?;
+                Some(state.values[index] + fit.offset(&link.name) - angle)
+            };
+            links.map(error).collect()
+        };
+        Ok(AngleErrors {
+            times: record.times().to_vec(),
+            links: record.links.iter().map(|link| link.name.clone()).collect(),
+            rows: motion.iter().enumerate().map(row).collect(),
+        })
+    }
+
+    /// Compares a fit with a record in windows of this length (s), the state at the start of
+    /// each being that which suits it best: what the model lacks, apart from what has added
+    /// up before.
+    ///
+    /// # Errors
+    ///
+    /// [`IdentificationError`].
+    pub fn window_errors(
+        &self,
+        fit: &Fit,
+        record: &AngleRecord,
+        length: f64,
+    ) -> Result<AngleErrors, IdentificationError> {
+        positive("length of windows", length)?;
+        let (mut task, _) = self.task(record)?;
+        task.values.clone_from(&fit.values);
+        let of_link = |link: &MeasuredLink| fit.offset(&link.name);
+        let mut globals: Vec<f64> = task
+            .unknown
+            .iter()
+            .map(|&index| fit.values[index])
+            .collect();
+        if self.offsets {
+            globals.extend(record.links.iter().map(of_link));
+        }
+        let is_own = fit.stages.last().is_some_and(|last| last.length == length);
+        let (segments, starts) = match task.segments_of(fit).filter(|_| is_own) {
+            Some(own) => (own, fit.start_states()),
+            None => {
+                let segments = split(record.times(), length);
+                let smoothed = SmoothedRecord::new(record)?;
+                let starts = task.first_states(&smoothed, &globals, &segments);
+                (segments, starts)
+            }
+        };
+        let mut all = AngleErrors {
+            times: record.times().to_vec(),
+            links: record.links.iter().map(|link| link.name.clone()).collect(),
+            rows: Vec::new(),
+        };
+        for (samples, start) in segments.into_iter().zip(starts) {
+            let mut stage = FitStage {
+                segments: vec![samples],
+                starts: vec![start],
+                globals: globals.clone(),
+                free: Vec::new(),
+                junction: Vec::new(),
+                damping: DAMPING,
+            };
+            let (residuals, _) = stage.solve(&task, FULL).ok_or_else(|| no_motion(record))?;
+            all.rows.extend(task.errors(&stage, &residuals).rows);
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,111 @@
+//! Equations of motion for every set of parameters.
+
+use core::marker::PhantomData;
+
+use branched_pendulum::model::ParameterError;
+use branched_pendulum::scalar::{Dual, Scalar};
+use branched_pendulum::system::{AbsoluteAngles, Model, Ode, Parametric};
+
+/// Equations of motion with named parameters. Models of the attribute are such by
+/// [`FamilyOf`]; equations of one's own, torques from outside for example, implement it.
+pub trait Family: Sync {
+    /// The equations for one set of parameters: the state is the angles of the links,
+    /// followed by their velocities.
+    type Equations<T: Scalar>: Ode<T>;
+
+    /// Names of the parameters, in the order of their values.
+    fn parameters(&self) -> Vec<String>;
+
+    /// Names of the links, in the order of their angles.
+    fn links(&self) -> Vec<String>;
+
+    /// Makes the equations for these values, one for each parameter, taken as they are.
+    fn equations<T: Scalar>(&self, values: &[T]) -> Self::Equations<T>;
+
+    /// Refuses values that are impossible.
+    ///
+    /// # Errors
+    ///
+    /// The first parameter that no pendulum can have.
+    fn check(&self, values: &[f64]) -> Result<(), ParameterError>;
+}
+
+/// All models of one description in absolute angles.
+#[derive(Debug)]
+pub struct FamilyOf<M>(PhantomData<fn() -> M>);
+
+impl<M> FamilyOf<M> {
+    /// The models of the description that the type `M` stands for.
+    #[must_use]
+    pub fn new() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<M> Default for FamilyOf<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<M> Clone for FamilyOf<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for FamilyOf<M> {}
+
+impl<M: Parametric<f64>> Family for FamilyOf<M> {
+    type Equations<T: Scalar> = AbsoluteAngles<M::Of<T>>;
+
+    fn parameters(&self) -> Vec<String> {
+        M::PARAMETERS
+            .iter()
+            .map(|name| (*name).to_owned())
+            .collect()
+    }
+
+    fn links(&self) -> Vec<String> {
+        // Names are the same whatever the values.
+        let model = M::with_parameters(|_| f64::NAN);
+        model.link_names()
+    }
+
+    fn equations<T: Scalar>(&self, values: &[T]) -> Self::Equations<T> {
+        AbsoluteAngles(M::with_parameters(|index| value_at(values, index)))
+    }
+
+    fn check(&self, values: &[f64]) -> Result<(), ParameterError> {
+        M::check_parameters(|index| value_at(values, index))
+    }
+}
+
+/// Number of derivatives that one evaluation carries.
+pub(super) const WIDTH: usize = 8;
+
+/// A number with that many derivatives.
+pub(super) type Wide = Dual<f64, WIDTH>;
+
+/// A [`Family`] in the two kinds of numbers that fitting needs, its type forgotten: what
+/// stands on it is compiled once and not for every family.
+pub(super) trait AnyFamily: Sync {
+    fn plain(&self, values: &[f64]) -> Box<dyn Ode<f64> + '_>;
+    fn wide(&self, values: &[Wide]) -> Box<dyn Ode<Wide> + '_>;
+}
+
+impl<F: Family> AnyFamily for F {
+    fn plain(&self, values: &[f64]) -> Box<dyn Ode<f64> + '_> {
+        Box::new(self.equations(values))
+    }
+
+    fn wide(&self, values: &[Wide]) -> Box<dyn Ode<Wide> + '_> {
+        Box::new(self.equations(values))
+    }
+}
+
+/// A value by its index; NaN where there is none.
+fn value_at<T: Scalar>(values: &[T], index: usize) -> T {
+    let value = values.get(index).copied();
+    value.unwrap_or(T::from_f64(f64::NAN))
+}

@@ -1,0 +1,191 @@
+//! Result of a fit.
+
+use super::convergence::Convergence;
+use super::error::IdentificationError;
+use super::identifiability::Identifiability;
+use branched_pendulum::model::ParameterError;
+use branched_pendulum::system::State;
+
+/// Parameters that a record determines, with their errors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The unknowns, in the order in which they were given; offsets of angles come last.
+    pub estimates: Vec<ParameterEstimate>,
+    /// Products of powers of parameters that the data determine, of those that they do not
+    /// determine one by one.
+    pub ratios: Vec<ParameterEstimate>,
+    /// How the search ended: whether it converged, whether what is left over is the noise.
+    pub convergence: Convergence,
+    /// Combinations of them that the data determine, and changes that they leave open.
+    pub identifiability: Identifiability,
+    /// The states at the starts of the last stage's segments.
+    pub starts: Vec<State<f64>>,
+    /// The last time of the record that was fitted, s.
+    pub(super) until: Option<f64>,
+    /// The stages, from short segments to long ones.
+    pub stages: Vec<StageReport>,
+    /// Number of blocks of time from which the second kind of deviations is.
+    pub blocks: usize,
+    /// The first value found that no pendulum can have: a friction below zero says that the law of
+    /// friction is another one, an inertia below zero that something is held where it is not.
+    pub impossible: Option<ParameterError>,
+    /// Values of all parameters of the model.
+    pub(super) values: Vec<f64>,
+    /// Offset of each measured link, rad.
+    pub(super) offsets: Vec<(String, f64)>,
+}
+
+/// An unknown that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterEstimate {
+    /// Name of the parameter, or `offset of LINK`, or factors and divisors of a ratio.
+    pub name: String,
+    /// The value.
+    pub value: f64,
+    /// What the value stands on.
+    pub standing: Standing,
+    /// Standard deviation, as if errors of the data were independent of each other. None
+    /// for what is held, and infinite where nothing can be said.
+    pub naive: Option<f64>,
+    /// Standard deviation by how the estimate changes when blocks of the record are left
+    /// out: the one to trust where what is left over is not white. With few blocks it
+    /// belongs to Student's distribution of as many degrees of freedom, less one.
+    pub by_blocks: Option<f64>,
+}
+
+impl ParameterEstimate {
+    /// Returns the standard deviation to go by, the larger of the two: blocks see errors that
+    /// are not independent, and are so few that they may find too little.
+    #[must_use]
+    pub fn deviation(&self) -> Option<f64> {
+        let both = self.naive.zip(self.by_blocks);
+        both.map(|(naive, by_blocks)| naive.max(by_blocks))
+    }
+}
+
+/// What the value of an unknown stands on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The data alone.
+    Determined,
+    /// The data, and the values at which these others are held: as wrong as they are.
+    GoesWith(Vec<String>),
+    /// The value that the search had when the data turned out to leave it open, mostly the start.
+    Held,
+    /// A bound, beyond which the data would have it.
+    AtBound,
+}
+
+/// A stage of a fit: segments of one length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageReport {
+    /// Number of segments.
+    pub segments: usize,
+    /// Length of a segment, s.
+    pub length: f64,
+    /// Root mean square of angles less data, rad.
+    pub rms: f64,
+    /// Number of steps.
+    pub steps: usize,
+}
+
+impl Fit {
+    /// Returns the value of an unknown.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<f64> {
+        self.estimate(name).map(|estimate| estimate.value)
+    }
+
+    /// Returns an unknown that has a value of its own.
+    ///
+    /// # Errors
+    ///
+    /// [`IdentificationError::NotDetermined`] where others can change together with it of
+    /// which the data show nothing, [`IdentificationError::UnknownParameter`].
+    pub fn determined(&self, name: &str) -> Result<&ParameterEstimate, IdentificationError> {
+        let names = || self.estimates.iter().map(|estimate| estimate.name.clone());
+        let unknown = || IdentificationError::UnknownParameter {
+            name: name.to_owned(),
+            parameters: names().collect(),
+        };
+        let estimate = self.estimate(name).ok_or_else(unknown)?;
+        let mut with = self.identifiability.together_with(name);
+        match &estimate.standing {
+            Standing::Determined | Standing::AtBound => return Ok(estimate),
+            Standing::GoesWith(held) if with.is_empty() => with.clone_from(held),
+            Standing::GoesWith(_) | Standing::Held => {}
+        }
+        Err(IdentificationError::NotDetermined {
+            name: name.to_owned(),
+            with,
+        })
+    }
+
+    /// Values of all parameters of the model, in their order.
+    #[must_use]
+    pub fn parameters(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Root mean square of angles less data in the last stage, rad.
+    #[must_use]
+    pub fn rms(&self) -> f64 {
+        self.stages.last().map_or(0.0, |stage| stage.rms)
+    }
+
+    /// Returns the offset of a link's angles, 0 where none was asked for.
+    #[must_use]
+    pub fn offset(&self, link: &str) -> f64 {
+        let offset = self.offsets.iter().find(|(name, _)| name == link);
+        offset.map_or(0.0, |(_, offset)| *offset)
+    }
+
+    /// Takes away what may be said of a result alone.
+    pub(super) fn without_deviations(mut self) -> Self {
+        for estimate in self.estimates.iter_mut().chain(&mut self.ratios) {
+            (estimate.naive, estimate.by_blocks) = (None, None);
+        }
+        self
+    }
+
+    /// The states at the starts of the segments.
+    pub(super) fn start_states(&self) -> Vec<Vec<f64>> {
+        let states = self.starts.iter().map(|start| start.values.clone());
+        states.collect()
+    }
+
+    fn estimate(&self, name: &str) -> Option<&ParameterEstimate> {
+        self.estimates.iter().find(|estimate| estimate.name == name)
+    }
+}
+
+/// Angles less data at every time, and link by link.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AngleErrors {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// Names of the links.
+    pub links: Vec<String>,
+    /// Model less data (rad), a row a time; none where there are no data.
+    pub rows: Vec<Vec<Option<f64>>>,
+}
+
+impl AngleErrors {
+    /// Root mean square of all, rad.
+    #[must_use]
+    pub fn rms(&self) -> f64 {
+        self.rms_between(f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Root mean square from a time on and before another, rad.
+    #[must_use]
+    pub fn rms_between(&self, from: f64, until: f64) -> f64 {
+        let rows = self.times.iter().zip(&self.rows);
+        let within = rows.filter(|(time, _)| (from..until).contains(*time));
+        let errors = within.flat_map(|(_, row)| row.iter().flatten());
+        let (sum, count) = errors.fold((0.0, 0_usize), |(sum, count), error| {
+            (sum + error * error, count + 1)
+        });
+        (sum / count as f64).sqrt()
+    }
+}

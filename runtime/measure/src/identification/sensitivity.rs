@@ -1,0 +1,113 @@
+//! A motion and its derivatives with respect to its start and to parameters.
+
+use std::cell::RefCell;
+
+use super::family::{AnyFamily, WIDTH, Wide};
+use branched_pendulum::scalar::Dual;
+use branched_pendulum::system::{Ode, Workspace};
+
+/// A motion y and its derivatives: a column ∂y/∂x for each component x of its start, then one
+/// for each free parameter, in units of its scale.
+///
+/// With y' = f(y, p), a column v obeys v' = ∂f/∂y v + ∂f/∂p: what a number with the
+/// derivatives v and ∂p has for a derivative of its rate. [`WIDTH`] columns are taken at a time:
+/// the state is y, followed by groups of so many, in which those of a component are neighbours,
+/// as they are in the number. What is left over of the last group is zero.
+pub(super) struct Sensitivities<'a> {
+    dimension: usize,
+    /// The equations, whose parameters carry the derivatives of their group of columns.
+    groups: Vec<Box<dyn Ode<Wide> + 'a>>,
+    memory: RefCell<Memory>,
+}
+
+/// Memory for one evaluation in numbers that carry derivatives.
+struct Memory {
+    state: Vec<Wide>,
+    rates: Vec<Wide>,
+    workspace: Workspace<Wide>,
+}
+
+impl<'a> Sensitivities<'a> {
+    /// Derivatives with respect to the start, of `dimension` numbers, and to the
+    /// parameters with these indices and scales.
+    pub(super) fn new(
+        family: &'a dyn AnyFamily,
+        dimension: usize,
+        values: &[f64],
+        free: &[(usize, f64)],
+    ) -> Self {
+        let columns = dimension + free.len();
+        let group = |group: usize| {
+            let mut wide: Vec<Wide> = values.iter().map(|&value| Dual::constant(value)).collect();
+            for (number, &(parameter, scale)) in free.iter().enumerate() {
+                let place = (dimension + number).checked_sub(group * WIDTH);
+                let slot = wide.get_mut(parameter);
+                if let (Some(place), Some(wide)) = (place, slot)
+                    && let Some(tangent) = wide.tangents.get_mut(place)
+                {
+                    *tangent = scale;
+                }
+            }
+            family.wide(&wide)
+        };
+        Self {
+            dimension,
+            groups: (0..columns.div_ceil(WIDTH)).map(group).collect(),
+            memory: RefCell::new(Memory {
+                state: vec![Wide::constant(0.0); dimension],
+                rates: vec![Wide::constant(0.0); dimension],
+                workspace: Workspace::new(),
+            }),
+        }
+    }
+
+    /// The start of motion and columns.
+    pub(super) fn start(&self, state: &[f64]) -> Vec<f64> {
+        let mut start = vec![0.0; self.dimension()];
+        start[..self.dimension].copy_from_slice(state);
+        for component in 0..self.dimension {
+            start[self.place(component, component)] = 1.0;
+        }
+        start
+    }
+
+    /// The place of a component of a column in the state.
+    pub(super) fn place(&self, column: usize, component: usize) -> usize {
+        let group = self.dimension * (1 + column / WIDTH * WIDTH);
+        group + component * WIDTH + column % WIDTH
+    }
+}
+
+impl Ode<f64> for Sensitivities<'_> {
+    fn dimension(&self) -> usize {
+        self.dimension * (1 + self.groups.len() * WIDTH)
+    }
+
+    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
+        let n = self.dimension;
+        let mut memory = self.memory.borrow_mut();
+        let own = &mut *memory;
+        let (motion, columns) = state.split_at(n);
+        let (motion_rates, column_rates) = rates.split_at_mut(n);
+        let (columns, _) = columns.as_chunks::<WIDTH>();
+        let (column_rates, _) = column_rates.as_chunks_mut::<WIDTH>();
+        let in_groups = columns
+            .chunks_exact(n)
+            .zip(column_rates.chunks_exact_mut(n));
+        for (equations, (columns, column_rates)) in self.groups.iter().zip(in_groups) {
+            for (component, number) in own.state.iter_mut().enumerate() {
+                (number.value, number.tangents) = (motion[component], columns[component]);
+            }
+            equations.rates_with(
+                &mut own.workspace,
+                Dual::constant(time),
+                &own.state,
+                &mut own.rates,
+            );
+            for (component, number) in own.rates.iter().enumerate() {
+                motion_rates[component] = number.value;
+                column_rates[component] = number.tangents;
+            }
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! What measured angles of a pendulum say, with error bars.
+//!
+//! - [`smoothing`]: angles, velocities and accelerations behind noisy samples,
+//! - [`spectrum`]: amplitudes against frequency, and the lines of a motion,
+//! - [`identification`]: parameters of a model from motions and frequencies.
+
+pub mod identification;
+pub mod smoothing;
+pub mod spectrum;
+
+pub use identification::{AngleRecord, FamilyOf, Fit, Identification, IdentificationError};
+pub use smoothing::{
+    Bands, KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedCoordinates, SmoothedMotion,
+    SmoothingError, bands, running_integral,
+};
+pub use spectrum::{
+    CombinationTone, LineSearch, Lines, Passage, Passages, SpectralLine, Spectrum, SpectrumError,
+    SpectrumOptions, Window,
+};

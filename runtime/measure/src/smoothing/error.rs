@@ -1,0 +1,172 @@
+//! Why data were not smoothed.
+
+use core::fmt;
+
+/// Why data were not smoothed.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SmoothingError {
+    /// As many data as times are needed.
+    Length {
+        /// Number of times.
+        times: usize,
+        /// Number of data.
+        data: usize,
+    },
+    /// Too few data that are not missing: four are needed, for polynomials two more than
+    /// their degree.
+    TooFew {
+        /// Number of data.
+        found: usize,
+    },
+    /// A time that is not finite or not later than the one before.
+    Time {
+        /// Index of the time.
+        index: usize,
+        /// The time, s.
+        value: f64,
+    },
+    /// A datum that is infinite or NaN.
+    Datum {
+        /// Index of the datum.
+        index: usize,
+        /// The datum.
+        value: f64,
+    },
+    /// The system's dimension is not that of the state, or the state is not measured angles
+    /// and their rates.
+    Dimension {
+        /// Dimension of the system.
+        dimension: usize,
+        /// Numbers of the state.
+        state: usize,
+        /// Numbers that are measured.
+        measured: usize,
+    },
+    /// The model's motion leaves the data, or cannot be integrated.
+    Diverged,
+    /// The mass matrix of a motion is not positive definite.
+    Mass {
+        /// Index of the time.
+        index: usize,
+    },
+    /// More kinds of friction than angles.
+    Frictions {
+        /// Their number.
+        frictions: usize,
+        /// Number of angles.
+        angles: usize,
+    },
+    /// A noise, a jerk or a density that is not finite and positive, a degree or a
+    /// window of polynomials that is not possible.
+    Option {
+        /// Name of the option.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
+}
+
+impl fmt::Display for SmoothingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { times, data } => write!(f, "{times} times for {data} data"),
+            Self::TooFew { found } => {
+                write!(f, "{found} data that are not missing; smoothing needs 4")
+            }
+            Self::Time { index, value } => write!(
+                f,
+                "time {index} is {value} s: times are finite and each later than the one before"
+            ),
+            Self::Datum { index, value } => {
+                write!(f, "datum {index} is {value}; missing ones are none")
+            }
+            Self::Dimension {
+                dimension,
+                state,
+                measured,
+            } => write!(
+                f,
+                "a system of dimension {dimension} for states of {state} numbers, {measured} of \
+                 them measured; a state is the measured angles and their rates"
+            ),
+            Self::Diverged => write!(f, "the motion of the model does not stay near the data"),
+            Self::Mass { index } => write!(
+                f,
+                "the mass matrix at time {index} is not positive definite"
+            ),
+            Self::Frictions { frictions, angles } => write!(
+                f,
+                "{frictions} kinds of friction for {angles} angles: at most one for each"
+            ),
+            Self::Option {
+                name: name @ ("degree" | "window"),
+                value,
+            } => write!(
+                f,
+                "the {name} is {value}: degrees are 2 to 8, windows wider"
+            ),
+            Self::Option { name, value } => {
+                write!(f, "the {name} is {value}: it must be finite and positive")
+            }
+        }
+    }
+}
+
+impl core::error::Error for SmoothingError {}
+
+/// Smallest number of data: three are met by a parabola.
+const FEWEST: usize = 4;
+
+/// Refuses data that do not belong to the times, are too few, or are not finite, and times
+/// that are misplaced.
+pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
+    if times.len() != data.len() {
+        let (times, data) = (times.len(), data.len());
+        return Err(SmoothingError::Length { times, data });
+    }
+    let found = data.iter().flatten().count();
+    if found < FEWEST {
+        return Err(SmoothingError::TooFew { found });
+    }
+    for (index, datum) in data.iter().enumerate() {
+        if let Some(value) = *datum
+            && !value.is_finite()
+        {
+            return Err(SmoothingError::Datum { index, value });
+        }
+    }
+    check_times(times)
+}
+
+/// Finds the first time that is not finite or not later than the one before, with its index.
+pub(crate) fn misplaced(times: &[f64]) -> Option<(usize, f64)> {
+    let is_misplaced = |&(index, time): &(usize, &f64)| {
+        !(time.is_finite() && (index == 0 || *time > times[index - 1]))
+    };
+    let found = times.iter().enumerate().find(is_misplaced);
+    found.map(|(index, &time)| (index, time))
+}
+
+pub(super) fn check_times(times: &[f64]) -> Result<(), SmoothingError> {
+    match misplaced(times) {
+        Some((index, value)) => Err(SmoothingError::Time { index, value }),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn check_option(name: &'static str, value: Option<f64>) -> Result<(), SmoothingError> {
+    match value {
+        Some(value) if !(value.is_finite() && value > 0.0) => {
+            Err(SmoothingError::Option { name, value })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Median of the intervals between times, of which there are two or more.
+pub(super) fn usual_interval(times: &[f64]) -> f64 {
+    let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = intervals.len() / 2;
+    *intervals.select_nth_unstable_by(middle, f64::total_cmp).1
+}

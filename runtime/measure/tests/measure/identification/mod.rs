@@ -1,0 +1,9 @@
+//! Parameters from measured and simulated motions.
+
+mod chain;
+mod deviations;
+mod measured;
+mod mistakes;
+mod refusals;
+mod searches;
+mod simulated;

@@ -1,0 +1,108 @@
+//! What a description says: its links, parameters and copies, and a picture of them.
+
+use std::fmt::Write;
+
+use branched_pendulum::Positions;
+use branched_pendulum::system::Model;
+use branched_pendulum_charts::Film;
+use clap::Parser;
+
+use crate::Failure;
+use crate::film;
+use crate::frame::Job;
+use crate::subject::TreeArguments;
+
+/// What does a description say? Lists links with their masses and places, parameters with
+/// their values, and where the tree rests; draws it at rest where a folder is given.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "branched-pendulum describe", version, verbatim_doc_comment)]
+pub struct Arguments {
+    #[command(flatten)]
+    tree: TreeArguments,
+}
+
+impl crate::frame::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = None;
+}
+
+/// Prints the links and parameters, and draws the tree.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let subject = arguments.tree.read()?;
+    let tree = &subject.tree;
+    let names = tree.names();
+    let side = if tree.stands() {
+        "stands: angles are from the upward vertical"
+    } else {
+        "hangs: angles are from the downward vertical"
+    };
+    let mut text = format!(
+        "{}: {} links; the tree {side}\n\n",
+        subject.name,
+        tree.links()
+    );
+    let width = names
+        .iter()
+        .map(|name| name.chars().count())
+        .max()
+        .unwrap_or(0)
+        .max(4);
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{:width$}  {:width$}  mass (kg)  centre (m)         inertia (kg m²)  pivot on parent (m)",
+        "link", "on"
+    );
+    for link in 0..tree.links() {
+        let Some(own) = tree.properties_of(link) else {
+            continue;
+        };
+        let parent = own.parent.and_then(|parent| names.get(parent));
+        let pair = |[along, across]: [f64; 2]| match across == 0.0 {
+            true => format!("{along:.5}"),
+            false => format!("{along:.5}, {across:.5}"),
+        };
+        let _ = writeln!(
+            text,
+            "{:width$}  {:width$}  {:<9.5}  {:17}  {:<15.4e}  {}",
+            names[link],
+            parent.map_or("", String::as_str),
+            own.mass,
+            pair(own.centre),
+            own.inertia,
+            pair(own.pivot),
+        );
+    }
+    let description = tree.description();
+    let parameters: Vec<&str> = description.parameters().collect();
+    if !parameters.is_empty() {
+        text.push_str("\nparameters\n");
+        for name in parameters {
+            let value = tree.value(name).unwrap_or(f64::NAN);
+            let own = description.parameter_use(name).unwrap_or_default();
+            let _ = writeln!(text, "  {name} = {value}: {own}");
+        }
+    }
+    let rest = tree.equilibrium(&vec![0.0; tree.links()]);
+    match &rest {
+        Ok(angles) if angles.iter().any(|angle| angle.abs() > 1e-12) => {
+            let angles: Vec<String> = names
+                .iter()
+                .zip(angles)
+                .map(|(name, angle)| format!("{name} {:.2}°", angle.to_degrees()))
+                .collect();
+            let _ = writeln!(text, "\nrests at {}", angles.join(", "));
+        }
+        Ok(_) => text.push_str("\nrests with all angles zero\n"),
+        Err(error) => {
+            let _ = writeln!(text, "\nno place of rest was found: {error}");
+        }
+    }
+    job.print(&text)?;
+    let rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
+    let angles = film::angles(tree, &rest);
+    let picture = Film::new(subject.name.clone(), 1.0).tree("", &film::links(tree), &[angles])?;
+    job.film("tree", &picture)
+}

@@ -1,0 +1,75 @@
+//! What the command does, a module for each subcommand.
+
+pub mod describe;
+pub mod growth;
+pub mod map;
+pub mod methods;
+pub mod modes;
+pub mod simulate;
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::Command;
+
+use crate::Failure;
+use crate::frame::{self, Arguments, Job};
+
+/// Name of the command.
+const NAME: &str = "branched-pendulum";
+
+/// A subcommand: its options, and what runs it with the words of its command line.
+struct Subcommand {
+    name: &'static str,
+    command: Command,
+    run: Box<dyn Fn(Vec<OsString>) -> ExitCode>,
+}
+
+fn subcommand<A: Arguments + 'static>(
+    name: &'static str,
+    run: fn(&A, &Job) -> Result<(), Failure>,
+) -> Subcommand {
+    Subcommand {
+        name,
+        command: A::command(),
+        run: Box::new(move |words| frame::run(words, run)),
+    }
+}
+
+fn subcommands() -> Vec<Subcommand> {
+    vec![
+        subcommand("describe", describe::run),
+        subcommand("simulate", simulate::run),
+        subcommand("modes", modes::run),
+        subcommand("growth", growth::run),
+        subcommand("map", map::run),
+        subcommand("methods", methods::run),
+    ]
+}
+
+/// Runs the subcommand that the words name, the command's own name being the first of them.
+pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let words: Vec<OsString> = words.into_iter().collect();
+    let all = subcommands();
+    let named = words.get(1).and_then(|word| word.to_str());
+    if let Some(own) = all.iter().find(|own| Some(own.name) == named) {
+        let first = OsString::from(format!("{NAME} {}", own.name));
+        let rest = words.into_iter().skip(2);
+        return (own.run)(std::iter::once(first).chain(rest).collect());
+    }
+    let answer = command(all).try_get_matches_from(words);
+    frame::answer(answer.err())
+}
+
+/// The whole command, for its help and for completions.
+fn command(all: Vec<Subcommand>) -> Command {
+    let own = all.into_iter();
+    let own = own.map(|Subcommand { name, command, .. }| command.name(name));
+    Command::new(NAME)
+        .version(env!("CARGO_PKG_VERSION"))
+        .about("Motions, modes, growth and energy transfers of a pendulum tree from a text file")
+        .subcommands(own)
+        .subcommand_required(true)
+        .arg_required_else_help(true)
+        .disable_help_subcommand(true)
+}

@@ -1,0 +1,220 @@
+//! The motion of a tree.
+
+use std::fmt::Write;
+
+use branched_pendulum::Energy;
+use branched_pendulum::prelude::*;
+use branched_pendulum_charts::{Axis, Chart, Film, Panel, Series};
+use branched_pendulum_data::{Cell, Column};
+use clap::Parser;
+
+use crate::Failure;
+use crate::film;
+use crate::frame::Job;
+use crate::frame::command_line::number;
+use crate::motion::{MethodArguments, Samples, sample};
+use crate::release::ReleaseArguments;
+use crate::subject::{Subject, TreeArguments};
+
+/// How does a tree move? Integrates its motion from a start, writes angles, velocities,
+/// energies and powers as a table, and draws charts and, if asked to, a film.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "branched-pendulum simulate", version, verbatim_doc_comment)]
+pub struct Arguments {
+    #[command(flatten)]
+    tree: TreeArguments,
+    #[command(flatten)]
+    release: ReleaseArguments,
+    #[command(flatten)]
+    method: MethodArguments,
+    /// time followed, s from 0.01 to 1e5
+    #[arg(long, value_name = "S", default_value = "10", value_parser = number(0.01..=1e5, "s"))]
+    duration: f64,
+    /// samples in a second, 1 to 1e5
+    #[arg(long, value_name = "HZ", default_value = "100", value_parser = number(1.0..=1e5, "Hz"))]
+    rate: f64,
+    /// makes a film too, as SVG and animated PNG
+    #[arg(long)]
+    film: bool,
+}
+
+impl crate::frame::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("simulate-output");
+
+    fn check(&self) -> Result<(), String> {
+        match self.duration * self.rate <= MOST_SAMPLES {
+            true => Ok(()),
+            false => Err(format!(
+                "`--duration` times `--rate` is more than {MOST_SAMPLES} samples"
+            )),
+        }
+    }
+}
+
+const MOST_SAMPLES: f64 = 1e7;
+
+/// Pictures in a second of a film, at most.
+const PICTURES: f64 = 20.0;
+
+/// Integrates the motion and writes it.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let subject = arguments.tree.read()?;
+    let start = arguments.release.state(&subject)?;
+    let count = (arguments.duration * arguments.rate).round().max(1.0);
+    let times = (0..=count as usize).map(|k| k as f64 * arguments.duration / count);
+    let samples = sample(&subject, &arguments.method, &start, times.collect())?;
+    let energies = Energies::of(&subject, &samples);
+    job.print(&report(arguments, &subject, &samples, &energies))?;
+    write(job, &subject, &samples, &energies)?;
+    charts(job, &subject, &samples, &energies)?;
+    if arguments.film {
+        let stride = (arguments.rate / PICTURES).round().max(1.0) as usize;
+        let tree = &subject.tree;
+        let pictures = samples.states.iter().step_by(stride);
+        let pictures: Vec<Vec<f64>> = pictures
+            .map(|state| film::angles(tree, &state[..tree.links()]))
+            .collect();
+        let film = Film::new(subject.name.clone(), stride as f64 / arguments.rate);
+        job.film("film", &film.tree("", &film::links(tree), &pictures)?)?;
+    }
+    Ok(())
+}
+
+/// Energies and powers at every sample.
+struct Energies {
+    kinetic: Vec<f64>,
+    potential: Vec<f64>,
+    friction_power: Vec<f64>,
+    drive_power: Vec<f64>,
+}
+
+impl Energies {
+    fn of(subject: &Subject, samples: &Samples) -> Self {
+        let tree = &subject.tree;
+        let each = |of: &dyn Fn(f64, &[f64], &[f64]) -> f64| -> Vec<f64> {
+            let both = samples.times.iter().zip(&samples.states);
+            both.map(|(time, state)| {
+                let (theta, omega) = state.split_at(tree.links());
+                of(*time, theta, omega)
+            })
+            .collect()
+        };
+        Self {
+            kinetic: each(&|_, theta, omega| tree.kinetic_energy_of(theta, omega)),
+            potential: each(&|_, theta, _| tree.potential_energy_of(theta)),
+            friction_power: each(&|_, _, omega| tree.friction_power(omega)),
+            drive_power: each(&|time, theta, omega| tree.drive_power(time, theta, omega)),
+        }
+    }
+
+    fn total(&self) -> Vec<f64> {
+        let both = self.kinetic.iter().zip(&self.potential);
+        both.map(|(kinetic, potential)| kinetic + potential)
+            .collect()
+    }
+}
+
+fn report(
+    arguments: &Arguments,
+    subject: &Subject,
+    samples: &Samples,
+    energies: &Energies,
+) -> String {
+    let total = energies.total();
+    let (first, last) = (total[0], total[total.len() - 1]);
+    let mut text = format!(
+        "{}: {} s with {}, {}\n",
+        subject.name,
+        arguments.duration,
+        arguments.method.method.title(),
+        samples.report
+    );
+    let powers = energies.friction_power.iter().chain(&energies.drive_power);
+    // Writing to a string cannot fail.
+    let _ = match powers.copied().all(|power| power == 0.0) {
+        true => {
+            let change = |energy: &f64| (energy - first).abs();
+            let largest = total.iter().map(change).fold(0.0, f64::max);
+            writeln!(
+                text,
+                "energy {first:.6e} J, which is kept to {largest:.1e} J"
+            )
+        }
+        false => writeln!(
+            text,
+            "energy {first:.6e} J at the start, {last:.6e} J at the end"
+        ),
+    };
+    let end = samples.states.last().map_or(&[][..], Vec::as_slice);
+    for (name, angle) in subject.tree.names().iter().zip(end) {
+        let _ = writeln!(text, "  {name} ends at {:.6}°", angle.to_degrees());
+    }
+    text
+}
+
+fn write(
+    job: &Job,
+    subject: &Subject,
+    samples: &Samples,
+    energies: &Energies,
+) -> Result<(), Failure> {
+    let names = subject.tree.names();
+    let mut columns = vec![Column::new("time", "s")];
+    columns.extend(names.iter().map(|name| Column::new(name.as_str(), "rad")));
+    let rates = names.iter().map(|name| format!("{name} rate"));
+    columns.extend(rates.map(|name| Column::new(name, "rad/s")));
+    for name in ["kinetic energy", "potential energy"] {
+        columns.push(Column::new(name, "J"));
+    }
+    for name in ["friction power", "drive power"] {
+        columns.push(Column::new(name, "W"));
+    }
+    job.csv("motion.csv", &columns, |csv| {
+        let Energies {
+            kinetic,
+            potential,
+            friction_power,
+            drive_power,
+        } = energies;
+        for (row, (time, state)) in samples.times.iter().zip(&samples.states).enumerate() {
+            let own = [kinetic, potential, friction_power, drive_power].map(|all| all[row]);
+            let all = std::iter::once(time).chain(state).chain(&own);
+            csv.row(all.map(|value| Cell::from(*value)))?;
+        }
+        Ok(())
+    })
+}
+
+/// Most links whose angles are drawn each with a line of its own.
+const MOST_LINES: usize = 8;
+
+fn charts(
+    job: &Job,
+    subject: &Subject,
+    samples: &Samples,
+    energies: &Energies,
+) -> Result<(), Failure> {
+    let times = &samples.times;
+    let end = times.last().copied().unwrap_or(0.0);
+    let angles = Panel::new(Axis::linear("angle (°)")).zero_line();
+    let names = subject.tree.names().iter().enumerate().take(MOST_LINES);
+    let angles = names.fold(angles, |panel, (link, name)| {
+        let own = samples.states.iter().map(|state| state[link].to_degrees());
+        panel.series(Series::line(name.as_str(), times, &own.collect::<Vec<_>>()))
+    });
+    let panel = Panel::new(Axis::linear("energy (J)"))
+        .line("kinetic", times, &energies.kinetic)
+        .line("potential", times, &energies.potential)
+        .line("sum", times, &energies.total());
+    let chart = Chart::new(
+        subject.name.clone(),
+        Axis::linear("time (s)").range(0.0, end),
+    );
+    job.chart(
+        "motion",
+        &chart.panel(angles).panel(panel).size(900.0, 620.0),
+    )
+}

@@ -1,0 +1,260 @@
+//! The command line: numbers with their ranges, `--output` and `--repeat`.
+
+use std::ffi::OsString;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
+use clap::{Arg, ArgMatches, Command, Parser, value_parser};
+use serde_json::{Map, Value};
+
+use super::sweep::Shard;
+
+/// The options of a program, beside those that all have.
+pub trait Arguments: Parser {
+    /// Folder of results where none is given; none for a program that writes
+    /// files only where it is asked to.
+    const FOLDER: Option<&'static str>;
+
+    /// The shard of the run that is computed, if it is not all of it.
+    fn shard(&self) -> Option<Shard> {
+        None
+    }
+
+    /// Compares options with each other.
+    ///
+    /// # Errors
+    /// A sentence about two options that exclude each other.
+    fn check(&self) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The options that all programs have: the folder of results, and a run to repeat.
+const OUTPUT: &str = "output";
+const REPEAT: &str = "repeat";
+
+/// A command line that was read.
+#[derive(Debug)]
+pub struct CommandLine<A> {
+    /// The options of the program.
+    pub arguments: A,
+    /// The folder of results, if there is one.
+    pub output: Option<PathBuf>,
+    /// All values as text, those by default included, for `run.json`.
+    pub values: Map<String, Value>,
+}
+
+/// Reads the command line, the program's name included.
+///
+/// # Errors
+/// The text to be printed instead of a run: the help, or a mistake.
+pub fn parse<A: Arguments>(
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<CommandLine<A>, clap::Error> {
+    let mut command = command::<A>();
+    let given: Vec<OsString> = words.into_iter().collect();
+    let mut matches = command.try_get_matches_from_mut(&given)?;
+    if let Some(file) = matches.get_one::<PathBuf>(REPEAT) {
+        let words = repeated(&command, &matches, file)
+            .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
+        let name = given.into_iter().take(1);
+        matches = command.try_get_matches_from_mut(name.chain(words))?;
+    }
+    let arguments = A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    arguments
+        .check()
+        .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
+    Ok(CommandLine {
+        arguments,
+        output: matches.get_one(OUTPUT).cloned(),
+        values: values(&command, &matches),
+    })
+}
+
+fn command<A: Arguments>() -> Command {
+    let path = |name| {
+        Arg::new(name)
+            .long(name)
+            .value_parser(value_parser!(PathBuf))
+    };
+    let output = path(OUTPUT)
+        .value_name("FOLDER")
+        .help("where tables, charts and run.json go; files of the same name there\nare replaced")
+        .default_values(A::FOLDER);
+    let repeat = path(REPEAT)
+        .value_name("FILE")
+        .help("repeats the run that a run.json records; no other option but --output");
+    A::command().args([output, repeat])
+}
+
+/// The words of the run that `file` records, with the output folder of this one.
+fn repeated(
+    command: &Command,
+    matches: &ArgMatches,
+    file: &std::path::Path,
+) -> Result<Vec<OsString>, String> {
+    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let ids = command.get_arguments().map(|argument| argument.get_id());
+    let mut others = ids.filter(|id| *id != OUTPUT && *id != REPEAT);
+    if let Some(id) = others.find(|id| given(id.as_str())) {
+        return Err(format!(
+            "`--repeat` takes the value of `{id}` from its file"
+        ));
+    }
+    let shown = file.display();
+    let text = std::fs::read(file).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let record: Value = serde_json::from_slice(&text)
+        .map_err(|error| format!("{shown} is no run.json: {error}"))?;
+    let program = record["program"].as_str().unwrap_or("nothing");
+    if program != command.get_name() {
+        return Err(format!("{shown} records a run of {program}"));
+    }
+    let recorded = record["arguments"].as_object();
+    let recorded = recorded.ok_or_else(|| format!("{shown} has no arguments"))?;
+    let mut words = Vec::new();
+    for (id, value) in recorded {
+        let value = value.as_str().unwrap_or_default();
+        let argument = command.get_arguments().find(|a| a.get_id() == id.as_str());
+        let argument = argument.ok_or_else(|| format!("{shown}: there is no option `{id}`"))?;
+        words.extend(match argument.get_long() {
+            Some(long) if argument.get_action().takes_values() => {
+                Some(format!("--{long}={value}").into())
+            }
+            Some(long) => (value == "true").then(|| format!("--{long}").into()),
+            None => Some(value.into()),
+        });
+    }
+    if let Some(folder) = matches.get_one::<PathBuf>(OUTPUT) {
+        words.push("--output".into());
+        words.push(folder.into());
+    }
+    Ok(words)
+}
+
+/// All values of the program's own options, as they would be written.
+fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
+    let mut values = Map::new();
+    for argument in command.get_arguments() {
+        let id = argument.get_id().as_str();
+        if id == OUTPUT || id == REPEAT {
+            continue;
+        }
+        if let Ok(Some(raw)) = matches.try_get_raw(id) {
+            // One that is given several times takes lists, as it is written once.
+            let all: Vec<_> = raw.map(|value| value.to_string_lossy()).collect();
+            values.insert(id.to_owned(), all.join(",").into());
+        }
+    }
+    values
+}
+
+/// The parts of a list that stand between commas.
+pub fn parts(text: &str) -> impl Iterator<Item = &str> {
+    let parts = text.split(',').map(str::trim);
+    parts.filter(|part| !part.is_empty())
+}
+
+/// Reads a number within a range, in the unit that messages name.
+pub fn number(
+    range: RangeInclusive<f64>,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync + 'static {
+    move |text| match text.trim().parse::<f64>() {
+        Ok(number) if range.contains(&number) => Ok(number),
+        Ok(number) if number.is_finite() => Err(must_be(&range, unit)),
+        _ => Err(format!("not a number; it {}", must_be(&range, unit))),
+    }
+}
+
+/// Reads numbers and ranges of numbers, all within a range, and sorts them.
+pub fn numbers(
+    range: RangeInclusive<f64>,
+    unit: &'static str,
+) -> impl Fn(&str) -> Result<Vec<f64>, String> + Clone + Send + Sync + 'static {
+    move |text| {
+        let gap = if unit.is_empty() { "" } else { " " };
+        let mut all = Vec::new();
+        for part in text.split(',') {
+            for number in read_range(part)? {
+                if !range.contains(&number) {
+                    return Err(format!("{number} {}", must_be(&range, unit)));
+                }
+                if all.contains(&number) {
+                    return Err(format!("{number}{gap}{unit} stand there twice"));
+                }
+                all.push(number);
+            }
+        }
+        all.sort_by(f64::total_cmp);
+        Ok(all)
+    }
+}
+
+/// Most numbers of one range.
+const MOST_NUMBERS: f64 = 10_000.0;
+
+/// A number, or those of a range `FROM:TO:STEP`, both ends included.
+fn read_range(part: &str) -> Result<Vec<f64>, String> {
+    let read = |number: &str| match number.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(format!(
+            "`{number}` is not a number; a range is written `FROM:TO:STEP`"
+        )),
+    };
+    let numbers = part.split(':').map(read);
+    let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+    let no_range = || {
+        format!(
+            "`{part}` is no range: write `FROM:TO:STEP`, as in `40:48:0.1`, with at most \
+             10000 steps that lead from one end to the other"
+        )
+    };
+    let [from, to, step] = *numbers else {
+        return match *numbers {
+            [number] => Ok(vec![number]),
+            _ => Err(no_range()),
+        };
+    };
+    // A step may miss the end by rounding.
+    let steps = ((to - from) / step + 1e-9).floor();
+    if !(0.0..MOST_NUMBERS).contains(&steps) {
+        return Err(no_range());
+    }
+    // Decimals as they would be written: 40.3, not 40.300000000000004.
+    let rounded = |number: f64| (number * 1e9).round() / 1e9;
+    let numbers = (0..=steps as u32).map(f64::from);
+    Ok(numbers
+        .map(|number| rounded(from + number * step))
+        .collect())
+}
+
+/// Tells a range, as `must be from 0.1 to 1000 s`.
+pub fn must_be(range: &RangeInclusive<f64>, unit: &str) -> String {
+    let (low, high) = (plain(*range.start()), plain(*range.end()));
+    let gap = if unit.is_empty() { "" } else { " " };
+    format!("must be from {low} to {high}{gap}{unit}")
+}
+
+/// A number as one writes it: with an exponent where it is small or large.
+pub fn plain(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
+}
+
+/// Reads the command line of a test, without the program's name.
+///
+/// # Errors
+/// The text that would be printed.
+pub fn parse_line<A: Arguments>(line: &str) -> Result<A, String> {
+    let name = A::command().get_name().to_owned();
+    let words = std::iter::once(name.as_str()).chain(line.split_whitespace());
+    let parsed = parse(words.map(OsString::from));
+    parsed
+        .map(|line| line.arguments)
+        .map_err(|error| error.to_string())
+}

@@ -1,0 +1,345 @@
+//! Many independent computations, shared out among processes: `--shard i/n` computes
+//! every n-th of them, `--merge n` puts the parts together.
+//!
+//! Who starts the processes is not this module's affair: a shell, Slurm, HyperQueue or
+//! Dask. Each shard leaves one part and one `run.json` in a folder of its own; a part
+//! that is there is not computed again. `sweep.json` beside them says what is swept.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::str::FromStr;
+
+use clap::Args;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::files::create;
+use super::job::Job;
+use super::sealed::{SealError, open, seal};
+use crate::failure::Failure;
+
+/// Name of the manifest.
+const MANIFEST: &str = "sweep.json";
+
+/// Name of the results of a shard.
+const PART: &str = "results.bin";
+
+/// Which part of a run is computed.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sharding {
+    /// computes one shard alone: every N-th of the starts, from number I on (from 0),
+    /// into a folder of its own; what is finished there is not computed again
+    #[arg(long, value_name = "I/N", verbatim_doc_comment)]
+    pub shard: Option<Shard>,
+    /// computes nothing: puts N shards together
+    #[arg(long, value_name = "N", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub merge: Option<u32>,
+}
+
+/// One of several shards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shard {
+    /// Number of the shard, from 0.
+    pub index: u32,
+    /// Number of all.
+    pub count: u32,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parse = |(index, count): (&str, &str)| {
+            let (index, count) = (index.parse().ok()?, count.parse().ok()?);
+            (index < count && count <= 100_000).then_some(Self { index, count })
+        };
+        text.split_once('/')
+            .and_then(parse)
+            .ok_or_else(|| "must be I/N, 0 ≤ I < N ≤ 100000".to_owned())
+    }
+}
+
+impl Shard {
+    /// Name of its folder.
+    pub fn folder(self) -> String {
+        format!("shard-{}-of-{}", self.index, self.count)
+    }
+
+    /// Returns the shard's share of `items` items.
+    pub fn items(self, items: usize) -> Vec<usize> {
+        (self.index as usize..items)
+            .step_by(self.count as usize)
+            .collect()
+    }
+}
+
+/// Results of a shard.
+#[derive(Debug, Serialize, Deserialize)]
+struct ShardResults<R> {
+    shard: Shard,
+    results: Vec<(usize, R)>,
+}
+
+/// Why shards do not make a whole.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SweepError {
+    /// The folder holds another sweep.
+    #[error("the folder holds another sweep: {found}, where {expected} is asked for")]
+    Manifest {
+        /// Manifest of the sweep that is there.
+        found: String,
+        /// The manifest of this one.
+        expected: String,
+    },
+    /// Some shards are not there.
+    #[error("{} of {count} shards are not finished: {}", missing.len(), list(missing))]
+    Gaps {
+        /// Their numbers.
+        missing: Vec<u32>,
+        /// Number of all.
+        count: u32,
+    },
+    /// Shards of another number of shards.
+    #[error("{folder} is none of {count} shards: one sweep has one number of shards")]
+    Foreign {
+        /// Name of a folder.
+        folder: String,
+        /// Number of shards asked for.
+        count: u32,
+    },
+    /// A part that holds other items than its shard has.
+    #[error("{folder} does not hold the items of its shard, once each")]
+    Items {
+        /// Name of its folder.
+        folder: String,
+    },
+}
+
+/// Numbers, at most ten.
+fn list(numbers: &[u32]) -> String {
+    let shown: Vec<String> = numbers.iter().take(10).map(u32::to_string).collect();
+    let more = if numbers.len() > 10 { ", …" } else { "" };
+    shown.join(", ") + more
+}
+
+/// Results of all items, in their order, by `work` on a list of them: of one shard, which leaves them as
+/// a part and returns none; of all shards, from their parts; or of all items, by itself.
+///
+/// # Errors
+/// [`Failure`].
+pub fn results<R: Serialize + DeserializeOwned>(
+    job: &Job,
+    sharding: Sharding,
+    items: usize,
+    work: impl FnOnce(&[usize]) -> Result<Vec<R>, Failure>,
+) -> Result<Option<Vec<R>>, Failure> {
+    match (sharding.shard, sharding.merge, job.folder()) {
+        (Some(shard), _, Some(folder)) => {
+            if let Some(sweep) = folder.parent() {
+                agree(job, sweep, shard.count, items)?;
+            }
+            if read::<R>(job, folder)?.is_some() {
+                job.print(&format!("{} is there\n", folder.display()))?;
+                return Ok(None);
+            }
+            let own = shard.items(items);
+            let results = own.iter().copied().zip(work(&own)?).collect();
+            let part = seal(&job.identity(), &ShardResults { shard, results });
+            let part = part.map_err(|source| Failure::Sealed {
+                path: folder.join(PART),
+                source,
+            })?;
+            job.write(PART, &part)?;
+            Ok(None)
+        }
+        (_, Some(count), Some(folder)) => {
+            agree(job, folder, count, items)?;
+            merge(job, folder, count, items).map(Some)
+        }
+        _ => work(&(0..items).collect::<Vec<_>>()).map(Some),
+    }
+}
+
+/// Writes the manifest, or checks the one that is there.
+fn agree(job: &Job, folder: &Path, shards: u32, items: usize) -> Result<(), Failure> {
+    let run = job.identity();
+    let manifest = json!({
+        "program": run.program,
+        "version": run.version,
+        "arguments": run.arguments,
+        "shards": shards,
+        "items": items,
+    });
+    let expected = format!("{manifest:#}\n");
+    let path = folder.join(MANIFEST);
+    // Of shards that begin together one writes it, and the others find it.
+    match create(&path, expected.as_bytes()) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+        made => return made.map_err(|source| Failure::File { path, source }),
+    }
+    match fs::read_to_string(&path) {
+        Ok(found) if found == expected => Ok(()),
+        Ok(found) => Err(SweepError::Manifest { found, expected }.into()),
+        Err(source) => Err(Failure::Unread { path, source }),
+    }
+}
+
+/// The part in a folder, if it is there.
+fn read<R: DeserializeOwned>(job: &Job, folder: &Path) -> Result<Option<ShardResults<R>>, Failure> {
+    let path = folder.join(PART);
+    let bytes = match fs::read(&path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(source) => return Err(Failure::Unread { path, source }),
+    };
+    let part: Result<ShardResults<R>, SealError> = open(&job.identity(), &bytes);
+    part.map(Some)
+        .map_err(|source| Failure::Sealed { path, source })
+}
+
+/// Puts the parts together: all of them, each once.
+fn merge<R: DeserializeOwned>(
+    job: &Job,
+    folder: &Path,
+    count: u32,
+    items: usize,
+) -> Result<Vec<R>, Failure> {
+    let unread = |source| Failure::Unread {
+        path: folder.to_path_buf(),
+        source,
+    };
+    for entry in fs::read_dir(folder).map_err(unread)? {
+        let name = entry.map_err(unread)?.file_name();
+        let name = name.to_string_lossy().into_owned();
+        let own = format!("-of-{count}");
+        if name.starts_with("shard-") && !name.ends_with(&own) {
+            return Err(SweepError::Foreign {
+                folder: name,
+                count,
+            }
+            .into());
+        }
+    }
+    let mut results: Vec<Option<R>> = (0..items).map(|_| None).collect();
+    let mut missing = Vec::new();
+    for index in 0..count {
+        let shard = Shard { index, count };
+        let Some(part) = read::<R>(job, &folder.join(shard.folder()))? else {
+            missing.push(index);
+            continue;
+        };
+        let found: Vec<usize> = part.results.iter().map(|(item, _)| *item).collect();
+        if part.shard != shard || found != shard.items(items) {
+            let folder = shard.folder();
+            return Err(SweepError::Items { folder }.into());
+        }
+        for (item, result) in part.results {
+            if let Some(place) = results.get_mut(item) {
+                *place = Some(result);
+            }
+        }
+    }
+    let results: Option<Vec<R>> = results.into_iter().collect();
+    match results {
+        Some(results) if missing.is_empty() => Ok(results),
+        _ => Err(SweepError::Gaps { missing, count }.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Shard, Sharding, SweepError, results};
+    use crate::failure::Failure;
+    use crate::frame::Job;
+    use std::fs;
+    use std::path::Path;
+
+    fn square(items: &[usize]) -> Result<Vec<f64>, Failure> {
+        Ok(items.iter().map(|&item| (item as f64).powi(2)).collect())
+    }
+
+    fn shard(folder: &Path, index: u32, count: u32, items: usize) -> Result<(), Failure> {
+        let shard = Shard { index, count };
+        let job = Job::quiet(&folder.join(shard.folder()))?;
+        let sharding = Sharding {
+            shard: Some(shard),
+            merge: None,
+        };
+        assert!(results(&job, sharding, items, square)?.is_none());
+        Ok(())
+    }
+
+    fn merge(folder: &Path, count: u32, items: usize) -> Result<Vec<f64>, Failure> {
+        let job = Job::quiet(folder)?;
+        let sharding = Sharding {
+            shard: None,
+            merge: Some(count),
+        };
+        let merged = results(&job, sharding, items, |_| -> Result<Vec<f64>, Failure> {
+            panic!("nothing is computed")
+        })?;
+        Ok(merged.unwrap())
+    }
+
+    #[test]
+    fn shards_are_read_as_they_are_written() {
+        let last = Shard {
+            index: 63,
+            count: 64,
+        };
+        assert_eq!("63/64".parse(), Ok(last));
+        assert_eq!(last.items(130), [63, 127]);
+        for text in ["64/64", "1", "-1/3", "a/b", "1/0", "1/2/3", "1/100001"] {
+            assert!(text.parse::<Shard>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn gaps_and_strangers_are_refused() {
+        let folder = std::env::temp_dir().join(format!("sweep-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        for index in [0, 2] {
+            shard(&folder, index, 3, 11).unwrap();
+        }
+        let Failure::Sweep(gaps) = merge(&folder, 3, 11).unwrap_err() else {
+            panic!("no gap was seen");
+        };
+        assert_eq!(
+            gaps,
+            SweepError::Gaps {
+                missing: vec![1],
+                count: 3
+            }
+        );
+        // Another sweep, and another number of shards, in the same folder.
+        for other in [shard(&folder, 1, 3, 12), shard(&folder, 1, 4, 11)] {
+            assert!(matches!(
+                other,
+                Err(Failure::Sweep(SweepError::Manifest { .. }))
+            ));
+        }
+        fs::remove_dir_all(folder.join("shard-1-of-3")).unwrap();
+        assert!(matches!(
+            merge(&folder, 3, 11),
+            Err(Failure::Sweep(SweepError::Foreign { .. }))
+        ));
+        fs::remove_dir_all(folder.join("shard-1-of-4")).unwrap();
+        shard(&folder, 1, 3, 11).unwrap();
+        assert_eq!(
+            merge(&folder, 3, 11).unwrap(),
+            square(&(0..11).collect::<Vec<_>>()).unwrap()
+        );
+        // A part in the place of another: its items would be there twice.
+        let part = |index: u32| folder.join(format!("shard-{index}-of-3/results.bin"));
+        fs::copy(part(0), part(1)).unwrap();
+        assert!(matches!(
+            merge(&folder, 3, 11),
+            Err(Failure::Sweep(SweepError::Items { .. }))
+        ));
+        fs::write(part(1), "torn").unwrap();
+        assert!(matches!(merge(&folder, 3, 11), Err(Failure::Sealed { .. })));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

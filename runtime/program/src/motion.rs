@@ -1,0 +1,56 @@
+//! The motion of a tree, integrated and sampled.
+
+use branched_pendulum::integrate::Report;
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::RatesOnly;
+
+use crate::Failure;
+use crate::frame::command_line::number;
+use crate::subject::Subject;
+
+/// Options that say how motions are integrated.
+#[derive(Clone, Debug, clap::Args, PartialEq)]
+pub struct MethodArguments {
+    /// method: dop853, dopri5, verner98, rk4, gauss2, gauss4, gauss6, gauss8 or animation
+    #[arg(long, value_name = "METHOD", default_value = "dop853")]
+    pub method: Method,
+    /// relative error of one step, 1e-16 to 1e-2; of methods with steps of one length, the
+    /// step in s
+    #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-10", value_parser = number(1e-16..=1e-2, ""))]
+    pub tolerance: f64,
+}
+
+/// Times, and the state at each of them.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// States: angles, then angular velocities.
+    pub states: Vec<Vec<f64>>,
+    /// Account of the integration.
+    pub report: Report<f64>,
+}
+
+/// Integrates a tree and samples it at times that begin with the start's.
+///
+/// # Errors
+/// [`Failure::Motion`].
+pub fn sample(
+    subject: &Subject,
+    arguments: &MethodArguments,
+    start: &State<f64>,
+    times: Vec<f64>,
+) -> Result<Samples, Failure> {
+    let method = arguments.method.with(arguments.tolerance);
+    let system = AbsoluteAngles(&subject.tree);
+    let mut states = Vec::with_capacity(times.len());
+    let visit = |_: f64, state: &[f64]| states.push(state.to_vec());
+    let solution = method
+        .sample(&RatesOnly(&system), start, &times, visit)
+        .map_err(|error| Failure::Motion(Box::new(error)))?;
+    Ok(Samples {
+        times,
+        states,
+        report: solution.report,
+    })
+}

@@ -1,0 +1,237 @@
+//! The tree that a command answers for: read from a file, or one of those that are shipped.
+
+use std::io::Read;
+
+use branched_pendulum::Positions;
+use branched_pendulum::system::Model;
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
+
+use crate::Failure;
+use crate::frame::command_line::parts;
+
+/// Options that name a tree.
+#[derive(Clone, Debug, clap::Args, PartialEq)]
+pub struct TreeArguments {
+    /// the tree: a text file with its description, `-` for standard input, or a shipped one:
+    /// paper, chain, triple, y, branch, cascade
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "FILE|NAME",
+        default_value = "paper"
+    )]
+    pub tree: String,
+    /// values of parameters of the description, in SI units
+    #[arg(long, value_name = "NAME=VALUE[,..]", value_parser = assignments)]
+    // By its full path, clap takes each for one value.
+    pub set: Vec<::std::vec::Vec<(String, f64)>>,
+}
+
+/// A description that is shipped.
+struct Shipped {
+    name: &'static str,
+    text: &'static str,
+    /// Values of parameters that are not set.
+    values: &'static [(&'static str, f64)],
+}
+
+const SHIPPED: [Shipped; 6] = [
+    Shipped {
+        name: "paper",
+        text: include_str!("../trees/paper.txt"),
+        values: &[("friction", 0.0)],
+    },
+    Shipped {
+        name: "chain",
+        text: include_str!("../trees/chain.txt"),
+        values: &[
+            ("upper_length", 0.3),
+            ("lower_length", 0.2),
+            ("friction", 0.0),
+        ],
+    },
+    Shipped {
+        name: "triple",
+        text: include_str!("../trees/triple.txt"),
+        values: &[("friction", 0.0)],
+    },
+    Shipped {
+        name: "y",
+        text: include_str!("../trees/y.txt"),
+        values: &[],
+    },
+    Shipped {
+        name: "branch",
+        text: include_str!("../trees/branch.txt"),
+        values: &[],
+    },
+    Shipped {
+        name: "cascade",
+        text: include_str!("../trees/cascade.txt"),
+        values: &[("friction", 1e-4)],
+    },
+];
+
+/// A tree with where it came from.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// Name for titles: that of a shipped tree, or of the file.
+    pub name: String,
+    /// The description as it was read.
+    pub text: String,
+    /// The tree.
+    pub tree: PendulumTree,
+}
+
+impl TreeArguments {
+    /// Reads the tree.
+    ///
+    /// # Errors
+    /// [`Failure::Unread`] where there is no such file; [`Failure::Tree`] with all mistakes of the
+    /// description, and for values that it has not or no pendulum can have.
+    pub fn read(&self) -> Result<Subject, Failure> {
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.tree);
+        let (text, defaults) = match shipped {
+            Some(shipped) => (shipped.text.to_owned(), shipped.values),
+            None => (self.text()?, [].as_slice()),
+        };
+        let refused = |source| Failure::Tree {
+            name: self.tree.clone(),
+            source,
+        };
+        let description = TreeDescription::parse(&text).map_err(|error| refused(error.into()))?;
+        let set = self.set.iter().flatten();
+        let mut values: Vec<(&str, f64)> =
+            set.map(|(name, value)| (name.as_str(), *value)).collect();
+        for &(name, value) in defaults {
+            if values.iter().all(|(own, _)| *own != name) {
+                values.push((name, value));
+            }
+        }
+        let tree = description.tree(&values).map_err(refused)?;
+        let name = match std::path::Path::new(&self.tree).file_name() {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None => self.tree.clone(),
+        };
+        Ok(Subject { name, text, tree })
+    }
+
+    fn text(&self) -> Result<String, Failure> {
+        let mut text = String::new();
+        let read = match self.tree.as_str() {
+            "-" => std::io::stdin().read_to_string(&mut text).map(|_| text),
+            path => std::fs::read_to_string(path),
+        };
+        read.map_err(|source| Failure::NoTree {
+            name: self.tree.clone(),
+            source,
+        })
+    }
+}
+
+impl Subject {
+    /// Returns the tree with another value of a parameter.
+    ///
+    /// # Errors
+    /// [`Failure::Tree`].
+    pub fn with(&self, name: &str, value: f64) -> Result<PendulumTree, Failure> {
+        let with = self.tree.with(name, value);
+        with.map_err(|source| Failure::Tree {
+            name: self.name.clone(),
+            source,
+        })
+    }
+
+    /// Returns the links that `name` means: the link of that name, or all copies of it, whose
+    /// names end with numbers.
+    ///
+    /// # Errors
+    /// [`Failure::NoLink`], with the names that there are.
+    pub fn links_named(&self, name: &str) -> Result<Vec<usize>, Failure> {
+        let names = self.tree.names();
+        if let Some(link) = names.iter().position(|own| own == name) {
+            return Ok(vec![link]);
+        }
+        let is_copy = |own: &String| {
+            let rest = own
+                .strip_prefix(name)
+                .and_then(|rest| rest.strip_prefix('_'));
+            rest.is_some_and(|rest| rest.chars().all(|c| c == '_' || c.is_ascii_digit()))
+        };
+        let copies: Vec<usize> = (0..names.len())
+            .filter(|&link| is_copy(&names[link]))
+            .collect();
+        match copies.is_empty() {
+            false => Ok(copies),
+            true => Err(Failure::NoLink {
+                name: name.to_owned(),
+                links: names.join(", "),
+            }),
+        }
+    }
+
+    /// Returns the copies nearest to the root; none for a tree without copies.
+    pub fn first_copies(&self) -> Option<Vec<usize>> {
+        None
+    }
+
+    /// Returns the link that each hangs from; of the root none.
+    pub fn parents(&self) -> Vec<Option<usize>> {
+        let links = 0..self.tree.links();
+        links
+            .map(|link| self.tree.properties_of(link)?.parent)
+            .collect()
+    }
+}
+
+/// Reads `NAME=VALUE` and lists of these.
+pub(crate) fn assignments(text: &str) -> Result<Vec<(String, f64)>, String> {
+    let assignment = |part: &str| {
+        let pair = part
+            .split_once('=')
+            .ok_or_else(|| format!("`{part}` is no `NAME=VALUE`"))?;
+        let value = pair
+            .1
+            .trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|value| value.is_finite());
+        let value = value.ok_or_else(|| format!("`{}` is not a number", pair.1))?;
+        Ok((pair.0.trim().to_owned(), value))
+    };
+    parts(text).map(assignment).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shipped_trees_are_trees() {
+        for shipped in &SHIPPED {
+            let arguments = TreeArguments {
+                tree: shipped.name.to_owned(),
+                set: Vec::new(),
+            };
+            let subject = arguments.read().unwrap();
+            assert_eq!(subject.parents().iter().filter(|p| p.is_none()).count(), 1);
+        }
+    }
+
+    #[test]
+    fn copies_are_named_together() {
+        let arguments = TreeArguments {
+            tree: "paper".to_owned(),
+            set: vec![assignments("friction=1e-5").unwrap()],
+        };
+        let subject = arguments.read().unwrap();
+        assert_eq!(subject.links_named("child").unwrap(), [1, 2]);
+        assert_eq!(subject.links_named("child_2").unwrap(), [2]);
+        let error = subject.links_named("twig").unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "there is no link `twig`: the tree has parent, child_1, child_2"
+        );
+        assert_eq!(subject.tree.value("friction"), Some(1e-5));
+    }
+}
