@@ -3,7 +3,7 @@
 //! At the in-phase motion, where all copies move alike, the mass matrix falls
 //! into blocks: one for the means and one for each branching and difference. The
 //! coordinates of a block are a sector. Emitted code lists them
-//! ([`Sectors::SECTORS`]) and reports their energies and the transfers between
+//! ([`Sectors::sectors`]) and reports their energies and the transfers between
 //! them ([`Budget`]). States come from absolute angles into symmetric coordinates
 //! and back by the functions of [`Sectors`], in either [`Normalisation`].
 
@@ -15,19 +15,51 @@ use normalisation::{StateKind, inward, outward, renormalise};
 pub(crate) use scales::PowerKind;
 pub use scales::{ScaleBudget, Scales, degrees_of_freedom};
 
+use alloc::borrow::Cow;
+use alloc::string::String;
+use alloc::vec::Vec;
+
 use crate::scalar::Scalar;
 
 /// A coordinate of a sector, in terms of the links: θ_link = Σ weight ·
 /// coordinate over all coordinates.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SectorCoordinate {
-    /// Name, as in [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
-    pub name: &'static str,
-    /// Index and weight of each link in which it shows.
-    pub weights: &'static [(usize, f64)],
+    name: Cow<'static, str>,
+    weights: Cow<'static, [(usize, f64)]>,
 }
 
 impl SectorCoordinate {
+    /// A coordinate that is written down in code.
+    #[must_use]
+    pub const fn listed(name: &'static str, weights: &'static [(usize, f64)]) -> Self {
+        Self {
+            name: Cow::Borrowed(name),
+            weights: Cow::Borrowed(weights),
+        }
+    }
+
+    /// A coordinate with the index and the weight of each link in which it shows.
+    #[must_use]
+    pub const fn new(name: String, weights: Vec<(usize, f64)>) -> Self {
+        Self {
+            name: Cow::Owned(name),
+            weights: Cow::Owned(weights),
+        }
+    }
+
+    /// Name, as in [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Index and weight of each link in which it shows.
+    #[must_use]
+    pub fn weights(&self) -> &[(usize, f64)] {
+        &self.weights
+    }
+
     /// Σ weight²: the square of the factor that turns the coordinate into the
     /// orthonormal one. The orthonormal coordinate is √norm · coordinate, its
     /// momentum that of the coordinate divided by √norm; for the difference of
@@ -51,12 +83,42 @@ impl SectorCoordinate {
 }
 
 /// The coordinates of one block.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sector {
+    name: Cow<'static, str>,
+    coordinates: Cow<'static, [SectorCoordinate]>,
+}
+
+impl Sector {
+    /// A sector that is written down in code.
+    #[must_use]
+    pub const fn listed(name: &'static str, coordinates: &'static [SectorCoordinate]) -> Self {
+        Self {
+            name: Cow::Borrowed(name),
+            coordinates: Cow::Borrowed(coordinates),
+        }
+    }
+
+    /// A sector of these coordinates.
+    #[must_use]
+    pub const fn new(name: String, coordinates: Vec<SectorCoordinate>) -> Self {
+        Self {
+            name: Cow::Owned(name),
+            coordinates: Cow::Owned(coordinates),
+        }
+    }
+
     /// `in_phase` for the means, else the name of the uppermost difference.
-    pub name: &'static str,
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Coordinates of the sector, from the root outwards.
-    pub coordinates: &'static [SectorCoordinate],
+    #[must_use]
+    pub fn coordinates(&self) -> &[SectorCoordinate] {
+        &self.coordinates
+    }
 }
 
 /// A model whose sectors are known.
@@ -102,8 +164,9 @@ pub trait Sectors {
     /// those of the branchings below it.
     /// Together they have as many coordinates as there are links; one after the
     /// other they are the symmetric coordinates, in the order of
-    /// [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES).
-    const SECTORS: &'static [Sector];
+    /// [`COORDINATE_NAMES`](crate::SymmetricPendulum::COORDINATE_NAMES). Compiled models have them
+    /// as the constant `SECTORS` besides.
+    fn sectors(&self) -> &[Sector];
 
     /// Symmetric coordinates from absolute angles, or their rates from angular
     /// velocities.
@@ -114,7 +177,7 @@ pub trait Sectors {
         symmetric: &mut [T],
     ) {
         let kind = StateKind::Coordinates;
-        inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
+        inward(self.sectors(), kind, normalisation, absolute, symmetric);
     }
 
     /// Absolute angles from symmetric coordinates, or angular velocities from
@@ -126,7 +189,7 @@ pub trait Sectors {
         absolute: &mut [T],
     ) {
         let kind = StateKind::Coordinates;
-        outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
+        outward(self.sectors(), kind, normalisation, symmetric, absolute);
     }
 
     /// Momenta of symmetric coordinates from those of the absolute angles: p_j =
@@ -138,7 +201,7 @@ pub trait Sectors {
         symmetric: &mut [T],
     ) {
         let kind = StateKind::Momenta;
-        inward(Self::SECTORS, kind, normalisation, absolute, symmetric);
+        inward(self.sectors(), kind, normalisation, absolute, symmetric);
     }
 
     /// Momenta of the absolute angles from those of symmetric coordinates.
@@ -149,13 +212,13 @@ pub trait Sectors {
         absolute: &mut [T],
     ) {
         let kind = StateKind::Momenta;
-        outward(Self::SECTORS, kind, normalisation, symmetric, absolute);
+        outward(self.sectors(), kind, normalisation, symmetric, absolute);
     }
 
     /// Symmetric coordinates or their rates, from one normalisation to another
     /// in place.
     fn renormalise<T: Scalar>(&self, from: Normalisation, to: Normalisation, values: &mut [T]) {
-        renormalise(Self::SECTORS, StateKind::Coordinates, [from, to], values);
+        renormalise(self.sectors(), StateKind::Coordinates, [from, to], values);
     }
 
     /// Momenta of symmetric coordinates, from one normalisation to another in
@@ -166,7 +229,13 @@ pub trait Sectors {
         to: Normalisation,
         values: &mut [T],
     ) {
-        renormalise(Self::SECTORS, StateKind::Momenta, [from, to], values);
+        renormalise(self.sectors(), StateKind::Momenta, [from, to], values);
+    }
+}
+
+impl<M: Sectors> Sectors for &M {
+    fn sectors(&self) -> &[Sector] {
+        (**self).sectors()
     }
 }
 
@@ -187,10 +256,7 @@ mod tests {
 
     #[test]
     fn norm_and_value_of_a_second_difference() {
-        let difference = SectorCoordinate {
-            name: "theta_d2",
-            weights: &[(1, 1.0), (2, 1.0), (3, -2.0)],
-        };
+        let difference = SectorCoordinate::listed("theta_d2", &[(1, 1.0), (2, 1.0), (3, -2.0)]);
         assert_eq!(difference.norm(), 6.0);
         assert_eq!(difference.of(&[9.0, 1.0, 1.0, 1.0]), 0.0);
         assert_eq!(difference.of(&[0.0, 1.0, 1.0, -2.0]), 1.0);

@@ -30,24 +30,25 @@ impl Emission<'_> {
                     quote!((#link, #weight))
                 });
                 quote! {
-                    #runtime::sectors::SectorCoordinate {
-                        name: #coordinate_name,
-                        weights: &[#(#weights),*],
-                    }
+                    #runtime::sectors::SectorCoordinate::listed(#coordinate_name, &[#(#weights),*])
                 }
             });
             quote! {
-                #runtime::sectors::Sector {
-                    name: #sector_name,
-                    coordinates: &[#(#coordinates),*],
-                }
+                #runtime::sectors::Sector::listed(#sector_name, const { &[#(#coordinates),*] })
             }
         });
         quote! {
             // As for the functions above.
-            #[allow(clippy::possible_missing_comma)]
+            #[allow(dead_code, clippy::possible_missing_comma)]
+            impl<T: #runtime::Scalar> #name<T> {
+                /// Sectors, as `sectors::Sectors` lists them.
+                pub const SECTORS: &'static [#runtime::sectors::Sector] = &[#(#list),*];
+            }
+
             impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
-                const SECTORS: &'static [#runtime::sectors::Sector] = &[#(#list),*];
+                fn sectors(&self) -> &[#runtime::sectors::Sector] {
+                    Self::SECTORS
+                }
             }
         }
     }

@@ -39,13 +39,14 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         }
 
         impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
-            const SECTORS: &'static [#runtime::sectors::Sector] = &[];
+            fn sectors(&self) -> &[#runtime::sectors::Sector] { &[] }
         }
 
         #[allow(missing_docs)]
         impl #name<f64> {
             pub const LINKS: usize = 0;
             pub const LINK_NAMES: &'static [&'static str] = &[];
+            pub const SECTORS: &'static [#runtime::sectors::Sector] = &[];
         }
 
         impl<T: #runtime::Scalar> #runtime::Canonical<T> for #name<T> {

@@ -2,7 +2,7 @@
 //! orthogonal differences, from the leaves up. Copies that differ have the same ones.
 
 use super::{Group, LinkId, OrbitId, Scene};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Place of a symmetric coordinate in the tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,8 +72,9 @@ struct Strand {
 /// then differences, outer groups first.
 pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
     let mut differences = Vec::new();
+    let below = Below::new(scene);
     let strands = match scene.links.iter().position(|link| link.parent.is_none()) {
-        Some(root) => descend(scene, LinkId(root), &mut differences),
+        Some(root) => descend(scene, &below, LinkId(root), &mut differences),
         None => Vec::new(),
     };
     let mut means: Vec<Coordinate> = strands
@@ -97,30 +98,50 @@ pub fn symmetric_coordinates(scene: &Scene) -> Vec<Coordinate> {
     all
 }
 
+/// What hangs from each link.
+struct Below<'a> {
+    children: Vec<Vec<LinkId>>,
+    groups: Vec<Vec<(usize, &'a Group)>>,
+}
+
+impl<'a> Below<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let mut children = vec![Vec::new(); scene.links.len()];
+        for (index, link) in scene.links.iter().enumerate() {
+            if let Some(LinkId(parent)) = link.parent {
+                children[parent].push(LinkId(index));
+            }
+        }
+        let mut groups = vec![Vec::new(); scene.links.len()];
+        for (number, group) in scene.groups.iter().enumerate() {
+            if let Some(LinkId(parent)) = group.parent {
+                groups[parent].push((number, group));
+            }
+        }
+        Self { children, groups }
+    }
+}
+
 /// Strands of the subtree at `link`; differences met on the way are added.
-fn descend(scene: &Scene, link: LinkId, differences: &mut Vec<Coordinate>) -> Vec<Strand> {
+fn descend(
+    scene: &Scene,
+    below: &Below<'_>,
+    link: LinkId,
+    differences: &mut Vec<Coordinate>,
+) -> Vec<Strand> {
     let mut strands = vec![Strand {
         orbit: scene.links[link.0].orbit,
         links: vec![link],
     }];
-    let children: Vec<LinkId> = (0..scene.links.len())
-        .map(LinkId)
-        .filter(|child| scene.links[child.0].parent == Some(link))
-        .collect();
-    let groups: Vec<(usize, &Group)> = scene
-        .groups
-        .iter()
-        .enumerate()
-        .filter(|(_, group)| group.parent == Some(link))
-        .collect();
-    for child in children {
+    let groups = &below.groups[link.0];
+    for &child in &below.children[link.0] {
         match groups.iter().find(|(_, g)| g.copies.contains(&child)) {
-            None => strands.extend(descend(scene, child, differences)),
+            None => strands.extend(descend(scene, below, child, differences)),
             Some((number, group)) if group.copies[0] == child => {
                 let copies: Vec<Vec<Strand>> = group
                     .copies
                     .iter()
-                    .map(|&copy| descend(scene, copy, differences))
+                    .map(|&copy| descend(scene, below, copy, differences))
                     .collect();
                 strands.extend(combine(*number, copies, differences));
             }
@@ -185,7 +206,7 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
             .copies
             .iter()
             .all(|&copy| scene.links.iter().all(|link| link.parent != Some(copy)));
-    let link_names: Vec<&String> = scene.links.iter().map(|l| &l.name).collect();
+    let link_names: BTreeSet<&String> = scene.links.iter().map(|l| &l.name).collect();
     for coordinate in coordinates.iter_mut() {
         coordinate.name = match &coordinate.kind {
             CoordinateKind::Mean { orbit } => match (coordinate.weights.as_slice(), one_strand) {
@@ -215,7 +236,7 @@ fn name_coordinates(scene: &Scene, coordinates: &mut [Coordinate]) {
             }
         };
         // A link may be called `m`; its angle keeps that name.
-        while coordinate.weights.len() > 1 && link_names.contains(&&coordinate.name) {
+        while coordinate.weights.len() > 1 && link_names.contains(&coordinate.name) {
             coordinate.name.push('_');
         }
     }

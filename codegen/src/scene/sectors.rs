@@ -18,12 +18,11 @@ pub struct SectorVariables {
 /// The sectors of a set of symmetric coordinates.
 pub fn sectors(coordinates: &[Coordinate]) -> Vec<SectorVariables> {
     let mut sectors: Vec<SectorVariables> = Vec::new();
+    // The coordinates of a sector follow each other.
     for (index, coordinate) in coordinates.iter().enumerate() {
         let (_, difference) = coordinate.kind.orbit_and_difference();
-        match sectors
-            .iter_mut()
-            .find(|sector| sector.difference == difference)
-        {
+        let last = sectors.last_mut();
+        match last.filter(|sector| sector.difference == difference) {
             Some(sector) => sector.coordinates.push(index),
             None => sectors.push(SectorVariables {
                 name: match difference {

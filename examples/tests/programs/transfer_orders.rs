@@ -6,7 +6,7 @@ use branched_pendulum::analysis::truncation::{
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
-use branched_pendulum::{Sectors, TransferForms};
+use branched_pendulum::TransferForms;
 use branched_pendulum_examples::scenes::BranchedDouble;
 use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};
 use branched_pendulum_examples::transfer_orders::{Arms, Settings, Study, output};

@@ -293,7 +293,7 @@ mod tests {
 
     fn modes() -> SectorModesError {
         SectorModesError::Sector {
-            sector: "child",
+            sector: "child".to_owned(),
             source: no_rows(),
         }
     }

@@ -1,7 +1,7 @@
 //! The blocks into which an in-phase equilibrium splits the linear motion.
 //!
 //! Where all copies of a subtree stand alike, mass and stiffness matrix couple
-//! no two sectors: in the coordinates of [`Sectors::SECTORS`] each sector has a
+//! no two sectors: in the coordinates of [`Sectors::sectors`] each sector has a
 //! mass matrix, a stiffness matrix and linear modes of its own, and the modes
 //! of all sectors together are those of the tree. (A full binary tree of g
 //! generations has one sector of g coordinates and 2^(g−1−s) of s each for
@@ -19,7 +19,7 @@
 //! depend on the choice; sizes of entries in different blocks compare in the
 //! orthonormal one only, which is why the blocks here use it.
 //!
-//! [`Sectors::SECTORS`]: crate::Sectors::SECTORS
+//! [`Sectors::sectors`]: crate::Sectors::sectors
 
 use nalgebra::DMatrix;
 
@@ -31,9 +31,9 @@ use crate::sectors::{Sector, SectorCoordinate};
 #[derive(Clone, Debug, PartialEq)]
 pub struct SectorBlock {
     /// Name of the sector.
-    pub name: &'static str,
+    pub name: String,
     /// Names of its coordinates, in the order of rows and columns.
-    pub coordinates: Vec<&'static str>,
+    pub coordinates: Vec<String>,
     /// Block of the mass matrix by rows, kg m².
     pub mass: Vec<Vec<f64>>,
     /// Block of the stiffness matrix by rows, N m/rad.
@@ -125,16 +125,17 @@ impl SectorModes {
         let mut blocks = Vec::with_capacity(sectors.len());
         let mut start = 0;
         for sector in sectors {
-            let size = sector.coordinates.len();
+            let size = sector.coordinates().len();
             let [mass, stiffness] = [&mass, &stiffness].map(|matrix| block(matrix, start, size));
             let modes =
                 Modes::new(&mass, &stiffness).map_err(|source| SectorModesError::Sector {
-                    sector: sector.name,
+                    sector: sector.name().to_owned(),
                     source,
                 })?;
+            let names = sector.coordinates().iter().map(|own| own.name().to_owned());
             blocks.push(SectorBlock {
-                name: sector.name,
-                coordinates: sector.coordinates.iter().map(|c| c.name).collect(),
+                name: sector.name().to_owned(),
+                coordinates: names.collect(),
                 mass,
                 stiffness,
                 modes,
@@ -166,10 +167,8 @@ const SKEWNESS: f64 = 1e-12;
 
 /// One column for each coordinate, sector after sector.
 fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, SectorModesError> {
-    let coordinates: Vec<&SectorCoordinate> = sectors
-        .iter()
-        .flat_map(|sector| sector.coordinates)
-        .collect();
+    let coordinates: Vec<&SectorCoordinate> =
+        sectors.iter().flat_map(Sector::coordinates).collect();
     if coordinates.len() != links {
         return Err(SectorModesError::Count {
             coordinates: coordinates.len(),
@@ -180,14 +179,14 @@ fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, S
     for (column, coordinate) in coordinates.iter().enumerate() {
         let root = coordinate.norm().sqrt();
         if !(root.is_finite() && root > 0.0) {
-            let coordinate = coordinate.name;
+            let coordinate = coordinate.name().to_owned();
             return Err(SectorModesError::Weights { coordinate });
         }
-        for &(link, weight) in coordinate.weights {
+        for &(link, weight) in coordinate.weights() {
             let entry = basis
                 .get_mut((link, column))
                 .ok_or(SectorModesError::Link {
-                    coordinate: coordinate.name,
+                    coordinate: coordinate.name().to_owned(),
                     link,
                     links,
                 })?;
@@ -196,8 +195,8 @@ fn orthonormal_basis(sectors: &[Sector], links: usize) -> Result<DMatrix<f64>, S
         for (other, first) in coordinates.iter().enumerate().take(column) {
             if basis.column(column).dot(&basis.column(other)).abs() > SKEWNESS {
                 return Err(SectorModesError::NotOrthogonal {
-                    first: first.name,
-                    second: coordinate.name,
+                    first: first.name().to_owned(),
+                    second: coordinate.name().to_owned(),
                 });
             }
         }
@@ -226,7 +225,7 @@ fn off_block(matrix: &DMatrix<f64>, sectors: &[Sector]) -> f64 {
     let mut largest = 0.0_f64;
     let mut start = 0;
     for sector in sectors {
-        let end = start + sector.coordinates.len();
+        let end = start + sector.coordinates().len();
         let beside = matrix.view((end, start), (matrix.nrows() - end, end - start));
         largest = beside.iter().fold(largest, |most, x| most.max(x.abs()));
         start = end;
@@ -251,12 +250,12 @@ errors! {
         /// The weights of a coordinate are all zero, or not finite.
         Weights {
             /// The coordinate.
-            coordinate: &'static str,
+            coordinate: String,
         } => "the weights of `{coordinate}` are zero or not finite",
         /// A coordinate weighs a link that the matrices lack.
         Link {
             /// The coordinate.
-            coordinate: &'static str,
+            coordinate: String,
             /// Index of the link.
             link: usize,
             /// Rows of the matrices.
@@ -265,14 +264,14 @@ errors! {
         /// Two coordinates are not orthogonal.
         NotOrthogonal {
             /// The one.
-            first: &'static str,
+            first: String,
             /// The other.
-            second: &'static str,
+            second: String,
         } => "`{first}` and `{second}` are not orthogonal",
         /// A block has no modes.
         Sector {
             /// Name of the sector.
-            sector: &'static str,
+            sector: String,
             /// Why.
             source: ModesError,
         } => "the sector `{sector}` has no linear modes",

@@ -11,6 +11,7 @@
 //! | `f64`, `f32` | plain numbers | trajectories |
 //! | [`Lanes`] | several of them in step, in vector registers | many states |
 //! | [`Dual`] | a number and derivatives | Jacobians, variational equations |
+//! | [`PowerSeries`] | a number and powers of a small one | expansions |
 //! | [`Double`] | 106 bits in two `f64` | references |
 //!
 //! Sines and cosines of `f64` and `f32` are this crate's own: faster than the
@@ -41,6 +42,7 @@ mod dual;
 mod float;
 pub(crate) mod kind;
 mod lanes;
+mod power_series;
 #[cfg(test)]
 mod reference;
 pub(crate) mod sincos;
@@ -49,6 +51,7 @@ mod wide;
 
 pub use dual::Dual;
 pub use lanes::{Lane, Lanes};
+pub use power_series::PowerSeries;
 pub use turns::Turns;
 #[doc(hidden)]
 pub(crate) use turns::at;

@@ -46,13 +46,13 @@ impl StateKind {
     }
 }
 
-fn coordinates(sectors: &'static [Sector]) -> impl Iterator<Item = &'static SectorCoordinate> {
-    sectors.iter().flat_map(|sector| sector.coordinates)
+pub(crate) fn coordinates(sectors: &[Sector]) -> impl Iterator<Item = &SectorCoordinate> {
+    sectors.iter().flat_map(Sector::coordinates)
 }
 
 /// Returns true if slices have one number for each coordinate; else fills the
 /// second with NaN.
-fn fits<T: Scalar>(sectors: &'static [Sector], from: usize, to: &mut [T]) -> bool {
+fn fits<T: Scalar>(sectors: &[Sector], from: usize, to: &mut [T]) -> bool {
     let count = coordinates(sectors).count();
     let fits = from == count && to.len() == count;
     if !fits {
@@ -62,7 +62,7 @@ fn fits<T: Scalar>(sectors: &'static [Sector], from: usize, to: &mut [T]) -> boo
 }
 
 pub(super) fn inward<T: Scalar>(
-    sectors: &'static [Sector],
+    sectors: &[Sector],
     kind: StateKind,
     normalisation: Normalisation,
     absolute: &[T],
@@ -73,7 +73,7 @@ pub(super) fn inward<T: Scalar>(
     }
     for (out, coordinate) in symmetric.iter_mut().zip(coordinates(sectors)) {
         let mut sum = T::from_f64(0.0);
-        for &(link, weight) in coordinate.weights {
+        for &(link, weight) in coordinate.weights() {
             if let Some(&value) = absolute.get(link) {
                 sum = sum + T::from_f64(weight) * value;
             }
@@ -83,7 +83,7 @@ pub(super) fn inward<T: Scalar>(
 }
 
 pub(super) fn outward<T: Scalar>(
-    sectors: &'static [Sector],
+    sectors: &[Sector],
     kind: StateKind,
     normalisation: Normalisation,
     symmetric: &[T],
@@ -95,7 +95,7 @@ pub(super) fn outward<T: Scalar>(
     absolute.fill(T::from_f64(0.0));
     for (&value, coordinate) in symmetric.iter().zip(coordinates(sectors)) {
         let value = kind.outward::<T>(coordinate.norm(), normalisation) * value;
-        for &(link, weight) in coordinate.weights {
+        for &(link, weight) in coordinate.weights() {
             if let Some(out) = absolute.get_mut(link) {
                 *out = *out + T::from_f64(weight) * value;
             }
@@ -104,7 +104,7 @@ pub(super) fn outward<T: Scalar>(
 }
 
 pub(super) fn renormalise<T: Scalar>(
-    sectors: &'static [Sector],
+    sectors: &[Sector],
     kind: StateKind,
     [from, to]: [Normalisation; 2],
     values: &mut [T],

@@ -5,27 +5,20 @@ use branched_pendulum::sectors::{Sector, SectorCoordinate};
 
 use crate::problems::BranchedDouble;
 
-const MEANS: Sector = Sector {
-    name: "in_phase",
-    coordinates: &[
-        SectorCoordinate {
-            name: "theta_parent",
-            weights: &[(0, 1.0)],
-        },
-        SectorCoordinate {
-            name: "theta_m",
-            weights: &[(1, 1.0), (2, 1.0)],
-        },
-    ],
-};
+const MEANS: Sector = Sector::listed(
+    "in_phase",
+    const {
+        &[
+            SectorCoordinate::listed("theta_parent", &[(0, 1.0)]),
+            SectorCoordinate::listed("theta_m", &[(1, 1.0), (2, 1.0)]),
+        ]
+    },
+);
 
-const DIFFERENCE: Sector = Sector {
-    name: "d",
-    coordinates: &[SectorCoordinate {
-        name: "theta_d",
-        weights: &[(1, 1.0), (2, -1.0)],
-    }],
-};
+const DIFFERENCE: Sector = Sector::listed(
+    "d",
+    const { &[SectorCoordinate::listed("theta_d", &[(1, 1.0), (2, -1.0)])] },
+);
 
 #[test]
 fn the_paper_s_blocks_and_frequencies() {
@@ -36,7 +29,7 @@ fn the_paper_s_blocks_and_frequencies() {
     let [in_phase, antiphase] = modes.blocks.as_slice() else {
         panic!("{} blocks", modes.blocks.len());
     };
-    assert_eq!([in_phase.name, antiphase.name], ["in_phase", "d"]);
+    assert_eq!([&*in_phase.name, &*antiphase.name], ["in_phase", "d"]);
     let off = 2.0_f64.sqrt() * mu;
     for (row, expected) in in_phase.mass.iter().zip([[m1, off], [off, m2]]) {
         for (entry, expected) in row.iter().zip(expected) {
@@ -102,32 +95,20 @@ fn refusals() {
         refused(&[MEANS]).to_string(),
         "the sectors have 2 coordinates and the matrices 3 rows"
     );
-    let with = |coordinates: &'static [SectorCoordinate]| Sector {
-        coordinates,
-        ..DIFFERENCE
+    let with = |weights: &[(usize, f64)]| {
+        let coordinate = SectorCoordinate::new("theta_d".to_owned(), weights.to_vec());
+        Sector::new("d".to_owned(), vec![coordinate])
     };
-    const OUTSIDE: &[SectorCoordinate] = &[SectorCoordinate {
-        name: "theta_d",
-        weights: &[(3, 1.0)],
-    }];
     assert_eq!(
-        refused(&[MEANS, with(OUTSIDE)]).to_string(),
+        refused(&[MEANS, with(&[(3, 1.0)])]).to_string(),
         "`theta_d` weighs link 3, but the matrices have 3 rows"
     );
-    const WEIGHTLESS: &[SectorCoordinate] = &[SectorCoordinate {
-        name: "theta_d",
-        weights: &[],
-    }];
     assert_eq!(
-        refused(&[MEANS, with(WEIGHTLESS)]).to_string(),
+        refused(&[MEANS, with(&[])]).to_string(),
         "the weights of `theta_d` are zero or not finite"
     );
-    const SKEW: &[SectorCoordinate] = &[SectorCoordinate {
-        name: "theta_d",
-        weights: &[(1, 1.0), (2, -0.5)],
-    }];
     assert_eq!(
-        refused(&[MEANS, with(SKEW)]).to_string(),
+        refused(&[MEANS, with(&[(1, 1.0), (2, -0.5)])]).to_string(),
         "`theta_m` and `theta_d` are not orthogonal"
     );
 
@@ -136,11 +117,11 @@ fn refusals() {
     let error = SectorModes::new(&sectors, &unit, &unstable).unwrap_err();
     assert!(
         matches!(
-            error,
+            &error,
             SectorModesError::Sector {
-                sector: "in_phase",
+                sector,
                 source: ModesError::NegativeStiffness { .. }
-            }
+            } if sector == "in_phase"
         ),
         "{error:?}"
     );

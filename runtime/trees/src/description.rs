@@ -59,6 +59,11 @@ impl TreeDescription {
     /// A name that is no parameter, a parameter without a value, and values that no
     /// pendulum can have.
     pub fn tree<T: Scalar>(&self, values: &[(&str, f64)]) -> Result<PendulumTree<T>, TreeError> {
+        PendulumTree::of(self.clone(), self.values(values)?)
+    }
+
+    /// Returns the values of all parameters in their order.
+    pub(crate) fn values(&self, values: &[(&str, f64)]) -> Result<Vec<f64>, TreeError> {
         let mut own = vec![None; self.scene.parameters.len()];
         for &(name, value) in values {
             let place = self.place(name)?;
@@ -73,7 +78,7 @@ impl TreeDescription {
             let names = names.map(|(name, _)| name.to_owned()).collect();
             return Err(TreeError::MissingValues { names });
         }
-        PendulumTree::of(self.clone(), known)
+        Ok(known)
     }
 
     /// Returns the index of a parameter.

@@ -39,6 +39,13 @@ pub enum TreeError {
         /// The condition on it, as in "positive".
         requirement: &'static str,
     },
+    /// Symmetric coordinates, or what is made of them, of a tree without copies.
+    #[error(
+        "the tree has no copies, between which there are differences to transfer energy to: \
+         write equal subtrees once, as in `child(...) * 2`, or by `generations(...)`; copies \
+         that move `in_phase(...)` have no differences"
+    )]
+    NoCopies,
 }
 
 fn quoted(names: &[String]) -> String {

@@ -26,6 +26,7 @@ mod numbers;
 mod prescribed;
 mod rows;
 mod scales;
+mod symmetric;
 mod text;
 mod tree;
 #[cfg(feature = "strips")]

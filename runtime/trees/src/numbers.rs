@@ -154,19 +154,19 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
 }
 
 /// A link of the whole tree.
-struct Place {
+pub(crate) struct Place {
     /// Index of the link in the scene.
-    link: usize,
+    pub(crate) link: usize,
     /// The parent's index in the whole tree.
-    parent: Option<usize>,
+    pub(crate) parent: Option<usize>,
     /// Number of the link among the copies below the parent, from 1, where there are several.
-    copy: Option<usize>,
+    pub(crate) copy: Option<usize>,
 }
 
 /// The links of the whole tree. In generations these are copies of one link of each, in the
 /// order of trees by rule: copy c under link i of a generation of n links is number c n + i
 /// of the next one.
-fn places(scene: &Scene) -> Vec<Place> {
+pub(crate) fn places(scene: &Scene) -> Vec<Place> {
     let links = scene.links.iter().enumerate();
     let Layout::Generations { branching, .. } = scene.layout else {
         let places = links.map(|(link, own)| Place {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Pendulum, Workspace};
@@ -17,6 +17,7 @@ use crate::numbers::{self, LinkNumbers};
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
 use crate::scales::ByRule;
+use crate::symmetric::Symmetry;
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
 ///
@@ -78,6 +79,19 @@ pub(crate) struct Described {
     names: Vec<String>,
     /// Number by which trees of other shapes differ.
     pub(crate) shape: usize,
+    /// Formed when it is asked for.
+    symmetry: OnceLock<Symmetry>,
+}
+
+impl Described {
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    pub(crate) fn symmetry(&self) -> &Symmetry {
+        self.symmetry
+            .get_or_init(|| Symmetry::of(&self.description.scene))
+    }
 }
 
 impl fmt::Debug for Described {
@@ -87,6 +101,7 @@ impl fmt::Debug for Described {
             values,
             names,
             shape: _,
+            symmetry: _,
         } = self;
         f.debug_struct("Described")
             .field("values", values)
@@ -139,6 +154,7 @@ impl<T: Scalar> PendulumTree<T> {
         let described = Described {
             names: numbers::names(scene),
             shape: hasher.finish() as usize,
+            symmetry: OnceLock::new(),
             description: description.clone(),
             values,
         };

@@ -1,6 +1,5 @@
 //! The emitted list of sectors is the one that emitted functions mean.
 
-use branched_pendulum::Sectors as _;
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::nested::Nested;
@@ -11,7 +10,7 @@ type Model = Nested<f64>;
 fn sectors_of_a_binary_tree() {
     let sizes: Vec<(&str, usize)> = Model::SECTORS
         .iter()
-        .map(|sector| (sector.name, sector.coordinates.len()))
+        .map(|sector| (sector.name(), sector.coordinates().len()))
         .collect();
     let expected = [
         ("in_phase", 3),
@@ -31,10 +30,10 @@ fn weights_are_those_of_the_symmetric_coordinates() {
     let symmetric = model.to_symmetric(&theta);
     let names = <Model as branched_pendulum::SymmetricPendulum<f64>>::COORDINATE_NAMES;
     let mut seen = 0;
-    for coordinate in Model::SECTORS.iter().flat_map(|sector| sector.coordinates) {
-        let index = names.iter().position(|name| *name == coordinate.name);
+    for coordinate in Model::SECTORS.iter().flat_map(|sector| sector.coordinates()) {
+        let index = names.iter().position(|name| *name == coordinate.name());
         let value = symmetric[index.expect("a coordinate of that name")];
-        let name = coordinate.name;
+        let name = coordinate.name();
         assert!((coordinate.of(&theta) - value).abs() < 1e-15, "{name}");
         seen += 1;
     }

@@ -72,14 +72,14 @@ fn matrix_table(run: &Onset) -> String {
         rate of its energy.\n\n|  |"
             .to_owned();
     for sector in sectors() {
-        text += &format!(" `{}` |", sector.name);
+        text += &format!(" `{}` |", sector.name());
     }
     text.push_str(" friction, drive | dE/dt |\n|---|");
     text.push_str(&"---:|".repeat(SECTORS + 2));
     text.push('\n');
     let mean = |energy: f64| milli(energy / last.time);
     for (row, sector) in sectors().iter().enumerate() {
-        text += &format!("| `{}` |", sector.name);
+        text += &format!("| `{}` |", sector.name());
         for column in 0..SECTORS {
             let cell = if column == row {
                 "–".to_owned()
@@ -112,7 +112,7 @@ fn milli(watts: f64) -> String {
 pub fn write_samples(job: &Job, run: &Onset) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
     for quantity in ["energy", "given by friction and drive", "given by sectors"] {
-        let names = sectors().iter().map(|sector| sector.name);
+        let names = sectors().iter().map(|sector| sector.name());
         columns.extend(names.map(|name| Column::new(format!("{quantity} {name}"), "J")));
     }
     job.csv("onset.csv", &columns, |file| {

@@ -111,8 +111,8 @@ fn at_release(difference: f64) -> [f64; LINKS] {
     let names = <Tree as SymmetricPendulum<f64>>::COORDINATE_NAMES;
     let mut coordinates = [0.0; LINKS];
     let differences = super::scene::sectors().iter().skip(1);
-    for (number, coordinate) in differences.flat_map(|s| s.coordinates).enumerate() {
-        if let Some(index) = names.iter().position(|name| *name == coordinate.name) {
+    for (number, coordinate) in differences.flat_map(|s| s.coordinates()).enumerate() {
+        if let Some(index) = names.iter().position(|name| *name == coordinate.name()) {
             let sign = if number % 2 == 0 { 1.0 } else { -1.0 };
             coordinates[index] = sign * difference * 0.9_f64.powi(number as i32);
         }

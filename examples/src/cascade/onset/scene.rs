@@ -1,7 +1,7 @@
 //! The tree, and its sectors by where they branch.
 
 use branched_pendulum::analysis::{SectorModes, SectorModesError};
-use branched_pendulum::{Sectors, branched_pendulum};
+use branched_pendulum::branched_pendulum;
 
 /// Fifteen rods: every rod carries two of half its mass and seven tenths of
 /// its length. Friction in every pivot, a motor on the root.
@@ -22,7 +22,7 @@ pub const SECTORS: usize = 8;
 
 /// All sectors of the tree, as emitted.
 pub fn sectors() -> &'static [branched_pendulum::sectors::Sector] {
-    <Tree<f64> as Sectors>::SECTORS
+    Tree::<f64>::SECTORS
 }
 
 /// The modes of every sector about the hanging equilibrium.
@@ -55,7 +55,7 @@ impl Level {
     /// The level of the sector with this index: it has a coordinate for each
     /// generation below its branching.
     pub fn of(sector: usize) -> Self {
-        let generations = sectors().get(sector).map_or(0, |s| s.coordinates.len());
+        let generations = sectors().get(sector).map_or(0, |s| s.coordinates().len());
         match generations {
             4 => Self::InPhase,
             3 => Self::First,
@@ -92,11 +92,11 @@ mod tests {
     fn levels_have_the_sectors_that_branch_there() {
         let sectors = sectors();
         assert_eq!(sectors.len(), SECTORS);
-        let links: usize = sectors.iter().map(|s| s.coordinates.len()).sum();
+        let links: usize = sectors.iter().map(|s| s.coordinates().len()).sum();
         assert_eq!(links, LINKS);
         // `arm_3_2_d`: the second branching at which third-generation arms part.
         for (index, sector) in sectors.iter().enumerate() {
-            let level = match sector.name.split('_').nth(1) {
+            let level = match sector.name().split('_').nth(1) {
                 Some("phase") => Level::InPhase,
                 Some("2") => Level::First,
                 Some("3") => Level::Second,
@@ -105,7 +105,7 @@ mod tests {
                     Level::Third
                 }
             };
-            assert_eq!(Level::of(index), level, "{}", sector.name);
+            assert_eq!(Level::of(index), level, "{}", sector.name());
         }
         assert_eq!(by_level(&[1.0; SECTORS]), [1.0, 1.0, 2.0, 4.0]);
     }

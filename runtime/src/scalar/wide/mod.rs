@@ -182,6 +182,13 @@ impl Neg for Double {
     }
 }
 
+impl From<f64> for Double {
+    #[inline(always)]
+    fn from(value: f64) -> Self {
+        Self::from_f64(value)
+    }
+}
+
 impl AddAssign for Double {
     #[inline]
     fn add_assign(&mut self, other: Self) {

@@ -1,6 +1,7 @@
 //! Plain and orthonormal coordinates of the same state.
 
 use branched_pendulum::sectors::Normalisation::{self, Orthonormal, Plain};
+use branched_pendulum::sectors::{Sector, SectorCoordinate};
 use branched_pendulum::{Sectors, SymmetricPendulum, branched_pendulum};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::scenes::nested::Nested;
@@ -28,9 +29,9 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn sectors_list_the_coordinates_in_their_order() {
-    fn listed<M: Sectors + SymmetricPendulum<f64>>(_: &M) {
-        let listed = M::SECTORS.iter().flat_map(|sector| sector.coordinates);
-        let names: Vec<&str> = listed.map(|coordinate| coordinate.name).collect();
+    fn listed<M: Sectors + SymmetricPendulum<f64>>(model: &M) {
+        let listed = model.sectors().iter().flat_map(Sector::coordinates);
+        let names: Vec<&str> = listed.map(SectorCoordinate::name).collect();
         assert_eq!(names, M::COORDINATE_NAMES);
     }
     listed(&Creature::new());
@@ -116,7 +117,7 @@ fn equal_copies_have_no_differences() {
     for normalisation in BOTH {
         let mut x = [0.0; 11];
         model.symmetric_from_absolute(normalisation, &theta, &mut x);
-        let means = Creature::<f64>::SECTORS[0].coordinates.len();
+        let means = Creature::<f64>::SECTORS[0].coordinates().len();
         assert!(
             x[means..].iter().all(|&difference| difference == 0.0),
             "{x:?}"

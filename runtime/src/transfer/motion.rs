@@ -1,0 +1,259 @@
+//! A state of a tree with copies, and what its constants make of it.
+
+use super::constants::Constants;
+use super::memory::Rest;
+use super::pattern::{Entries, Pattern, multiply, write_slopes};
+use super::{Given, SymmetricTree};
+use crate::scalar::{Scalar, at};
+use crate::sectors::{Normalisation, Sectors};
+
+/// Angles, their sines and cosines, velocities and momenta.
+pub(super) struct Motion<'w, T> {
+    pub(super) theta: &'w [T],
+    pub(super) omega: &'w [T],
+    pub(super) sines: &'w [T],
+    pub(super) cosines: &'w [T],
+    /// Momenta of the symmetric coordinates.
+    pub(super) momenta: &'w [T],
+    /// Entries of the mass matrix of the tree.
+    pub(super) matrix: Matrix<'w, T>,
+}
+
+/// Entries of a mass matrix beside its diagonal, and their derivatives by the angle of their
+/// row.
+#[derive(Clone, Copy)]
+pub(super) struct Matrix<'w, T> {
+    pub(super) beside: &'w [T],
+    pub(super) slopes: &'w [T],
+}
+
+/// Derivatives of K at fixed velocities and of U, by the angles.
+pub(super) struct Slopes<'w, T> {
+    pub(super) kinetic: &'w [T],
+    pub(super) potential: &'w [T],
+}
+
+/// Numbers that a state of so many links and entries takes.
+pub(super) fn room(links: usize, entries: usize) -> usize {
+    6 * links + 2 * entries
+}
+
+/// Numbers for the factors of a matrix.
+pub(super) fn factors(links: usize, entries: usize) -> usize {
+    links + entries
+}
+
+impl<T: Scalar> SymmetricTree<T> {
+    /// Returns the state; none for slices of another length than there are links.
+    #[inline]
+    pub(super) fn motion<'w>(
+        &self,
+        given: Given<'_, T>,
+        memory: &mut Rest<'w, T>,
+    ) -> Option<Motion<'w, T>> {
+        let (shape, plain) = (&*self.shape, Normalisation::Plain);
+        let links = shape.links();
+        if given.lengths() != [links; 2] {
+            return None;
+        }
+        let [theta, omega, momenta] = [(); 3].map(|()| memory.take(links));
+        match given {
+            Given::Absolute { theta: own, .. } => theta.copy_from_slice(own),
+            Given::Rates { coordinates, .. } | Given::Momenta { coordinates, .. } => {
+                self.absolute_from_symmetric(plain, coordinates, theta);
+            }
+        }
+        let [sines, cosines] = [(); 2].map(|()| memory.take(links));
+        write_turns(theta, sines, cosines);
+        let matrix = self.matrix(&self.whole, [sines, cosines], memory);
+        let absolute = memory.take(links);
+        match given {
+            Given::Momenta { momenta: own, .. } => {
+                momenta.copy_from_slice(own);
+                self.absolute_momenta_from_symmetric(plain, own, omega);
+                self.solve(&self.whole, matrix, omega, memory.lend());
+            }
+            Given::Absolute { omega: own, .. } => omega.copy_from_slice(own),
+            Given::Rates { rates, .. } => self.absolute_from_symmetric(plain, rates, omega),
+        }
+        if !matches!(given, Given::Momenta { .. }) {
+            let (pattern, inertia) = (&shape.pattern, &self.whole.inertia);
+            multiply(pattern, inertia, matrix.beside, omega, absolute);
+            self.symmetric_momenta_from_absolute(plain, absolute, momenta);
+        }
+        Some(Motion {
+            theta,
+            omega,
+            sines,
+            cosines,
+            momenta,
+            matrix,
+        })
+    }
+
+    /// The mass matrix of these constants.
+    #[inline]
+    pub(super) fn matrix<'w>(
+        &self,
+        constants: &Constants<T>,
+        [sines, cosines]: [&[T]; 2],
+        memory: &mut Rest<'w, T>,
+    ) -> Matrix<'w, T> {
+        let pattern = &self.shape.pattern;
+        let [beside, slopes] = [(); 2].map(|()| memory.take(pattern.entries()));
+        for (place, row, column) in pattern.iter() {
+            let cosine = cosines[row] * cosines[column] + sines[row] * sines[column];
+            let sine = sines[row] * cosines[column] - cosines[row] * sines[column];
+            let coupling = constants.coupling[place];
+            let (mut entry, mut slope) = (coupling * cosine, -(coupling * sine));
+            if let Some(&lateral) = constants.lateral_coupling.get(place) {
+                (entry, slope) = (entry + lateral * sine, slope + lateral * cosine);
+            }
+            (beside[place], slopes[place]) = (entry, slope);
+        }
+        Matrix { beside, slopes }
+    }
+
+    /// Turns forces into what they accelerate, or momenta into velocities.
+    #[inline]
+    pub(super) fn solve(
+        &self,
+        constants: &Constants<T>,
+        matrix: Matrix<'_, T>,
+        values: &mut [T],
+        mut memory: Rest<'_, T>,
+    ) {
+        let pattern = &self.shape.pattern;
+        let mut factors = Entries {
+            diagonal: memory.take(pattern.rows()),
+            beside: memory.take(pattern.entries()),
+        };
+        factors.diagonal.copy_from_slice(&constants.inertia);
+        factors.beside.copy_from_slice(matrix.beside);
+        factors.factor(pattern);
+        factors.solve(pattern, values);
+    }
+
+    /// The slopes of the energies of a motion with these constants.
+    #[inline]
+    pub(super) fn slopes<'w>(
+        &self,
+        constants: &Constants<T>,
+        matrix: Matrix<'_, T>,
+        motion: &Motion<'_, T>,
+        memory: &mut Rest<'w, T>,
+    ) -> Slopes<'w, T> {
+        let pattern = &self.shape.pattern;
+        let [kinetic, potential] = [(); 2].map(|()| memory.take(pattern.rows()));
+        write_kinetic_slopes(pattern, matrix.slopes, motion.omega, kinetic);
+        self.write_fall(constants, motion, potential);
+        Slopes { kinetic, potential }
+    }
+
+    /// Writes the derivatives of U by the angles.
+    fn write_fall(&self, constants: &Constants<T>, motion: &Motion<'_, T>, slopes: &mut [T]) {
+        for (link, slope) in slopes.iter_mut().enumerate() {
+            *slope = constants.gravity[link] * motion.sines[link];
+            if let Some(&lateral) = constants.lateral_gravity.get(link) {
+                *slope = *slope + lateral * motion.cosines[link];
+            }
+        }
+        for (link, &spring) in constants.spring.iter().enumerate() {
+            let torque = spring * self.strain(constants, motion.theta, link);
+            slopes[link] = slopes[link] + torque;
+            if let Some(parent) = self.shape.parents[link] {
+                slopes[parent] = slopes[parent] - torque;
+            }
+        }
+    }
+
+    /// Writes those of U less the mean tree's: G and F by themselves, and of springs
+    /// Δκ φ − κ̄ Δρ with the strain φ.
+    pub(super) fn write_fall_beyond(
+        &self,
+        [whole, mean, beyond]: [&Constants<T>; 3],
+        motion: &Motion<'_, T>,
+        slopes: &mut [T],
+    ) {
+        for (link, slope) in slopes.iter_mut().enumerate() {
+            *slope = beyond.gravity[link] * motion.sines[link];
+            if let Some(&lateral) = beyond.lateral_gravity.get(link) {
+                *slope = *slope + lateral * motion.cosines[link];
+            }
+        }
+        for (link, &spring) in beyond.spring.iter().enumerate() {
+            let strain = self.strain(whole, motion.theta, link);
+            let torque = spring * strain - mean.spring[link] * beyond.rest[link];
+            slopes[link] = slopes[link] + torque;
+            if let Some(parent) = self.shape.parents[link] {
+                slopes[parent] = slopes[parent] - torque;
+            }
+        }
+    }
+
+    /// θ − θ_parent − ρ.
+    #[inline(always)]
+    fn strain(&self, constants: &Constants<T>, theta: &[T], link: usize) -> T {
+        let own = match self.shape.parents[link] {
+            Some(parent) => theta[link] - theta[parent],
+            None => theta[link],
+        };
+        own - at(&constants.rest, link)
+    }
+
+    /// U.
+    pub(super) fn potential_energy(&self, motion: &Motion<'_, T>) -> T {
+        let (constants, half) = (&self.whole, T::from_f64(0.5));
+        let mut energy = T::from_f64(0.0);
+        for (link, &gravity) in constants.gravity.iter().enumerate() {
+            energy = energy + gravity * (T::from_f64(1.0) - motion.cosines[link]);
+            if let Some(&lateral) = constants.lateral_gravity.get(link) {
+                energy = energy + lateral * motion.sines[link];
+            }
+            if let Some(&spring) = constants.spring.get(link) {
+                let strain = self.strain(constants, motion.theta, link);
+                energy = energy + half * spring * strain * strain;
+            }
+        }
+        energy
+    }
+}
+
+/// Writes sines and cosines, four at once where there are.
+#[inline(always)]
+fn write_turns<T: Scalar>(theta: &[T], sines: &mut [T], cosines: &mut [T]) {
+    let (fours, rest) = theta.as_chunks::<4>();
+    let (four_sines, rest_sines) = sines.as_chunks_mut::<4>();
+    let (four_cosines, rest_cosines) = cosines.as_chunks_mut::<4>();
+    let all = fours.iter().zip(four_sines.iter_mut().zip(four_cosines));
+    for (angles, (sines, cosines)) in all {
+        (*sines, *cosines) = T::sin_cos_each(angles);
+    }
+    let one_by_one = |angles: &[T], sines: &mut [T], cosines: &mut [T]| {
+        let all = angles.iter().zip(sines.iter_mut().zip(cosines));
+        for (&angle, (sine, cosine)) in all {
+            (*sine, *cosine) = angle.sin_cos();
+        }
+    };
+    match (rest, rest_sines, rest_cosines) {
+        (&[a, b, c], [s, t, u], [x, y, z]) => {
+            ([*s, *t, *u], [*x, *y, *z]) = T::sin_cos_each(&[a, b, c]);
+        }
+        (angles, sines, cosines) => one_by_one(angles, sines, cosines),
+    }
+}
+
+/// Writes ½ ωᵀ (∂M/∂θ_i) ω.
+#[inline(always)]
+pub(super) fn write_kinetic_slopes<T: Scalar>(
+    pattern: &Pattern,
+    slopes: &[T],
+    omega: &[T],
+    result: &mut [T],
+) {
+    write_slopes(pattern, slopes, [omega, omega], result);
+    let half = T::from_f64(0.5);
+    for slope in result {
+        *slope = half * *slope;
+    }
+}

@@ -1,0 +1,157 @@
+//! Energies of sectors from their momenta, and the energy transfer W into them without
+//! truncation (physics (5.5), (9.5), (9.8), (14.5)).
+//!
+//! With x the angular velocities that a sector's momenta alone have, k the derivatives of K by
+//! the angles at fixed velocities, and M_ij, i below j, within the sector:
+//! {E_s, K − T_s} = Σ x_i k_i + ∂V_s/∂θ_i (ω_i − x_i) − Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j),
+//! {E_s, U − V_s} = Σ x_i (∂V_s/∂θ_i − ∂U/∂θ_i). No inverse and no expansion.
+
+use super::constants::Constants;
+use super::memory::Rest;
+use super::motion::{Matrix, Motion, Slopes};
+use super::shape::BlockShape;
+use super::SymmetricTree;
+use crate::model::Transfer;
+use crate::scalar::Scalar;
+
+/// A sector by itself, with constants that are equal in all copies.
+pub(super) struct Alone<'w, T> {
+    /// T_s and V_s.
+    pub(super) energy: [T; 2],
+    /// ∂T_s/∂p, as angular velocities of its links.
+    pub(super) velocities: &'w [T],
+    /// ∂V_s/∂θ.
+    pub(super) fall: &'w [T],
+    /// ∂M_ij/∂θ_i where T_s depends on the angles.
+    pub(super) slopes: Option<&'w [T]>,
+}
+
+/// What the rest of a tree does to a sector: angular velocities and slopes of K and U.
+pub(super) struct Surroundings<'w, T> {
+    pub(super) omega: &'w [T],
+    pub(super) slopes: Slopes<'w, T>,
+}
+
+/// W_s by its parts.
+#[derive(Clone, Copy)]
+pub(super) struct TransferTerms<T> {
+    /// Σ x_i k_i: where K is meant through an order in the angles of the differences and
+    /// differentiated then, this counts one less.
+    pub(super) driven: T,
+    /// The rest of {E_s, K − T_s}.
+    pub(super) kinetic: T,
+    /// {E_s, U − V_s}.
+    pub(super) potential: T,
+}
+
+impl<T: Scalar> TransferTerms<T> {
+    pub(super) fn transfer(self) -> Transfer<T> {
+        Transfer {
+            kinetic: self.driven + self.kinetic,
+            potential: self.potential,
+        }
+    }
+}
+
+/// Numbers for a sector by itself.
+pub(super) fn room([rows, entries]: [usize; 2], links: usize) -> usize {
+    2 * links + 2 * rows + entries
+}
+
+impl<T: Scalar> SymmetricTree<T> {
+    /// The sector of a block, with its kinetic energy from the block at the configuration.
+    #[inline]
+    pub(super) fn alone<'w>(
+        &self,
+        block: &BlockShape,
+        constants: &Constants<T>,
+        matrix: Matrix<'w, T>,
+        motion: &Motion<'_, T>,
+        memory: &'w mut Rest<'_, T>,
+    ) -> Alone<'w, T> {
+        let slopes = Some(matrix.slopes);
+        let matrix = [&constants.inertia[..], matrix.beside];
+        self.alone_of(block, constants, matrix, slopes, motion, memory)
+    }
+
+    /// The sector of a block, with its kinetic energy from the block at rest.
+    #[inline]
+    pub(super) fn alone_at_rest<'w>(
+        &self,
+        block: &BlockShape,
+        motion: &Motion<'_, T>,
+        memory: &'w mut Rest<'_, T>,
+    ) -> Alone<'w, T> {
+        let constants = self.equal();
+        let matrix = [&constants.inertia[..], &constants.coupling];
+        self.alone_of(block, constants, matrix, None, motion, memory)
+    }
+
+    fn alone_of<'w>(
+        &self,
+        block: &BlockShape,
+        constants: &Constants<T>,
+        matrix: [&[T]; 2],
+        slopes: Option<&'w [T]>,
+        motion: &Motion<'_, T>,
+        memory: &'w mut Rest<'_, T>,
+    ) -> Alone<'w, T> {
+        let (shape, mut memory) = (&self.shape, memory.lend());
+        let [velocities, fall] = [(); 2].map(|()| memory.take(shape.links()));
+        let momenta = motion.momenta;
+        let twice = block.write_velocities(&shape.pattern, matrix, momenta, memory, velocities);
+        let turns = [motion.sines, motion.cosines];
+        let potential = block.write_fall(constants, &shape.parents, motion.theta, turns, fall);
+        Alone {
+            energy: [T::from_f64(0.5) * twice, potential],
+            velocities,
+            fall,
+            slopes,
+        }
+    }
+
+    /// {E_s, H} by its parts.
+    #[inline]
+    pub(super) fn terms(
+        &self,
+        block: &BlockShape,
+        own: &Alone<'_, T>,
+        around: &Surroundings<'_, T>,
+    ) -> TransferTerms<T> {
+        let [mut driven, mut kinetic, mut potential] = [T::from_f64(0.0); 3];
+        for (_, link, _) in block.links::<T>() {
+            let (x, fall) = (own.velocities[link], own.fall[link]);
+            driven = driven + x * around.slopes.kinetic[link];
+            kinetic = kinetic + fall * (around.omega[link] - x);
+            potential = potential + x * (fall - around.slopes.potential[link]);
+        }
+        TransferTerms {
+            driven,
+            kinetic: kinetic - self.turning(block, own, around.omega),
+            potential,
+        }
+    }
+
+    /// Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j).
+    #[inline(always)]
+    pub(super) fn turning(&self, block: &BlockShape, own: &Alone<'_, T>, omega: &[T]) -> T {
+        let zero = T::from_f64(0.0);
+        let Some(slopes) = own.slopes else {
+            return zero;
+        };
+        let x = own.velocities;
+        let pairs = block.pairs(&self.shape.pattern);
+        pairs.fold(zero, |sum, (place, link, above)| {
+            sum + slopes[place] * (x[link] * x[above]) * (omega[link] - omega[above])
+        })
+    }
+
+    /// Σ x_i Q_i of forces Q.
+    #[inline(always)]
+    pub(super) fn power(&self, block: &BlockShape, own: &Alone<'_, T>, forces: &[T]) -> T {
+        let links = block.links::<T>();
+        links.fold(T::from_f64(0.0), |sum, (_, link, _)| {
+            sum + own.velocities[link] * forces[link]
+        })
+    }
+}

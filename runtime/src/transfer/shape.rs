@@ -1,0 +1,153 @@
+//! Sectors as the evaluation takes them: columns of coordinates and patterns of blocks.
+
+use alloc::vec::Vec;
+
+use super::pattern::Pattern;
+use crate::scalar::Scalar;
+use crate::sectors::{Sector, SectorCoordinate};
+
+/// What a tree's sectors are, whatever its constants.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SymmetricShape {
+    pub(super) pattern: Pattern,
+    pub(super) parents: Vec<Option<usize>>,
+    pub(super) sectors: Vec<Sector>,
+    pub(super) blocks: Vec<BlockShape>,
+}
+
+/// A sector's block of the mass matrix.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct BlockShape {
+    /// Index of the sector's first coordinate.
+    pub(super) first: usize,
+    /// Entries between its coordinates.
+    pub(super) pattern: Pattern,
+    pub(super) columns: Vec<Column>,
+    /// True for the sector of the means.
+    pub(super) is_mean: bool,
+}
+
+/// A coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Column {
+    pub(super) weights: Vec<(usize, f64)>,
+    /// Σ weight².
+    pub(super) norm: f64,
+    /// True if the links that these hang from are of the sector too.
+    pub(super) is_below: bool,
+}
+
+impl SymmetricShape {
+    /// None where a link does not stand behind its parent, or the sectors are not those of a
+    /// tree with so many links.
+    pub(super) fn new(parents: Vec<Option<usize>>, sectors: &[Sector]) -> Option<Self> {
+        let links = parents.len();
+        let behind = |(link, parent): (usize, &Option<usize>)| parent.is_none_or(|p| p < link);
+        if !parents.iter().enumerate().all(behind) {
+            return None;
+        }
+        let mut blocks: Vec<BlockShape> = Vec::with_capacity(sectors.len());
+        // Of each link the coordinate of the last sector that it was met in.
+        let mut own = alloc::vec![(usize::MAX, 0); links];
+        let mut first = 0;
+        for (number, sector) in sectors.iter().enumerate() {
+            let mut columns = Vec::with_capacity(sector.coordinates().len());
+            let mut above = Vec::with_capacity(sector.coordinates().len());
+            for (index, coordinate) in sector.coordinates().iter().enumerate() {
+                let &(link, _) = coordinate.weights().first()?;
+                let parent = *parents.get(link)?;
+                let parent = parent.and_then(|parent| own.get(parent));
+                let parent = parent.filter(|(sector, _)| *sector == number);
+                let parent = parent.map(|(_, coordinate)| *coordinate);
+                for (link, _) in coordinate.weights() {
+                    *own.get_mut(*link)? = (number, index);
+                }
+                above.push(parent);
+                columns.push(Column::new(coordinate, parent.is_some()));
+            }
+            blocks.push(BlockShape {
+                first,
+                pattern: Pattern::new(above.into_iter()),
+                columns,
+                is_mean: number == 0,
+            });
+            first += sector.coordinates().len();
+        }
+        (first == links).then(|| Self {
+            pattern: Pattern::new(parents.iter().copied()),
+            parents,
+            sectors: sectors.to_vec(),
+            blocks,
+        })
+    }
+
+    /// Number of links.
+    #[inline(always)]
+    pub(super) fn links(&self) -> usize {
+        self.parents.len()
+    }
+
+    /// Rows and entries of the largest block.
+    pub(super) fn largest_block(&self) -> [usize; 2] {
+        let blocks = self.blocks.iter().map(|block| &block.pattern);
+        blocks.fold([0; 2], |[rows, entries], own| {
+            [rows.max(own.rows()), entries.max(own.entries())]
+        })
+    }
+}
+
+impl Column {
+    fn new(coordinate: &SectorCoordinate, is_below: bool) -> Self {
+        Self {
+            weights: coordinate.weights().to_vec(),
+            norm: coordinate.norm(),
+            is_below,
+        }
+    }
+
+    /// Links and their weights.
+    #[inline(always)]
+    pub(super) fn iter<T: Scalar>(&self) -> impl Iterator<Item = (usize, T)> {
+        self.weights
+            .iter()
+            .map(|&(link, weight)| (link, T::from_f64(weight)))
+    }
+
+    /// Σ weight · value.
+    #[inline(always)]
+    pub(super) fn sum<T: Scalar>(&self, value: impl Fn(usize) -> T) -> T {
+        let own = self.iter();
+        own.fold(T::from_f64(0.0), |sum, (link, weight): (usize, T)| {
+            sum + weight * value(link)
+        })
+    }
+}
+
+impl BlockShape {
+    /// Links of the sector, with the number of their coordinate and their weight.
+    #[inline(always)]
+    pub(super) fn links<T: Scalar>(&self) -> impl Iterator<Item = (usize, usize, T)> {
+        let columns = self.columns.iter().enumerate();
+        columns.flat_map(|(index, column)| {
+            let own = column.iter();
+            own.map(move |(link, weight)| (index, link, weight))
+        })
+    }
+
+    /// Pairs of a link and one above it that are both of the sector: the place of their entry,
+    /// the link and the one above.
+    #[inline(always)]
+    pub(super) fn pairs<'a>(
+        &'a self,
+        tree: &'a Pattern,
+    ) -> impl Iterator<Item = (usize, usize, usize)> {
+        let columns = self.columns.iter().enumerate();
+        columns.flat_map(move |(index, column)| {
+            let depth = self.pattern.upwards(index).count();
+            column.weights.iter().flat_map(move |&(link, _)| {
+                let above = tree.upwards(link).take(depth);
+                above.map(move |(place, above)| (place, link, above))
+            })
+        })
+    }
+}

@@ -1,0 +1,79 @@
+//! Momenta, velocities and the energy H.
+
+use super::memory::Rest;
+use super::motion::{Motion, room, factors};
+use super::{Given, SymmetricTree};
+use crate::scalar::Scalar;
+use crate::sectors::{Normalisation, Sectors};
+use crate::system::Workspace;
+
+impl<T: Scalar> SymmetricTree<T> {
+    /// Writes the momenta (kg m²/s) of the symmetric coordinates; NaN for slices of another
+    /// length than there are links.
+    pub fn momenta(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, momenta: &mut [T]) {
+        self.write(workspace, given, momenta, |motion, momenta| {
+            momenta.copy_from_slice(motion.momenta);
+        });
+    }
+
+    /// Writes the symmetric coordinates (rad); NaN for slices of another length than there are
+    /// links.
+    pub fn coordinates(
+        &self,
+        workspace: &mut Workspace<T>,
+        given: Given<'_, T>,
+        coordinates: &mut [T],
+    ) {
+        self.write(workspace, given, coordinates, |motion, coordinates| {
+            self.symmetric_from_absolute(Normalisation::Plain, motion.theta, coordinates);
+        });
+    }
+
+    /// Writes the rates (rad/s) of the symmetric coordinates; NaN for slices of another length
+    /// than there are links.
+    pub fn rates(&self, workspace: &mut Workspace<T>, given: Given<'_, T>, rates: &mut [T]) {
+        self.write(workspace, given, rates, |motion, rates| {
+            self.symmetric_from_absolute(Normalisation::Plain, motion.omega, rates);
+        });
+    }
+
+    /// Returns the energy H = K + U (J), zero where all angles are zero, nothing moves and the
+    /// springs are at rest; NaN for slices of another length than there are links.
+    #[must_use]
+    pub fn hamiltonian(&self, workspace: &mut Workspace<T>, given: Given<'_, T>) -> T {
+        let mut memory = Rest(workspace.numbers(self.state_room()));
+        let Some(motion) = self.motion(given, &mut memory) else {
+            return T::from_f64(f64::NAN);
+        };
+        let momenta = memory.take(self.links());
+        self.write_absolute_momenta(&motion, momenta);
+        let pairs = momenta.iter().zip(motion.omega);
+        let twice = pairs.fold(T::from_f64(0.0), |sum, (&p, &omega)| sum + p * omega);
+        T::from_f64(0.5) * twice + self.potential_energy(&motion)
+    }
+
+    /// Writes the momenta of the absolute angles.
+    pub(super) fn write_absolute_momenta(&self, motion: &Motion<'_, T>, momenta: &mut [T]) {
+        let plain = Normalisation::Plain;
+        self.absolute_momenta_from_symmetric(plain, motion.momenta, momenta);
+    }
+
+    fn write(
+        &self,
+        workspace: &mut Workspace<T>,
+        given: Given<'_, T>,
+        values: &mut [T],
+        write: impl FnOnce(&Motion<'_, T>, &mut [T]),
+    ) {
+        let mut memory = Rest(workspace.numbers(self.state_room()));
+        match self.motion(given, &mut memory) {
+            Some(motion) if values.len() == self.links() => write(&motion, values),
+            _ => values.fill(T::from_f64(f64::NAN)),
+        }
+    }
+
+    fn state_room(&self) -> usize {
+        let (links, entries) = (self.links(), self.shape.pattern.entries());
+        room(links, entries) + links + factors(links, entries)
+    }
+}
