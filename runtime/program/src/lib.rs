@@ -1,6 +1,7 @@
 //! The command `branched-pendulum` as a library, so that tests can call what it does, and so that
 //! other programs start, show their progress, keep their results and end as it does ([`frame`]).
 
+pub mod budget;
 pub mod commands;
 pub mod failure;
 pub mod film;

@@ -3,6 +3,7 @@
 use std::io::Read;
 
 use branched_pendulum::Positions;
+use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::Model;
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
@@ -172,7 +173,29 @@ impl Subject {
 
     /// Returns the copies nearest to the root; none for a tree without copies.
     pub fn first_copies(&self) -> Option<Vec<usize>> {
-        None
+        let all = self.tree.sectors();
+        let first = all.iter().find(|sector| sector.name() != "in_phase")?;
+        let weights = first.coordinates().first()?.weights();
+        // The differences of a set of copies follow each other; that of the last one has all.
+        let is_wider = |sector: &&Sector| {
+            let own = sector
+                .coordinates()
+                .first()
+                .map_or(&[][..], |own| own.weights());
+            weights
+                .iter()
+                .all(|(link, _)| own.iter().any(|(other, _)| other == link))
+        };
+        let widest = all
+            .iter()
+            .filter(is_wider)
+            .filter_map(|sector| sector.coordinates().first());
+        let widest = widest.filter(|own| own.weights().iter().any(|(_, weight)| *weight < 0.0));
+        let links = widest
+            .max_by_key(|own| own.weights().len())?
+            .weights()
+            .iter();
+        Some(links.map(|(link, _)| *link).collect())
     }
 
     /// Returns the link that each hangs from; of the root none.
@@ -219,6 +242,22 @@ mod tests {
     }
 
     #[test]
+    fn all_copies_of_the_first_set_are_found() {
+        let text = "gravity = 9.81, stem: rod(mass = 1, length = 1) [
+            twig: rod(mass = 0.1, length = 0.5) * 3, stone: rod(mass = 0.3, length = 0.1)
+        ]";
+        let tree = PendulumTree::parse(text).unwrap();
+        let (name, text) = (String::new(), String::new());
+        let subject = Subject { name, text, tree };
+        assert_eq!(subject.first_copies().unwrap(), [1, 2, 3]);
+        let chain = TreeArguments {
+            tree: "chain".to_owned(),
+            set: Vec::new(),
+        };
+        assert_eq!(chain.read().unwrap().first_copies(), None);
+    }
+
+    #[test]
     fn copies_are_named_together() {
         let arguments = TreeArguments {
             tree: "paper".to_owned(),
@@ -227,6 +266,7 @@ mod tests {
         let subject = arguments.read().unwrap();
         assert_eq!(subject.links_named("child").unwrap(), [1, 2]);
         assert_eq!(subject.links_named("child_2").unwrap(), [2]);
+        assert_eq!(subject.first_copies().unwrap(), [1, 2]);
         let error = subject.links_named("twig").unwrap_err().to_string();
         assert_eq!(
             error,

@@ -83,8 +83,7 @@ impl<T: Scalar> Entries<'_, T> {
             for place in own.clone() {
                 let column = pattern.above[place];
                 let factor = self.beside[place] / self.diagonal[row];
-                self.diagonal[column] =
-                    self.diagonal[column] - factor * self.beside[place];
+                self.diagonal[column] = self.diagonal[column] - factor * self.beside[place];
                 let further = pattern.row(column).zip(place + 1..own.end);
                 for (target, source) in further {
                     self.beside[target] = self.beside[target] - factor * self.beside[source];

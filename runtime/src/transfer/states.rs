@@ -1,7 +1,7 @@
 //! Momenta, velocities and the energy H.
 
 use super::memory::Rest;
-use super::motion::{Motion, room, factors};
+use super::motion::{Motion, factors, room};
 use super::{Given, SymmetricTree};
 use crate::scalar::Scalar;
 use crate::sectors::{Normalisation, Sectors};

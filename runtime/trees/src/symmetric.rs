@@ -1,15 +1,13 @@
 //! Symmetric coordinates of trees with copies, and the energy transfers between their sectors.
 
+use branched_pendulum::emitted::no_answer;
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sector, SectorCoordinate, Sectors};
-use branched_pendulum::emitted::no_answer;
 use branched_pendulum::system::functions::SymmetricAccelerations;
 use branched_pendulum::system::{At, Computes, Model, Pendulum, Workspace};
 use branched_pendulum::transfer::{RigidLink, SymmetricTree};
 use branched_pendulum_codegen::scene::coordinates::symmetric_coordinates;
-use branched_pendulum_codegen::scene::{
-    self, Group, Layout, Link, LinkId, Orbit, OrbitId, Scene,
-};
+use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit, OrbitId, Scene};
 
 use crate::description::TreeDescription;
 use crate::error::TreeError;

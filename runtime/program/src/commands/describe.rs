@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use branched_pendulum::Positions;
+use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Model;
 use branched_pendulum_charts::Film;
 use clap::Parser;
@@ -85,6 +86,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             let _ = writeln!(text, "  {name} = {value}: {own}");
         }
     }
+    let sectors: Vec<&str> = tree.sectors().iter().map(|sector| sector.name()).collect();
+    if sectors.len() > 1 {
+        let _ = writeln!(text, "\nsectors: {}", sectors.join(", "));
+    }
     let rest = tree.equilibrium(&vec![0.0; tree.links()]);
     match &rest {
         Ok(angles) if angles.iter().any(|angle| angle.abs() > 1e-12) => {
@@ -101,8 +106,31 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
     }
     job.print(&text)?;
-    let rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
+    let mut rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
+    fan(&subject.parents(), &mut rest);
     let angles = film::angles(tree, &rest);
     let picture = Film::new(subject.name.clone(), 1.0).tree("", &film::links(tree), &[angles])?;
     job.film("tree", &picture)
+}
+
+/// Angle between siblings that the picture draws apart, rad.
+const APART: f64 = 0.35;
+
+/// Turns siblings that would hide each other apart, with all that hangs from them.
+fn fan(parents: &[Option<usize>], angles: &mut [f64]) {
+    let turned = angles.to_vec();
+    let mut turns = vec![0.0; angles.len()];
+    for link in 0..angles.len() {
+        let Some(parent) = parents[link] else {
+            continue;
+        };
+        let hidden = |&other: &usize| {
+            parents[other] == Some(parent) && (turned[other] - turned[link]).abs() < 0.5 * APART
+        };
+        let alike: Vec<usize> = (0..angles.len()).filter(hidden).collect();
+        let place = alike.iter().position(|other| *other == link).unwrap_or(0);
+        let middle = 0.5 * (alike.len() - 1) as f64;
+        turns[link] = turns[parent] + APART * (place as f64 - middle);
+        angles[link] += turns[link];
+    }
 }

@@ -6,6 +6,7 @@ pub mod map;
 pub mod methods;
 pub mod modes;
 pub mod simulate;
+pub mod transfer;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -43,6 +44,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("modes", modes::run),
         subcommand("growth", growth::run),
         subcommand("map", map::run),
+        subcommand("transfer", transfer::run),
         subcommand("methods", methods::run),
     ]
 }

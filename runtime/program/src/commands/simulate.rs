@@ -9,6 +9,7 @@ use branched_pendulum_data::{Cell, Column};
 use clap::Parser;
 
 use crate::Failure;
+use crate::budget::{self, SectorSeries};
 use crate::film;
 use crate::frame::Job;
 use crate::frame::command_line::number;
@@ -17,7 +18,8 @@ use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
 
 /// How does a tree move? Integrates its motion from a start, writes angles, velocities,
-/// energies and powers as a table, and draws charts and, if asked to, a film.
+/// energies and powers as a table, of copies their differences with H_d and W too, and
+/// draws charts and, if asked to, a film.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "branched-pendulum simulate", version, verbatim_doc_comment)]
 pub struct Arguments {
@@ -67,9 +69,14 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let times = (0..=count as usize).map(|k| k as f64 * arguments.duration / count);
     let samples = sample(&subject, &arguments.method, &start, times.collect())?;
     let energies = Energies::of(&subject, &samples);
+    let sectors = budget::along(&subject, &samples);
     job.print(&report(arguments, &subject, &samples, &energies))?;
     write(job, &subject, &samples, &energies)?;
     charts(job, &subject, &samples, &energies)?;
+    if let Some(sectors) = &sectors {
+        job.print(&differences(&samples, sectors))?;
+        budget::write(job, &subject, &samples.times, sectors)?;
+    }
     if arguments.film {
         let stride = (arguments.rate / PICTURES).round().max(1.0) as usize;
         let tree = &subject.tree;
@@ -81,6 +88,23 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         job.film("film", &film.tree("", &film::links(tree), &pictures)?)?;
     }
     Ok(())
+}
+
+/// Energies of the differences between copies, in words.
+fn differences(samples: &Samples, sectors: &[SectorSeries]) -> String {
+    let mut text = String::new();
+    for sector in sectors.iter().filter(|sector| sector.name != "in_phase") {
+        let most = sector.energies.iter().copied().fold(0.0, f64::max);
+        let [added, gained] = sector.gains(&samples.times);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  difference {}: H_d {most:.3e} J at most, gained {gained:.4e} J; W and powers between \
+             the samples add {added:.4e} J",
+            sector.name
+        );
+    }
+    text
 }
 
 /// Energies and powers at every sample.

@@ -77,7 +77,12 @@ fn budgets_of_random_trees_agree_with_their_programs() {
         let expected = compiled.mechanics.sectors.as_ref().expect("asked for");
         let names = expected.sectors.iter().map(|sector| &sector.name);
         assert!(sectors.iter().map(|own| own.name()).eq(names));
-        nested += usize::from(sectors.iter().skip(1).any(|own| own.coordinates().len() > 1));
+        nested += usize::from(
+            sectors
+                .iter()
+                .skip(1)
+                .any(|own| own.coordinates().len() > 1),
+        );
         let (n, count) = (tree.links(), sectors.len());
         let (mut random, mut workspace) = (Random::new(seed), Workspace::new());
         let mut budget = SectorBudget::new();
@@ -272,9 +277,19 @@ fn transfers_into_leaves_agree_with_their_programs() {
                     tree.growth(workspace, given, &mut growth);
                     tree.forcing(workspace, given, &mut forcing);
                     let derived = leaf.derived(&name("transfer_growth"), &inputs);
-                    compare(&mut causes, &parts(&growth[leaf.sector..][..1]), &derived, place);
+                    compare(
+                        &mut causes,
+                        &parts(&growth[leaf.sector..][..1]),
+                        &derived,
+                        place,
+                    );
                     let derived = leaf.derived(&name("transfer_forcing"), &inputs);
-                    compare(&mut causes, &parts(&forcing[leaf.sector..][..1]), &derived, place);
+                    compare(
+                        &mut causes,
+                        &parts(&forcing[leaf.sector..][..1]),
+                        &derived,
+                        place,
+                    );
                 }
                 let time = random.between(0.0, 2.0);
                 let torques = random.around_zero(n, 0.1);
@@ -282,7 +297,11 @@ fn transfers_into_leaves_agree_with_their_programs() {
                 let [coordinates, motion] = inputs;
                 for (acting, stem, inputs) in [
                     (Acting::Friction, "friction", vec![coordinates, motion]),
-                    (Acting::Drive(drive), "drive", vec![&[time], coordinates, motion]),
+                    (
+                        Acting::Drive(drive),
+                        "drive",
+                        vec![&[time], coordinates, motion],
+                    ),
                     (
                         Acting::Torques(&torques),
                         "outside",
