@@ -4,8 +4,8 @@
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 repository="$PWD"
 
-cargo build --quiet --package branched-pendulum-cli
-expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/branched-pendulum"
+cargo build --quiet --package cargo-branched-pendulum
+expand="$(realpath "${CARGO_TARGET_DIR:-target}")/debug/cargo-branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 

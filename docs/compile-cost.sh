@@ -9,8 +9,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}"
-cargo build --quiet --package branched-pendulum-cli
-expand="$CARGO_TARGET_DIR/debug/branched-pendulum"
+cargo build --quiet --package cargo-branched-pendulum
+expand="$CARGO_TARGET_DIR/debug/cargo-branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
@@ -75,7 +75,7 @@ use branched_pendulum::prelude::*;
 #[branched_pendulum(gravity = 9.80665, $3, emit(energies))]
 pub struct Tree;
 SCENE
-    derivation="$(least "$expand" "$folder/$1/scene.rs" --output "$folder/$1/src/scene.rs")"
+    derivation="$(least "$expand" expand "$folder/$1/scene.rs" --output "$folder/$1/src/scene.rs")"
     bytes=$(($(code "$1") - bare))
     compilation="$(cd "$folder/$1" && touched=src/main.rs least cargo build --release --quiet --offline)"
     lines="$(wc -l < "$folder/$1/src/scene.rs")"

@@ -4,8 +4,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-cargo build --quiet --package branched-pendulum-cli
-expand="${CARGO_TARGET_DIR:-target}/debug/branched-pendulum"
+cargo build --quiet --package cargo-branched-pendulum
+expand="${CARGO_TARGET_DIR:-target}/debug/cargo-branched-pendulum"
 folder="$(mktemp -d)"
 trap 'rm -r "$folder"' EXIT
 TIMEFORMAT=%U
@@ -38,7 +38,7 @@ use branched_pendulum::prelude::*;
 )]
 pub struct Tree;
 SCENE
-    seconds="$({ time "$expand" "$folder/scene.rs" --output "$folder/expanded.rs"; } 2>&1)"
+    seconds="$({ time "$expand" expand "$folder/scene.rs" --output "$folder/expanded.rs"; } 2>&1)"
     lines="$(wc -l < "$folder/expanded.rs")"
     longest="$(awk '/^    (pub )?fn /{start = NR} /^    }$/{if (start && NR - start + 1 > most) most = NR - start + 1; start = 0} END{print most}' "$folder/expanded.rs")"
     echo "| $((2 ** $2 - 1)) | \`${1:-–}\` | $seconds | $lines | $longest |"

@@ -2,11 +2,11 @@
 # What each pass over programs is worth: the tables of docs/pipeline.md.
 set -eu
 cd "$(dirname "$0")/.."
-cargo build --quiet -p branched-pendulum-cli
-expand=${CARGO_TARGET_DIR:-target}/debug/branched-pendulum
+cargo build --quiet -p cargo-branched-pendulum
+expand=${CARGO_TARGET_DIR:-target}/debug/cargo-branched-pendulum
 for scene in paper triplet nested; do
     printf '%s\n\n' "$scene"
-    "$expand" --stage passes "tests/fixtures/scenes/$scene.rs"
+    "$expand" stage passes "tests/fixtures/scenes/$scene.rs"
     printf '\n'
 done
 folder=$(mktemp -d)
@@ -20,4 +20,4 @@ cat > "$folder/tree.rs" <<'RUST'
 )]
 pub struct Tree;
 RUST
-"$expand" --stage passes "$folder/tree.rs"
+"$expand" stage passes "$folder/tree.rs"

@@ -12,7 +12,7 @@ counted="sharing folding signs angle-addition common-factors choice fusing"
 # are x, motions y.
 calls() {
     local name arguments
-    "$expand" --stage program "$1" | sed -nE 's/^([a-z_0-9]+)\(([a-z, ]*)\)    # .*/\1 \2/p' |
+    "$expand" stage program "$1" | sed -nE 's/^([a-z_0-9]+)\(([a-z, ]*)\)    # .*/\1 \2/p' |
         while read -r name arguments; do
             [ "$name" != accelerations ] || continue
             arguments="$(sed -E 's/theta|coordinates|absolute|symmetric/x/; s/omega|rates|momenta/y/; s/time/0.3/' \
@@ -33,7 +33,7 @@ scene() {
         option=""
         [ "$variant" == – ] || [ "$variant" == again ] || option="--without $variant"
         # shellcheck disable=SC2086
-        "$expand" $option "$source" --output "$folder/src/$module.rs"
+        "$expand" expand $option "$source" --output "$folder/src/$module.rs"
         modules+="#[path = \"$module.rs\"] #[allow(warnings)] mod $module;"$'\n'
         variants+="crate::Variant { name: \"$variant\", passes: [
             crate::one_by_one::<$3>($module::Tree::new()),

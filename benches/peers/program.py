@@ -26,7 +26,7 @@ tree: generations(count = {}, branching = 2, shape = rod, mass = 0.12, length = 
 
 def emitted(generations, solve, tool):
     """Symbols and accelerations as expressions of a tool, operation by operation as
-    `expand --stage program` lists them; the paper's pendulum for no generations."""
+    `cargo branched-pendulum stage program` lists them; the paper's pendulum for no generations."""
     tree = PAPER
     if generations is not None:
         # Smaller trees are written out anyway.
@@ -35,7 +35,7 @@ def emitted(generations, solve, tool):
     with tempfile.NamedTemporaryFile("w", suffix=".rs") as source:
         source.write(scene)
         source.flush()
-        command = [ROOT / "target/release/branched-pendulum", "--stage", "program", source.name]
+        command = [ROOT / "target/release/cargo-branched-pendulum", "stage", "program", source.name]
         text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     return translate(text, tool)
 

@@ -17,8 +17,8 @@ PATH="$PWD/$folder/venv/bin:$PATH" cargo test --workspace --test stages --test t
 loops=0
 for scene in tests/fixtures/scenes/*.rs; do
     name="$folder/scenes/$(basename "$scene" .rs)"
-    target/debug/branched-pendulum "$scene" --emit latex --output "$name.tex"
-    if ! message=$(target/debug/branched-pendulum "$scene" --emit julia --output "$name.jl" 2>&1); then
+    target/debug/cargo-branched-pendulum emit latex "$scene" --output "$name.tex"
+    if ! message=$(target/debug/cargo-branched-pendulum emit julia "$scene" --output "$name.jl" 2>&1); then
         grep -qF "loops have no functions in other languages" <<< "$message" || {
             echo "$message" >&2
             exit 1

@@ -2,28 +2,26 @@
 //!
 //! For builds that cannot or may not run the derivation: commit the output,
 //! build it against `branched-pendulum` without its feature `macros`, and let
-//! `--check` tell when it is stale.
+//! `cargo branched-pendulum check` tell when it is stale.
 
 mod arguments;
 mod diagnostics;
 mod source;
 
-use arguments::{Arguments, Output, Stage};
-use branched_pendulum_codegen::{
-    Language, Stages, emit, layout, program, stages_without, translate,
-};
+use arguments::{Action, Arguments, Output, Source, Stage};
+use branched_pendulum_codegen::{Language, Stages, layout, program, stages_without, translate};
 use clap::Parser;
 use proc_macro2::TokenStream;
 use quote::ToTokens;
 use source::{Finder, replace};
+use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use syn::visit::Visit;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments) {
+    match run(&Arguments::parse_from(words()).action) {
         Ok(code) => code,
         Err(message) => {
             // Nobody may be left to read it.
@@ -33,9 +31,47 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<ExitCode, String> {
-    let path = arguments.source.display().to_string();
-    let source = read(&arguments.source)?;
+/// The words of the command line without the name of the subcommand, which Cargo hands on.
+fn words() -> impl Iterator<Item = OsString> {
+    let words = std::env::args_os().enumerate();
+    words.filter_map(|(place, word)| (place != 1 || word != "branched-pendulum").then_some(word))
+}
+
+/// Where the text goes.
+enum Destination<'a> {
+    Written(Option<&'a Path>),
+    Compared(&'a Path),
+}
+
+fn run(action: &Action) -> Result<ExitCode, String> {
+    let (given, stage, emit, destination) = match action {
+        Action::Expand { source, output } => {
+            (source, None, None, Destination::Written(output.as_deref()))
+        }
+        Action::Check {
+            source,
+            committed,
+            emit,
+        } => (source, None, *emit, Destination::Compared(committed)),
+        Action::Stage { stage, source } => (source, Some(*stage), None, Destination::Written(None)),
+        Action::Emit {
+            emit,
+            source,
+            output,
+        } => (
+            source,
+            None,
+            Some(*emit),
+            Destination::Written(output.as_deref()),
+        ),
+    };
+    deliver(&destination, &text(given, stage, emit)?)
+}
+
+/// What is asked for of a source.
+fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<String, String> {
+    let path = given.path.display().to_string();
+    let source = read(&given.path)?;
     let error = |range, title: &str| diagnostics::one(&path, &source, range, title, is_styled());
     let file = syn::parse_file(&source)
         .map_err(|wrong| error(wrong.span().byte_range(), &wrong.to_string()))?;
@@ -48,7 +84,7 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
     let mut replacements = finder.edits;
     let mut shown = String::new();
     for found in finder.found {
-        let stages = stages_without(arguments.without, found.attribute, found.item);
+        let stages = stages_without(given.without, found.attribute, found.item);
         let stages = stages.map_err(|(report, _)| {
             diagnostics::all(&path, &source, &found.range, &report, is_styled())
         })?;
@@ -67,17 +103,21 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
             let title = "loops have no functions in other languages";
             translate(language, scene, program).ok_or_else(|| refuse(title, "unrolled"))
         };
-        match (arguments.stage, arguments.emit) {
+        match (stage, emit) {
             (Some(stage), _) => shown += &show(&stages, stage),
             (None, Some(Output::C)) => shown += &written_in(Language::C)?,
             (None, Some(Output::Numpy)) => shown += &written_in(Language::Numpy)?,
             (None, Some(Output::Julia)) => shown += &written_in(Language::Julia)?,
             (None, Some(Output::Latex)) => {
-                shown += &emit::latex_document(item, scene, mechanics, program);
+                shown += &branched_pendulum_codegen::emit::latex_document(
+                    item, scene, mechanics, program,
+                );
             }
             (None, Some(Output::Equations)) => {
                 let title = "code that is written out has no equations of one link";
-                let equations = emit::link_equations(item, scene, mechanics, program);
+                let equations = branched_pendulum_codegen::emit::link_equations(
+                    item, scene, mechanics, program,
+                );
                 let equations = equations.ok_or_else(|| refuse(title, "loops"))?;
                 replacements.push((found.range, format_tokens(equations)?));
             }
@@ -87,10 +127,10 @@ fn run(arguments: &Arguments) -> Result<ExitCode, String> {
             }
         }
     }
-    if arguments.stage.is_none() && matches!(arguments.emit, None | Some(Output::Equations)) {
-        shown = replace(&source, replacements, &arguments.source);
+    if stage.is_none() && matches!(emit, None | Some(Output::Equations)) {
+        shown = replace(&source, replacements, &given.path);
     }
-    deliver(arguments, &shown)
+    Ok(shown)
 }
 
 /// Colours on a terminal that shows them, to a user who wants them.
@@ -121,27 +161,30 @@ fn write(path: &Path, text: &str) -> Result<(), String> {
     })
 }
 
-fn deliver(arguments: &Arguments, text: &str) -> Result<ExitCode, String> {
-    if let Some(path) = &arguments.output {
-        write(path, text)?;
-    } else if let Some(path) = &arguments.check {
-        let committed = read(path)?;
-        if committed != text {
-            let pairs = committed.lines().zip(text.lines());
-            let line = pairs.take_while(|(a, b)| a == b).count() + 1;
-            let path = path.display();
-            let message = format!("{path}:{line}: stale from here on; write it anew with --output");
-            let _ = writeln!(io::stderr(), "{message}");
-            return Ok(ExitCode::from(3));
-        }
-    } else {
-        // Whoever reads a pipe may have read enough.
-        let mut out = io::stdout().lock();
-        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                return Err(format!("error: cannot write: {error}"));
+fn deliver(destination: &Destination<'_>, text: &str) -> Result<ExitCode, String> {
+    match destination {
+        Destination::Written(Some(path)) => write(path, text)?,
+        Destination::Compared(path) => {
+            let committed = read(path)?;
+            if committed != text {
+                let pairs = committed.lines().zip(text.lines());
+                let line = pairs.take_while(|(a, b)| a == b).count() + 1;
+                let path = path.display();
+                let message =
+                    format!("{path}:{line}: stale from here on; write it anew with --output");
+                let _ = writeln!(io::stderr(), "{message}");
+                return Ok(ExitCode::from(3));
             }
-            _ => {}
+        }
+        Destination::Written(None) => {
+            // Whoever reads a pipe may have read enough.
+            let mut out = io::stdout().lock();
+            match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+                Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                    return Err(format!("error: cannot write: {error}"));
+                }
+                _ => {}
+            }
         }
     }
     Ok(ExitCode::SUCCESS)

@@ -32,9 +32,9 @@ impl Drop for Folder {
 fn derivation(home: &Path) -> Command {
     let scene =
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/fixtures/scenes/paper.rs");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_branched-pendulum"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cargo-branched-pendulum"));
     command
-        .args(["--stage".as_ref(), "mechanics".as_ref(), scene.as_os_str()])
+        .args(["stage".as_ref(), "mechanics".as_ref(), scene.as_os_str()])
         .env("HOME", home)
         .env_remove("XDG_CACHE_HOME")
         .stdout(Stdio::null())

@@ -37,15 +37,13 @@ fn commands(page: &str) -> BTreeSet<String> {
     let all = lines
         .map(str::to_owned)
         .chain(sentences.map(|code| code.replace('\n', " ")));
-    let name = "branched-pendulum ";
+    let name = "cargo branched-pendulum ";
     all.filter_map(|text| Some(text.strip_prefix(name)?.trim().to_owned()))
-        .filter(|rest| rest.contains("--") || rest.contains(".rs"))
-        .filter(|rest| !rest.starts_with('='))
         .collect()
 }
 
 fn tool(arguments: &[&str], folder: &Path) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_branched-pendulum"))
+    Command::new(env!("CARGO_BIN_EXE_cargo-branched-pendulum"))
         .args(arguments)
         .current_dir(folder)
         .output()
@@ -53,16 +51,19 @@ fn tool(arguments: &[&str], folder: &Path) -> Output {
 }
 
 /// Whether a file is there or not: a wrong command line ends with 2. Without a source,
-/// within sentences, the options are those that there are.
+/// within sentences, the words are those that there are.
 #[test]
 fn commands_of_all_pages_are_understood() {
     let mut found = Vec::new();
     pages(&repository(), &mut found);
     let empty = std::env::temp_dir().join(format!("pages-{}", std::process::id()));
     std::fs::create_dir_all(&empty).expect("the temporary folder is writable");
-    let help = tool(&["--help"], &empty).stdout;
-    let help = String::from_utf8_lossy(&help);
-    let (mut whole, mut options) = (0, 0);
+    let helps = ["expand", "check", "stage", "emit"].map(|name| {
+        let help = tool(&[name, "--help"], &empty).stdout;
+        name.to_owned() + &String::from_utf8_lossy(&help)
+    });
+    let help = helps.concat();
+    let (mut whole, mut words) = (0, 0);
     for (path, page) in found {
         for command in commands(&page) {
             let place = format!("{}: {command}", path.display());
@@ -74,16 +75,15 @@ fn commands_of_all_pages_are_understood() {
                 assert_ne!(output.status.code(), Some(2), "{place}: {errors}");
                 continue;
             }
-            for option in arguments.iter().filter(|word| word.starts_with("--")) {
-                options += 1;
-                assert!(help.contains(*option), "{place}");
+            // What is put in place of a name stands in capitals.
+            let is_name = |word: &&&str| !word.chars().all(char::is_uppercase);
+            for word in arguments.iter().filter(is_name) {
+                words += 1;
+                assert!(help.contains(*word), "{place}");
             }
         }
     }
-    assert!(
-        whole >= 7 && options >= 7,
-        "{whole} commands, {options} options"
-    );
+    assert!(whole >= 7 && words >= 7, "{whole} commands, {words} words");
     std::fs::remove_dir_all(empty).expect("the folder is ours");
 }
 
@@ -104,7 +104,7 @@ fn licences() -> BTreeMap<String, BTreeSet<String>> {
             "--package",
             "branched-pendulum-macros",
             "--package",
-            "branched-pendulum-cli",
+            "cargo-branched-pendulum",
         ])
         .args(["--format", "{p}|{l}"])
         .current_dir(repository())

@@ -11,7 +11,7 @@ fn fixture(name: &str) -> PathBuf {
 }
 
 fn expand(arguments: &[&std::ffi::OsStr]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_branched-pendulum"))
+    Command::new(env!("CARGO_BIN_EXE_cargo-branched-pendulum"))
         .args(arguments)
         .output()
         .expect("the tool starts")
@@ -30,7 +30,7 @@ fn temporary(name: &str, contents: &str) -> PathBuf {
 #[test]
 fn committed_expansions_are_fresh() {
     let check = |[expanded, source]: [PathBuf; 2], more: &[&std::ffi::OsStr]| {
-        let all: [&std::ffi::OsStr; 3] = ["--check".as_ref(), expanded.as_ref(), source.as_ref()];
+        let all: [&std::ffi::OsStr; 3] = ["check".as_ref(), source.as_ref(), expanded.as_ref()];
         let output = expand(&[&all, more].concat());
         assert!(output.status.success(), "{}", text(&output.stderr));
     };
@@ -60,9 +60,9 @@ fn stale_expansion_is_told() {
         &committed.replacen("inertia_child", "inertia_kid", 1),
     );
     let output = expand(&[
-        "--check".as_ref(),
-        stale.as_ref(),
+        "check".as_ref(),
         fixture("scenes/paper.rs").as_ref(),
+        stale.as_ref(),
     ]);
     assert_eq!(output.status.code(), Some(3));
     assert!(text(&output.stderr).contains(": stale from here on"));
@@ -75,8 +75,8 @@ fn processes_agree_and_keep_the_rest_of_the_file() {
         #[branched_pendulum(gravity = 9.8, rod: rod(mass = 1, length = 1))]\npub struct Rod;\n\n\
         // Below.\nfn below() {}\n";
     let path = temporary("keep.rs", source);
-    let first = expand(&[path.as_ref()]);
-    let second = expand(&[path.as_ref()]);
+    let first = expand(&["expand".as_ref(), path.as_ref()]);
+    let second = expand(&["expand".as_ref(), path.as_ref()]);
     assert!(first.status.success(), "{}", text(&first.stderr));
     let printed = text(&first.stdout);
     assert_eq!(printed, text(&second.stdout));
@@ -95,7 +95,7 @@ fn processes_agree_and_keep_the_rest_of_the_file() {
 fn errors_name_file_line_and_column() {
     let source = "#[branched_pendulum(gravity = 9.8,\n/* 振り子 */\trod: rod(mass = -1, length = 1))]\nstruct Rod;";
     let path = temporary("wrong.rs", source);
-    let output = expand(&[path.as_ref()]);
+    let output = expand(&["expand".as_ref(), path.as_ref()]);
     assert_eq!(output.status.code(), Some(1));
     let shown = text(&output.stderr);
     assert!(shown.starts_with("error: "), "{shown}");
@@ -124,11 +124,11 @@ fn errors_name_file_line_and_column() {
 
 #[test]
 fn files_that_are_not_there_and_sources_that_are_no_rust() {
-    let output = expand(&["nowhere.rs".as_ref()]);
+    let output = expand(&["expand".as_ref(), "nowhere.rs".as_ref()]);
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).starts_with("error: cannot read nowhere.rs: "));
     let path = temporary("no-rust.rs", "struct Rod {");
-    let output = expand(&[path.as_ref()]);
+    let output = expand(&["expand".as_ref(), path.as_ref()]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
         text(&output.stderr).contains("no-rust.rs:1:"),
@@ -136,7 +136,7 @@ fn files_that_are_not_there_and_sources_that_are_no_rust() {
         text(&output.stderr)
     );
     std::fs::write(&path, "fn main() {}").expect("it is ours");
-    let output = expand(&[path.as_ref()]);
+    let output = expand(&["expand".as_ref(), path.as_ref()]);
     assert!(text(&output.stderr).contains("no struct with #[branched_pendulum(...)]"));
     std::fs::remove_file(path).expect("it is ours");
 }
@@ -145,25 +145,17 @@ fn files_that_are_not_there_and_sources_that_are_no_rust() {
 fn the_output_is_written_whole_and_found_fresh() {
     let model = temporary("model.rs", "");
     let scene = fixture("scenes/simple.rs");
-    let (output, check): (&std::ffi::OsStr, _) = ("--output".as_ref(), "--check".as_ref());
-    assert!(
-        expand(&[scene.as_ref(), output, model.as_ref()])
-            .status
-            .success()
-    );
-    assert!(
-        expand(&[scene.as_ref(), check, model.as_ref()])
-            .status
-            .success()
-    );
-    let both = expand(&[
-        scene.as_ref(),
-        output,
-        model.as_ref(),
-        check,
-        model.as_ref(),
-    ]);
+    let output: &std::ffi::OsStr = "--output".as_ref();
+    let written = expand(&["expand".as_ref(), scene.as_ref(), output, model.as_ref()]);
+    assert!(written.status.success());
+    let checked = expand(&["check".as_ref(), scene.as_ref(), model.as_ref()]);
+    assert!(checked.status.success());
+    let both = expand(&["check".as_ref(), scene.as_ref(), output, model.as_ref()]);
     assert_eq!(both.status.code(), Some(2));
+    // As Cargo calls it, with the subcommand's name.
+    let words = ["branched-pendulum", "check"].map(std::ffi::OsStr::new);
+    let checked = expand(&[words[0], words[1], scene.as_ref(), model.as_ref()]);
+    assert!(checked.status.success());
     std::fs::remove_file(model).expect("it is ours");
 }
 
@@ -172,14 +164,14 @@ fn passes_are_left_out_by_name() {
     let scene = fixture("scenes/chain.rs");
     let expand_without = |pass: &str| {
         expand(&[
-            "--without".as_ref(),
-            pass.as_ref(),
-            "--stage".as_ref(),
+            "stage".as_ref(),
             "program".as_ref(),
             scene.as_ref(),
+            "--without".as_ref(),
+            pass.as_ref(),
         ])
     };
-    let all = expand(&["--stage".as_ref(), "program".as_ref(), scene.as_ref()]);
+    let all = expand(&["stage".as_ref(), "program".as_ref(), scene.as_ref()]);
     let without = expand_without("common-factors");
     assert!(without.status.success(), "{}", text(&without.stderr));
     assert_ne!(text(&without.stdout), text(&all.stdout));
@@ -187,7 +179,7 @@ fn passes_are_left_out_by_name() {
     assert_eq!(unknown.status.code(), Some(2));
     assert!(text(&unknown.stderr).contains("[possible values: sharing, folding"));
     // The help lists them all.
-    let help = expand(&["--help".as_ref()]);
+    let help = expand(&["stage".as_ref(), "--help".as_ref()]);
     let help = text(&help.stdout);
     for pass in Pass::ALL {
         assert!(help.contains(pass.name()), "{}", pass.name());
@@ -197,11 +189,7 @@ fn passes_are_left_out_by_name() {
 #[test]
 fn functions_are_written_in_other_languages() {
     let emit = |language: &str, scene: &str| {
-        expand(&[
-            "--emit".as_ref(),
-            language.as_ref(),
-            fixture(scene).as_ref(),
-        ])
+        expand(&["emit".as_ref(), language.as_ref(), fixture(scene).as_ref()])
     };
     for (language, head) in [
         ("c", "void paper_accelerations(const double *k, "),
@@ -231,7 +219,7 @@ fn functions_are_written_in_other_languages() {
 fn stages_and_help() {
     for stage in ["description", "scene", "mechanics", "program"] {
         let output = expand(&[
-            "--stage".as_ref(),
+            "stage".as_ref(),
             stage.as_ref(),
             fixture("scenes/chain.rs").as_ref(),
         ]);
@@ -241,10 +229,10 @@ fn stages_and_help() {
         );
     }
     let help = expand(&["--help".as_ref()]);
-    for option in ["--output", "--check", "--stage", "--without", "--help"] {
+    for option in ["expand", "check", "stage", "emit", "--help"] {
         assert!(text(&help.stdout).contains(option));
     }
-    let unknown = expand(&["--stage".as_ref(), "assembler".as_ref(), "x.rs".as_ref()]);
+    let unknown = expand(&["stage".as_ref(), "assembler".as_ref(), "x.rs".as_ref()]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(text(&unknown.stderr).contains("[possible values: description, scene"));
 }

@@ -255,7 +255,7 @@ impl Emission<'_> {
                 vec![
                     format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
                     String::new(),
-                    "`branched-pendulum --stage mechanics` shows the formulas.".into(),
+                    "`cargo branched-pendulum stage mechanics` shows the formulas.".into(),
                 ]
             }
             Purpose::QuadraticForm(n) => vec![

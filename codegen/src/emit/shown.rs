@@ -10,7 +10,7 @@ use crate::scene::PassiveTorques;
 const MOST_ROWS: usize = 24;
 /// Formulas that are shown of more than these.
 const ROWS: usize = 8;
-/// A formula longer than this is left to `branched-pendulum --stage mechanics`.
+/// A formula longer than this is left to `cargo branched-pendulum stage mechanics`.
 const LONGEST_FORMULA: usize = 600;
 
 impl Emission<'_> {

@@ -1,4 +1,4 @@
-//! Expressions as text and as LaTeX, for docs and for `branched-pendulum --stage`.
+//! Expressions as text and as LaTeX, for docs and for `cargo branched-pendulum stage`.
 
 use super::expression::{Expr, Symbols};
 use crate::exact::Rational;

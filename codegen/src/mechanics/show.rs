@@ -1,4 +1,4 @@
-//! A scene's mechanics as text, for `branched-pendulum --stage mechanics`.
+//! A scene's mechanics as text, for `cargo branched-pendulum stage mechanics`.
 
 use super::expression::{Expr, SymbolId};
 use super::{

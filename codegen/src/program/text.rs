@@ -1,4 +1,4 @@
-//! A program as text, for `branched-pendulum --stage program` and for snapshots.
+//! A program as text, for `cargo branched-pendulum stage program` and for snapshots.
 
 use crate::functions::Argument;
 

@@ -113,7 +113,7 @@ fn noise_moves_lines_as_far_as_is_told() {
     }
 }
 
-/// `cargo test -p branched-pendulum --test runtime 200_draws -- --ignored --nocapture`
+/// `cargo test -p branched-pendulum-measure --test measure 200_draws -- --ignored --nocapture`
 #[test]
 #[ignore = "a minute"]
 fn noise_moves_lines_as_far_as_is_told_200_draws() {

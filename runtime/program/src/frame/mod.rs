@@ -96,7 +96,7 @@ pub fn run<A: Arguments>(
             ExitCode::SUCCESS
         }
         (Err(failure), Ok(left)) => {
-            say(&name, &(messages(&failure).join(": ") + &left));
+            say(&name, &format!("{}{left}", messages(&failure).join(": ")));
             ExitCode::FAILURE
         }
         (Ok(()), Err(failure)) | (Err(failure), Err(_)) => {

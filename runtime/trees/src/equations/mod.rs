@@ -2,8 +2,8 @@
 //! every property is a parameter (`equations/` beside `src/`): SI units, a row of
 //! constants for each link.
 //!
-//! `branched-pendulum --emit equations --output src/equations/general.rs
-//! equations/general.rs` writes them anew, and a test tells when that is due.
+//! `cargo branched-pendulum emit equations equations/general.rs --output
+//! src/equations/general.rs` writes them anew, and a test tells when that is due.
 
 #[rustfmt::skip]
 mod by_rule;

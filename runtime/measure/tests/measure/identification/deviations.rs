@@ -46,7 +46,7 @@ fn bars_by_blocks_hold_the_truth_where_errors_go_on() {
     assert!((0.75..1.35).contains(&size), "{size}");
 }
 
-/// Some minutes: `cargo test --release -p branched-pendulum --test identification -- --ignored --nocapture two_hundred`.
+/// Some minutes: `cargo test --release -p branched-pendulum-measure --test measure -- --ignored --nocapture two_hundred`.
 #[test]
 #[ignore = "some minutes"]
 fn bars_hold_the_truth_in_two_hundred_runs() {

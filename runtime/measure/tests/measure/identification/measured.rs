@@ -79,7 +79,7 @@ fn laws_of_friction_are_told_apart_in_windows() {
     assert!(first < 0.45e-3 && then < 0.32e-3, "{first} {then}");
 }
 
-/// Half a minute: `cargo test -p branched-pendulum --test identification -- --ignored one_motion`.
+/// Half a minute: `cargo test -p branched-pendulum-measure --test measure -- --ignored one_motion`.
 #[test]
 #[ignore = "half a minute"]
 fn one_motion_over_the_record_and_beyond() {
@@ -94,7 +94,7 @@ fn one_motion_over_the_record_and_beyond() {
     assert!(fitted < 3.5e-3 && later < 6e-3, "{fitted} {later}");
 }
 
-/// Some minutes: `cargo test -p branched-pendulum --test identification -- --ignored --nocapture random_starts`.
+/// Some minutes: `cargo test -p branched-pendulum-measure --test measure -- --ignored --nocapture random_starts`.
 #[test]
 #[ignore = "some minutes"]
 fn random_starts_reach_one_minimum() {

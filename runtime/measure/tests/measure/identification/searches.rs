@@ -99,7 +99,7 @@ fn what_is_found_is_right_or_is_refused() {
     assert!(none == 0 && segments <= 2, "{motions} {segments} {none}");
 }
 
-/// Some minutes: `cargo test --release -p branched-pendulum --test identification -- --ignored --nocapture forty`.
+/// Some minutes: `cargo test --release -p branched-pendulum-measure --test measure -- --ignored --nocapture forty`.
 #[test]
 #[ignore = "some minutes"]
 fn what_is_found_of_forty_records_is_right_or_is_refused() {
