@@ -324,6 +324,7 @@ impl Emission<'_> {
             | Purpose::LinkProperties => self.positions_meaning(purpose),
             Purpose::Link(function) => vec![function.meaning().into()],
             Purpose::Scale(function) => vec![function.meaning().into()],
+            Purpose::Body(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
             Purpose::RootDrive => {
                 let sign = if self.scene.stands() { "" } else { "−" };

@@ -93,6 +93,10 @@ impl Emission<'_> {
             },
             Purpose::AntiphaseFrictionPower(n, _) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Scale(function) => self.scale_formulas(function),
+            Purpose::Body(function) => match &mechanics.body {
+                Some(body) => body.formulas(&mechanics.symbols, function),
+                None => Vec::new(),
+            },
             Purpose::Observable(n, form) => self.observable_formulas(n, form),
             Purpose::Positions(_) | Purpose::PointVelocities(_) => self.positions_formulas(purpose),
             Purpose::Transverse(_)

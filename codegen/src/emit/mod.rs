@@ -26,10 +26,12 @@ mod shown;
 mod sink;
 mod slices;
 mod small;
+mod strip_bodies;
 mod strip_docs;
 mod strip_equations;
 mod strip_forced;
 mod strip_powers;
+mod strip_rows;
 mod strip_scales;
 mod strip_tables;
 mod strips;
@@ -136,7 +138,8 @@ pub fn link_equations(
     };
     let strips = program.strips.as_ref()?;
     let (link, scales) = (emission.link_equations(strips), emission.scale_equations());
-    Some(quote!(#link #scales))
+    let (bodies, rows) = (emission.body_equations(), emission.named_rows(strips));
+    Some(quote!(#link #scales #bodies #rows))
 }
 
 impl Emission<'_> {

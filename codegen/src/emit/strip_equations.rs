@@ -104,13 +104,14 @@ impl Emission<'_> {
             let name = ident(argument.name());
             let kind = match argument {
                 Argument::Constants => quote!(&Self::Constants<T>),
+                Argument::Body => quote!(&Self::Body<T>),
                 Argument::Motion => quote!(#runtime::tree::LinkMotion<T>),
                 Argument::Response => quote!(Self::Response<T>),
                 Argument::Sums => quote!(Self::Sums<T>),
                 Argument::Elimination => quote!(Self::Elimination<T>),
                 Argument::Carried => quote!(Self::Carried<T>),
-                Argument::Given(function) => {
-                    let given = Literal::usize_unsuffixed(function.given().len());
+                Argument::Given(names) => {
+                    let given = Literal::usize_unsuffixed(names.len());
                     quote!([T; #given])
                 }
                 _ => quote!([T; 2]),

@@ -119,7 +119,10 @@ impl Emission<'_> {
 
     /// The derived formulas behind a function of a link.
     pub(super) fn scale_formulas(&self, function: ScaleFunction) -> Vec<NamedFormula> {
-        let Some(scales) = &self.mechanics.scales else {
+        let mechanics = self.mechanics;
+        let (Some(scales), Some(forces), Some(body)) =
+            (&mechanics.scales, &mechanics.joint_forces, &mechanics.body)
+        else {
             return Vec::new();
         };
         let named = match function {
@@ -133,7 +136,7 @@ impl Emission<'_> {
             ScaleFunction::Inertial => 19..20,
             ScaleFunction::Factor => 0..0,
         };
-        let formulas = scales.formulas().into_iter();
+        let formulas = scales.formulas(forces, body).into_iter();
         formulas.skip(named.start).take(named.len()).collect()
     }
 }

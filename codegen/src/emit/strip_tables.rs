@@ -5,42 +5,11 @@ use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
 use crate::functions::Purpose;
-use crate::program::{ConstantId, ConstantOp, LoopTree, Op, StripConstants, ValueId};
+use crate::program::{Column, ConstantId, ConstantOp, LoopTree, Op, StripConstants, ValueId};
 use crate::scene::{LINK_PROPERTIES, Layout};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;
-
-/// Columns of bodies, d along and e across the link.
-const BODIES: [&str; 12] = [
-    "half of the mass m (kg)",
-    "first moment m d about the pivot (kg m)",
-    "first moment m e across the link (kg m)",
-    "half of the moment of inertia I + m (d² + e²) about the pivot (kg m²)",
-    "place of the pivot along the parent (m)",
-    "place of the pivot across the parent (m)",
-    "weight m g (N)",
-    "g m d (J)",
-    "g m e (J)",
-    "half of the torsion spring's stiffness (N m)",
-    "friction c in the pivot (N m s)",
-    "drag k against the ground (N m s)",
-];
-
-/// Columns of laws of friction.
-const LAWS: [&str; 5] = [
-    "Coulomb friction C in the pivot (N m)",
-    "quadratic friction q in the pivot (N m s²)",
-    "width ε of friction in the pivot (rad/s)",
-    "quadratic drag q against the ground (N m s²)",
-    "width ε of drag (rad/s)",
-];
-
-/// Column of rest angles.
-const REST: &str = "angle at which the torsion spring is at rest (rad)";
-
-/// Constants of a strip for one of the tables, if it has any.
-type OfStrip = fn(&StripConstants) -> Option<&[ConstantId]>;
 
 impl Emission<'_> {
     /// `Self { … }`, the constants in place.
@@ -48,10 +17,7 @@ impl Emission<'_> {
         let runtime = self.runtime();
         let (lines, known) = self.formed_constants(strips);
         let rows = strips.strips.iter().map(|strip| strip.constants.as_slice());
-        let columns = strips.columns.iter();
-        let columns: Vec<String> = columns
-            .map(|column| format!("`{}`: {}", column.name(), column.meaning()))
-            .collect();
+        let columns = named(&strips.columns);
         let [table, rows] = self.table("strips", "the equations", &columns, rows.collect(), &known);
         let gravity = self.root_gravity(&known);
         let (shape, parents, tree) = match self.scene.layout {
@@ -70,36 +36,35 @@ impl Emission<'_> {
                 quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
-        let optional = |name, purpose, columns: &[&str], of: OfStrip| {
-            let rows: Vec<&[ConstantId]> = strips.strips.iter().filter_map(of).collect();
-            let columns: Vec<String> = columns.iter().map(|&column| column.to_owned()).collect();
-            (!rows.is_empty()).then(|| self.table(name, purpose, &columns, rows, &known))
-        };
-        let bodies = optional("body_rows", "the energies and powers", &BODIES, |strip| {
-            strip.body.as_ref().map(|row| row.as_slice())
+        let all = strips.strips.iter();
+        let bodies = self.scene.requests.energies.then(|| {
+            let rows = all.clone().map(|strip| strip.body.as_slice());
+            let columns = named(&strips.body_columns);
+            self.table(
+                "bodies",
+                "energies and powers",
+                &columns,
+                rows.collect(),
+                &known,
+            )
         });
-        let rests = optional("rests", "the springs", &[REST], |strip| {
-            strip.rest.as_ref().map(std::slice::from_ref)
+        let properties = self.scene.requests.positions.then(|| {
+            let rows = all.filter_map(|strip| strip.properties.as_ref());
+            let rows = rows.map(|row| row.as_slice()).collect();
+            let columns = LINK_PROPERTIES.map(str::to_owned);
+            self.table("properties", "positions", &columns, rows, &known)
         });
-        let laws = optional("laws", "friction", &LAWS, |strip| {
-            strip.laws.as_ref().map(|row| row.as_slice())
-        });
-        let properties = optional("properties", "positions", &LINK_PROPERTIES, |strip| {
-            strip.properties.as_ref().map(|row| row.as_slice())
-        });
-        let with_rests = rests.as_ref().map(|[_, rows]| quote!(.with_rests(#rows)));
-        let with_laws = laws.as_ref().map(|[_, rows]| quote!(.with_laws(#rows)));
         let standing = self.scene.stands().then(|| quote!(.standing(true)));
         let shape = quote!(#runtime::tree::Shape::#shape);
-        let body_field = bodies.as_ref().map(|[_, rows]| {
-            quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows) #with_rests #with_laws)
-        });
+        let body_field = bodies
+            .as_ref()
+            .map(|[_, rows]| quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows)));
         let property_field = properties
             .as_ref()
             .map(|[_, rows]| {
                 quote!(properties: #runtime::tree::PropertyTable::new(#shape, #rows) #standing)
             });
-        let tables = [&bodies, &rests, &laws, &properties].into_iter().flatten();
+        let tables = [&bodies, &properties].into_iter().flatten();
         let tables = tables.map(|[table, _]| table);
         let stored = self.stored_constants();
         let stored = stored.iter().map(|&id| {
@@ -248,4 +213,12 @@ impl Emission<'_> {
         };
         [table, value]
     }
+}
+
+/// Names and meanings of columns.
+fn named(columns: &[Column]) -> Vec<String> {
+    let columns = columns.iter();
+    columns
+        .map(|column| format!("`{}`: {}", column.name(), column.meaning()))
+        .collect()
 }

@@ -24,8 +24,10 @@ impl Emission<'_> {
         let forced = self.scene.requests.forces.then(|| self.strip_forced());
         let prescribed = self.prescribed_trait();
         let scales = self.strip_scales();
+        let bodies = self.body_equations();
         quote! {
             #equations
+            #bodies
             #functions
             #pendulum
             #energy
@@ -53,16 +55,17 @@ impl Emission<'_> {
 
     /// The fields of the model.
     pub(super) fn strip_fields(&self) -> Vec<TokenStream> {
-        let (runtime, tree) = (self.runtime(), self.tree_type());
+        let (runtime, tree, equations) = (self.runtime(), self.tree_type(), self.equations_name());
         let bodies = self.scene.requests.energies;
-        let bodies = bodies.then(|| quote!(bodies: #runtime::tree::Bodies<T>));
+        let bodies = bodies.then(|| quote!(bodies: #runtime::tree::Bodies<#equations, T>));
         let stored = self.stored_constants().into_iter().map(|id| {
             let field = self.field(id);
             quote!(#field: T)
         });
         let tree = quote!(tree: #tree);
         let properties = self.scene.requests.positions;
-        let properties = properties.then(|| quote!(properties: #runtime::tree::PropertyTable<T>));
+        let properties =
+            properties.then(|| quote!(properties: #runtime::tree::PropertyTable<#equations, T>));
         let first = std::iter::once(tree).chain(bodies).chain(properties);
         first.chain(stored).collect()
     }

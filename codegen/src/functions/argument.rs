@@ -1,7 +1,5 @@
 //! Arguments and results of functions.
 
-use super::ScaleFunction;
-
 /// An argument of an entry point: an array, but for the time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Argument {
@@ -43,6 +41,8 @@ pub enum Argument {
     Symmetric,
     /// Constants of one link of a tree in loops.
     Constants,
+    /// Constants of one link as a body, which energies and powers read.
+    Body,
     /// The link's motion: sine, cosine, angular velocity, joint angle, joint rate, torque from
     /// outside.
     Motion,
@@ -58,8 +58,8 @@ pub enum Argument {
     Carried,
     /// Apparent gravity at a link's pivot.
     Pivot,
-    /// Numbers that a function of energies by scale takes beside constants and motion.
-    Given(ScaleFunction),
+    /// Numbers of these names, which a function of one link takes beside constants and motion.
+    Given(&'static [&'static str]),
 }
 
 /// The shape in which an entry point returns its outputs.
@@ -103,6 +103,7 @@ impl Argument {
             Self::Absolute => "absolute",
             Self::Symmetric => "symmetric",
             Self::Constants => "constants",
+            Self::Body => "body",
             Self::Motion => "link",
             Self::Response => "response",
             Self::Sums => "below",

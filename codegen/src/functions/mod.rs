@@ -11,7 +11,7 @@ pub use argument::{Argument, ResultShape};
 pub(crate) use forms::CANONICAL;
 pub use forms::{Cause, Counting, EnergyDefinition, EntryState, PointKind};
 pub use naming::{Naming, Signature};
-pub use of_link::{LinkFunction, ScaleFunction};
+pub use of_link::{BodyFunction, LinkFunction, ScaleFunction};
 pub use purpose::Purpose;
 
 /// Methods of models that are no functions of a program: those of traits, and what makes a

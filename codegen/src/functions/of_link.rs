@@ -123,3 +123,55 @@ impl ScaleFunction {
         }
     }
 }
+
+named_members! {
+    /// A function of energies, powers or positions in a tree in loops: of the constants of a
+    /// link as a body and of its motion, and of the numbers that [`given`](Self::given) names.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    pub enum BodyFunction {
+        PivotVelocity = "pivot_velocity":
+            "Velocity **P**' of a child's pivot, given the motion of the parent and the velocity of the parent's pivot.",
+        KineticEnergy = "kinetic_energy":
+            "Kinetic energy, given the velocity of the link's pivot.",
+        PotentialEnergy = "potential_energy":
+            "Potential energy of the weight that the link carries and of the spring in its pivot, zero where all angles are zero and springs at rest.",
+        FrictionLoss = "friction_loss":
+            "Power that friction in the link's pivot and drag take, as torques times rates.",
+        DrivePower = "drive_power":
+            "Power of the torque τ_0 on the link, and of the inertial forces under the acceleration **A** of the root's pivot on all that the link carries.",
+        OutsidePower = "outside_power":
+            "Power of the torque from outside.",
+        Point = "point":
+            "Place of a point of the link, from the link's pivot, given how far along and across the link it is.",
+        PointVelocity = "point_velocity":
+            "Velocity of that point against the link's pivot.",
+        PointTorque = "point_torque":
+            "Torque about the link's pivot of a force in that point.",
+    }
+}
+
+impl BodyFunction {
+    /// Names of the numbers that it takes beside constants and motion.
+    pub fn given(self) -> &'static [&'static str] {
+        match self {
+            Self::PivotVelocity | Self::KineticEnergy => &["pivot_velocity_x", "pivot_velocity_y"],
+            Self::PotentialEnergy | Self::FrictionLoss | Self::OutsidePower => &[],
+            Self::DrivePower => &["acceleration_x", "acceleration_y", "root_torque"],
+            Self::Point | Self::PointVelocity => &["place_along", "place_across"],
+            Self::PointTorque => &["place_along", "place_across", "force_x", "force_y"],
+        }
+    }
+
+    /// Number of results.
+    pub fn results(self) -> usize {
+        match self {
+            Self::PivotVelocity | Self::Point | Self::PointVelocity => 2,
+            _ => 1,
+        }
+    }
+
+    /// Returns true if it is about a point of a link, of whose constants it reads none.
+    pub fn is_of_point(self) -> bool {
+        matches!(self, Self::Point | Self::PointVelocity | Self::PointTorque)
+    }
+}

@@ -2,14 +2,14 @@
 //! in for a wrong one.
 
 use super::Argument::{
-    self, Absolute, AbsoluteMomenta, Alpha, Constants, Coordinates, Difference, DifferenceRate,
-    Forces, Given, Motion, Omega, Rates, SmallDifferences, SmallRates, SmallTorques, Symmetric,
-    Theta, Time, Torques,
+    self, Absolute, AbsoluteMomenta, Alpha, Body, Constants, Coordinates, Difference,
+    DifferenceRate, Forces, Given, Motion, Omega, Rates, SmallDifferences, SmallRates,
+    SmallTorques, Symmetric, Theta, Time, Torques,
 };
 use super::ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
 use super::{
-    CANONICAL, Cause, Counting, EnergyDefinition, EntryState, LinkFunction, Naming, PointKind,
-    ResultShape, ScaleFunction, Signature,
+    BodyFunction, CANONICAL, Cause, Counting, EnergyDefinition, EntryState, LinkFunction, Naming,
+    PointKind, ResultShape, ScaleFunction, Signature,
 };
 use crate::scene::{LINK_PROPERTIES, ObservableForm};
 
@@ -241,8 +241,12 @@ purposes! { naming:
     };
     /// A function of energies by scale, for one link of a tree in loops.
     Scale(function: ScaleFunction) => {
-        let given = usize::from(!function.given().is_empty());
-        plain(function.name(), &[Constants, Motion, Given(function)][..2 + given], Vector)
+        of_link(function.name(), &[Constants, Motion], function.given())
+    };
+    /// A function of energies, powers or positions, for one link of a tree in loops.
+    Body(function: BodyFunction) => match function.is_of_point() {
+        true => of_link(function.name(), &[Motion], function.given()),
+        false => of_link(function.name(), &[Body, Motion], function.given()),
     };
     /// Apparent gravity at the root's pivot of a tree in loops, in reduced units.
     RootGravity => plain("root_gravity", &[], Vector);
@@ -256,6 +260,16 @@ fn plain(name: impl Into<String>, arguments: &[Argument], shape: ResultShape) ->
         arguments: arguments.to_vec(),
         shape,
     }
+}
+
+/// A function of one link, with what it is given where that is anything.
+fn of_link(name: &str, arguments: &[Argument], given: &'static [&'static str]) -> Signature {
+    let given: &[Argument] = if given.is_empty() {
+        &[]
+    } else {
+        &[Given(given)]
+    };
+    plain(name, &[arguments, given].concat(), Vector)
 }
 
 /// Small differences along a motion in phase.

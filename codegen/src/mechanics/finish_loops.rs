@@ -9,8 +9,12 @@ impl Derivation<'_> {
     pub(super) fn finish_loops(mut self) -> Mechanics {
         self.drive_signals();
         let link = self.link_balance();
-        let scales = self.scene.requests.scales();
-        let scales = scales.then(|| self.link_scales(&link.symbols));
+        let forces = self.joint_forces(link.symbols.omega);
+        let requests = &self.scene.requests;
+        let (energies, scales) = (requests.energies || requests.positions, requests.scales());
+        let body = (energies || scales).then(|| self.link_body(&link.symbols, &forces));
+        let scales = body.as_ref().filter(|_| scales);
+        let scales = scales.map(|body| self.link_scales(&link.symbols, &forces, &body.symbols));
         let gravity = self.quantity(&self.scene.gravity);
         Mechanics {
             parameters: self.parameters.clone(),
@@ -20,6 +24,8 @@ impl Derivation<'_> {
                 joints: Vec::new(),
             },
             link: Some(link),
+            joint_forces: Some(self.plain_forces(&forces)),
+            body,
             scales,
             trigonometry: self.trigonometry,
             symbols: self.symbols,

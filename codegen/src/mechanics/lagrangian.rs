@@ -7,6 +7,7 @@ use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::friction::DerivedTorque;
 use super::joint::JointQuantity;
+use super::laws::{dissipated, stored};
 use super::letters;
 use crate::scene::{Link, LinkId, Offset, Quantity, QuantityAtom};
 use std::convert::Infallible;
@@ -221,13 +222,13 @@ impl Derivation<'_> {
                 let relative = self.joint_rate(index, velocities);
                 let value = self.quantity(&passive.friction);
                 let c = self.lettered(letters::FRICTION, &[&orbit], &meaning, value);
-                terms.push(half_square(&c, &relative));
+                terms.push(dissipated(&c, &relative));
             }
             if !passive.drag.is_zero() {
                 let meaning = format!("viscous drag of `{orbit}` against the ground");
                 let value = self.quantity(&passive.drag);
                 let k = self.lettered(letters::DRAG, &[&orbit], &meaning, value);
-                terms.push(half_square(&k, &Formula::symbol(velocities[index])));
+                terms.push(dissipated(&k, &Formula::symbol(velocities[index])));
             }
         }
         terms
@@ -249,7 +250,7 @@ impl Derivation<'_> {
             let meaning = format!("stiffness of the torsion spring in the pivot of `{orbit}`");
             let value = self.quantity(&passive.spring);
             let stiffness = self.lettered(letters::SPRING, &[&orbit], &meaning, value);
-            terms.push(half_square(&stiffness, &strain));
+            terms.push(stored(&stiffness, &strain));
         }
         terms.into_iter().sum::<Formula>()
     }
@@ -294,10 +295,4 @@ impl Derivation<'_> {
         }
         Formula::symbol(id)
     }
-}
-
-/// ½ constant · x².
-fn half_square(constant: &Formula, x: &Formula) -> Formula {
-    let half = Formula::integer(2).pow(-1);
-    &(&half * constant) * &x.pow(2)
 }

@@ -6,6 +6,7 @@
 
 pub mod algebra;
 mod articulation;
+mod body;
 mod bracket;
 mod derivation;
 mod drive;
@@ -17,7 +18,9 @@ mod friction;
 mod hamiltonian;
 mod inverse_mass;
 mod joint;
+mod joint_forces;
 mod lagrangian;
+mod laws;
 mod letters;
 mod link;
 mod lock;
@@ -41,10 +44,12 @@ mod work_limit;
 
 pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
+pub use body::{BodySymbols, LinkBody};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
 pub use drive::{DriveTerms, PivotMotion, Temporal};
 pub use friction::{BrakingTorque, TorqueSource};
 pub use joint::JointDifference;
+pub use joint_forces::{JointForces, JointSymbols};
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
 pub use observables::{
@@ -273,6 +278,11 @@ pub struct Mechanics {
     pub positions: Option<Vec<LinkPositions>>,
     /// The balance of one link, where the code is loops.
     pub link: Option<LinkBalance>,
+    /// Torques of one link by its own motion, where the code is loops.
+    pub joint_forces: Option<JointForces>,
+    /// Energies, powers and positions of one link, where the code is loops and any of them or
+    /// energies by scale are asked for.
+    pub body: Option<LinkBody>,
     /// Energies by scale of one link, where the code is loops and they are asked for.
     pub scales: Option<LinkScales>,
     /// The symmetric coordinates, if asked for.

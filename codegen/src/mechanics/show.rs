@@ -2,8 +2,8 @@
 
 use super::expression::{Expr, SymbolId};
 use super::{
-    DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, LinkScales, MatrixEntry, MeanTree,
-    Mechanics, OrbitMechanics, RelativePosition, Temporal, constant_text, text,
+    DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
+    OrbitMechanics, RelativePosition, Temporal, constant_text, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
@@ -206,7 +206,15 @@ impl Mechanics {
     fn link(&self, f: &mut fmt::Formatter<'_>, link: &LinkBalance) -> fmt::Result {
         writeln!(f, "one link, with the subtrees on one pivot of it")?;
         let mut formulas = link.formulas(&self.symbols);
-        formulas.extend(self.scales.iter().flat_map(LinkScales::formulas));
+        if let Some(body) = &self.body {
+            let functions = body.functions.iter();
+            formulas.extend(functions.flat_map(|&of| body.formulas(&self.symbols, of)));
+        }
+        if let (Some(forces), Some(body), Some(scales)) =
+            (&self.joint_forces, &self.body, &self.scales)
+        {
+            formulas.extend(scales.formulas(forces, body));
+        }
         formulas
             .iter()
             .try_for_each(|formula| self.line(f, &formula.left, &formula.right))

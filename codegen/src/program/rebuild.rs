@@ -78,6 +78,7 @@ impl<'a> Rebuilt<'a> {
             | Argument::SmallTorques
             | Argument::Prescribed(_)
             | Argument::Constants
+            | Argument::Body
             | Argument::Motion
             | Argument::Response
             | Argument::Sums

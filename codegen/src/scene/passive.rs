@@ -79,19 +79,6 @@ impl<V> PassiveTorques<V> {
     pub fn law(&self, place: FrictionPlace) -> &FrictionLaw<V> {
         &self.laws[place as usize]
     }
-
-    /// C, q and ε in the pivot, q and ε against the ground, where no Coulomb friction acts:
-    /// a row of the runtime's tables.
-    pub fn law_row(&self) -> [&V; 5] {
-        let [joint, ground] = &self.laws;
-        [
-            &joint.coulomb,
-            &joint.quadratic,
-            &joint.width,
-            &ground.quadratic,
-            &ground.width,
-        ]
-    }
 }
 
 impl FrictionLaw {

@@ -77,6 +77,23 @@ impl<T: Scalar> LinkProperties<T> {
         }
     }
 
+    /// Returns the row of numbers, in the order of the fields.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn into_row(self) -> [T; COLUMNS] {
+        let Self {
+            parent: _,
+            mass,
+            inertia,
+            centre: [c_along, c_across],
+            pivot: [p_along, p_across],
+            end: [e_along, e_across],
+        } = self;
+        [
+            mass, inertia, c_along, c_across, p_along, p_across, e_along, e_across,
+        ]
+    }
+
     /// A point of the link, from its pivot.
     pub(crate) fn place(&self, point: LinkPoint) -> Option<[T; 2]> {
         match point {

@@ -22,6 +22,23 @@ pub struct LinkMotion<V> {
     pub held: V,
 }
 
+impl<V: Copy> LinkMotion<V> {
+    /// A link that turns; what acts in its joint and from outside is left open.
+    #[inline(always)]
+    pub(super) fn turning(sine: V, cosine: V, omega: V) -> Self {
+        // No number of their own, which would take a register.
+        Self {
+            sine,
+            cosine,
+            omega,
+            joint_angle: omega,
+            joint_rate: omega,
+            outside_torque: omega,
+            held: omega,
+        }
+    }
+}
+
 /// The equations of one link of a tree, for as many links (or states) side by side
 /// as a value has lanes: the articulated-body recursion in the plane. A tree takes
 /// them from the leaves to the root and back.

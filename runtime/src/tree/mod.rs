@@ -61,7 +61,7 @@ use core::marker::PhantomData;
 use core::num::NonZeroUsize;
 
 pub use crate::system::LinkName;
-pub use bodies::Bodies;
+pub use bodies::{Bodies, BodyEquations, PointEquations};
 pub use equations::{LinkEquations, LinkMotion, Row};
 pub use properties::PropertyTable;
 pub use root::RootDrive;

@@ -2,7 +2,10 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
+use super::bodies::PointEquations;
+use super::equations::LinkMotion;
 use super::shape::Shape;
 use crate::scalar::Scalar;
 use crate::system::positions::COLUMNS;
@@ -12,28 +15,32 @@ use crate::system::{LinkPoint, LinkProperties};
 /// asked for.
 ///
 /// All functions but [`of`](Self::of) take O(links), and allocate some numbers for each
-/// link. With u = (sin θ, −cos θ) and v = (cos θ, sin θ), a point at p along and q across
-/// a link is at p u + q v from its pivot, and ω (p v − q u) is its velocity; y is the
-/// opposite of that in trees that [stand](Self::standing).
+/// link. Points are those of [`PointEquations`], with the opposite y in trees that
+/// [stand](Self::standing).
 #[derive(Clone, Debug, PartialEq)]
-pub struct PropertyTable<T> {
+pub struct PropertyTable<E, T> {
     shape: Shape,
     /// Rows of all links or generations, one after the other.
     rows: Vec<T>,
     /// 1, or −1 in trees that stand.
     up: T,
+    equations: PhantomData<E>,
 }
 
 /// A link in the order from the root: its number, its parent, its properties.
 type Visited<T> = (usize, Option<usize>, LinkProperties<T>);
 
-impl<T: Scalar> PropertyTable<T> {
+impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
     /// Links with the constants of each or of each generation, one after the other, in
     /// SI units, in the order of the fields of [`LinkProperties`].
     #[must_use]
     pub fn new(shape: Shape, rows: Vec<T>) -> Self {
-        let up = T::from_f64(1.0);
-        Self { shape, rows, up }
+        Self {
+            shape,
+            rows,
+            up: T::from_f64(1.0),
+            equations: PhantomData,
+        }
     }
 
     /// Returns the same links in a tree that stands, or hangs: angles are those from the
@@ -46,11 +53,12 @@ impl<T: Scalar> PropertyTable<T> {
 
     /// Returns the same links on other scalars.
     #[must_use]
-    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<S> {
+    pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PropertyTable<E, S> {
         PropertyTable {
             shape: self.shape.clone(),
             rows: self.rows.iter().map(|&value| convert(value)).collect(),
             up: convert(self.up),
+            equations: PhantomData,
         }
     }
 
@@ -71,8 +79,7 @@ impl<T: Scalar> PropertyTable<T> {
     /// Writes positions as
     /// [`Positions::points_into`](crate::Positions::points_into).
     pub fn points_into(&self, point: LinkPoint, theta: &[T], points: &mut [[T; 2]]) {
-        let one = vec![T::from_f64(1.0); theta.len()];
-        self.along_tree(point, theta, &one, points, turned);
+        self.along_tree(point, [theta, theta], points, E::point);
     }
 
     /// Writes velocities as
@@ -84,30 +91,28 @@ impl<T: Scalar> PropertyTable<T> {
         omega: &[T],
         velocities: &mut [[T; 2]],
     ) {
-        self.along_tree(point, theta, omega, velocities, lever);
+        self.along_tree(point, [theta, omega], velocities, E::point_velocity);
     }
 
     /// Sums, from the root to a point of each link, of what `step` says of a place on a
-    /// link, times its factor.
+    /// link.
     fn along_tree(
         &self,
         point: LinkPoint,
-        theta: &[T],
-        factors: &[T],
+        [theta, omega]: [&[T]; 2],
         sums: &mut [[T; 2]],
-        step: impl Fn([T; 2], (T, T)) -> [T; 2],
+        step: impl Fn(LinkMotion<T>, [T; 2]) -> [T; 2],
     ) {
         let links = self.shape.links();
-        if [theta.len(), factors.len(), sums.len()] != [links; 3] {
+        if [theta.len(), omega.len(), sums.len()] != [links; 3] {
             return sums.fill([T::from_f64(f64::NAN); 2]);
         }
-        let directions: Vec<(T, T)> = theta.iter().map(|angle| angle.sin_cos()).collect();
+        let motions = motions(theta, omega);
         let mut pivots = vec![[T::from_f64(0.0); 2]; links];
         for (link, parent, properties) in self.visited() {
             let from = |start: [T; 2], place, carrier: usize| {
-                let [x, y] = step(place, directions[carrier]);
-                let factor = factors[carrier];
-                [start[0] + factor * x, start[1] + self.up * factor * y]
+                let [x, y] = step(motions[carrier], place);
+                [start[0] + x, start[1] + self.up * y]
             };
             if let Some(parent) = parent {
                 pivots[link] = from(pivots[parent], properties.pivot, parent);
@@ -133,13 +138,14 @@ impl<T: Scalar> PropertyTable<T> {
             return torques.fill(T::from_f64(f64::NAN));
         }
         torques.fill(T::from_f64(0.0));
-        let directions: Vec<(T, T)> = theta.iter().map(|angle| angle.sin_cos()).collect();
+        let motions = motions(theta, theta);
         // Forces on the subtree of each link.
         let mut sums = forces.to_vec();
         for (link, parent, properties) in self.visited().into_iter().rev() {
-            let torque = |place, carrier: usize, [force_x, force_y]: [T; 2]| {
-                let [x, y] = lever(place, directions[carrier]);
-                x * force_x + self.up * y * force_y
+            let torque = |[along, across]: [T; 2], carrier: usize, [x, y]: [T; 2]| {
+                let given = [along, across, x, self.up * y];
+                let [torque] = E::point_torque(motions[carrier], given);
+                torque
             };
             if let Some(place) = properties.place(point) {
                 torques[link] = torques[link] + torque(place, link, forces[link]);
@@ -187,20 +193,12 @@ impl Shape {
     }
 }
 
-/// p u + q v.
-#[inline]
-fn turned<T: Scalar>([along, across]: [T; 2], (sine, cosine): (T, T)) -> [T; 2] {
-    [
-        along * sine + across * cosine,
-        across * sine - along * cosine,
-    ]
-}
-
-/// p v − q u, the derivative of [`turned`] by the angle.
-#[inline]
-fn lever<T: Scalar>([along, across]: [T; 2], (sine, cosine): (T, T)) -> [T; 2] {
-    [
-        along * cosine - across * sine,
-        along * sine + across * cosine,
-    ]
+/// The motions of links but for those of joints.
+fn motions<T: Scalar>(theta: &[T], omega: &[T]) -> Vec<LinkMotion<T>> {
+    let links = theta.iter().zip(omega);
+    let motion = |(angle, &rate): (&T, &T)| {
+        let (sine, cosine) = angle.sin_cos();
+        LinkMotion::turning(sine, cosine, rate)
+    };
+    links.map(motion).collect()
 }

@@ -357,13 +357,8 @@ impl<E: LinkEquations, T: Scalar> LinkByLink<'_, E, T> {
         let ([sine, cosine], [omega]): ([V; 2], [V; 1]) =
             unsafe { (self.sincos.read(link), self.omega.read(link)) };
         LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle: omega,
-            joint_rate: omega,
-            outside_torque: omega,
             held: V::from_f64(0.0),
+            ..LinkMotion::turning(sine, cosine, omega)
         }
     }
 

@@ -4,7 +4,9 @@
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::tree::{Bodies, LinkEquations, LinkMotion, RootDrive, Shape, Tree};
+use branched_pendulum::tree::{
+    Bodies, BodyEquations, LinkEquations, LinkMotion, RootDrive, Shape, Tree,
+};
 
 /// Equations whose rows are as long as they please, of a tree whose copies are any of
 /// these, and which claim to need everything.
@@ -61,6 +63,34 @@ impl<const SHAPE: usize> LinkEquations for Odd<SHAPE> {
 
     fn accelerate_leaf<V: Scalar>(_: &[V; 1], link: LinkMotion<V>, _: [V; 2]) -> V {
         link.joint_angle
+    }
+}
+
+impl<const SHAPE: usize> BodyEquations for Odd<SHAPE> {
+    type Body<V: Scalar> = [V; 12];
+
+    fn pivot_velocity<V: Scalar>(body: &[V; 12], link: LinkMotion<V>, given: [V; 2]) -> [V; 2] {
+        [body[0] * link.sine + given[1], body[11] + given[0]]
+    }
+
+    fn kinetic_energy<V: Scalar>(body: &[V; 12], link: LinkMotion<V>, given: [V; 2]) -> [V; 1] {
+        [body[3] * link.omega + given[0]]
+    }
+
+    fn potential_energy<V: Scalar>(body: &[V; 12], link: LinkMotion<V>) -> [V; 1] {
+        [body[4] * link.joint_angle]
+    }
+
+    fn friction_loss<V: Scalar>(body: &[V; 12], link: LinkMotion<V>) -> [V; 1] {
+        [body[5] * link.joint_rate]
+    }
+
+    fn drive_power<V: Scalar>(body: &[V; 12], link: LinkMotion<V>, given: [V; 3]) -> [V; 1] {
+        [body[6] * link.omega * given[2]]
+    }
+
+    fn outside_power<V: Scalar>(body: &[V; 12], link: LinkMotion<V>) -> [V; 1] {
+        [body[7] * link.outside_torque]
     }
 }
 
@@ -139,13 +169,14 @@ fn bodies_of_any_shape_stay_within_their_memory() {
         Shape::Generations(&[2, 3]),
     ] {
         for rows in [0, 11, 12, 100] {
-            let bodies = Bodies::new(shape.clone(), vec![1.0; rows]);
+            let bodies = Bodies::<Odd<0>, f64>::new(shape.clone(), vec![1.0; rows]);
             for length in [0, 1, 3, 8] {
                 let motion = vec![0.5; length];
                 let _ = bodies.kinetic_energy(&mut workspace, &motion, &motion);
                 let _ = bodies.potential_energy(&mut workspace, &motion);
-                let _ = bodies.momentum(&mut workspace, &motion, &motion);
+                let _ = bodies.drive_power(&mut workspace, [0.5; 3], &motion, &motion);
                 let _ = bodies.friction_power(&motion);
+                let _ = bodies.outside_power(&motion, &motion);
             }
         }
     }

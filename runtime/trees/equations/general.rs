@@ -14,6 +14,6 @@
             spring = s, rest = r),
     ],
     drive(torque = q),
-    emit(forces),
+    emit(energies, forces, positions),
 )]
 pub(crate) struct General;

@@ -20,6 +20,6 @@
             drag(viscous = k, quadratic = p, width = v)),
     ],
     drive(torque = torque),
-    emit(forces),
+    emit(energies, forces),
 )]
 pub(crate) struct Rough;

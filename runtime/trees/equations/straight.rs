@@ -8,6 +8,6 @@
     trunk(mass = m, com = d, inertia = i, joint = l) [
         bough(mass = m, com = d, inertia = i, joint = l) [ twig(mass = m, com = d, inertia = i) ],
     ],
-    emit(forces),
+    emit(energies, forces),
 )]
 pub(crate) struct Straight;

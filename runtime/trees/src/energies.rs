@@ -3,8 +3,8 @@
 use branched_pendulum::analysis::{EquilibriumError, Modes, ModesError, equilibrium_of_torques};
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{Model, Slopes, Workspace, gradient};
-use branched_pendulum::tree::Bodies;
 
+use crate::bodies::FormBodies;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
@@ -47,7 +47,7 @@ impl<T: Scalar> PendulumTree<T> {
         self.momenta_of(&bodies, theta, omega)
     }
 
-    fn momenta_of(&self, bodies: &Bodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
+    fn momenta_of(&self, bodies: &FormBodies<Slopes<T>>, theta: &[T], omega: &[T]) -> Vec<T> {
         // A value that is no number has derivatives of zero.
         if theta.len() != self.links() {
             return vec![T::from_f64(f64::NAN); self.links()];

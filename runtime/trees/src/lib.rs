@@ -13,6 +13,7 @@
 //! observables and Taylor series are derived for one tree and stay with compiled models, as does
 //! the speed of code that is written out: `docs/run-time-trees.md`.
 
+mod bodies;
 mod canonical;
 mod description;
 mod drive;

@@ -233,7 +233,7 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         end,
         passive,
     } = link;
-    let laws = passive.law_row();
+    let [joint, ground] = &passive.laws;
     [
         ("mass", mass),
         ("inertia", inertia),
@@ -247,11 +247,11 @@ fn named(link: &LinkNumbers) -> [(&'static str, f64); 17] {
         ("drag", &passive.drag),
         ("spring", &passive.spring),
         ("rest", &passive.rest),
-        ("Coulomb friction", laws[0]),
-        ("quadratic friction", laws[1]),
-        ("width of friction", laws[2]),
-        ("quadratic drag", laws[3]),
-        ("width of drag", laws[4]),
+        ("Coulomb friction", &joint.coulomb),
+        ("quadratic friction", &joint.quadratic),
+        ("width of friction", &joint.width),
+        ("quadratic drag", &ground.quadratic),
+        ("width of drag", &ground.width),
     ]
     .map(|(name, value)| (name, value.high()))
 }

@@ -1,10 +1,16 @@
-//! Constants of the equations: the moments of each link about its pivot, with the links
-//! without children that hang from it counted as points at their pivots.
+//! Rows of constants: of the equations the moments of each link about its pivot, with the links
+//! without children that hang from it counted as points at their pivots; of energies the first
+//! moments of all that it carries.
 
 use branched_pendulum::scalar::{Double, Scalar};
-
+use branched_pendulum::system::LinkProperties;
 use branched_pendulum_codegen::scene::PassiveTorques;
 
+#[cfg(feature = "strips")]
+use crate::equations::HeldRow;
+use crate::equations::{
+    ByRuleRow, GeneralBodyRow, GeneralRow, RoughBodyRow, RoughRow, StraightBodyRow, StraightRow,
+};
 use crate::numbers::LinkNumbers;
 
 /// Forms of the equations, by what the links of a tree have.
@@ -31,38 +37,45 @@ impl Form {
     /// Returns the constants of the equations, a row for each link.
     pub(crate) fn rows(self, links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
         let moments = moments(links, carries).into_iter();
-        let no_torque = Double::from_f64(0.0);
+        let rows = moments.zip(links);
         match self {
             Self::Straight => {
-                let rows = moments.zip(attachments(links));
-                rows.flat_map(|(row, place)| row.straight(place)).collect()
-            }
-            Self::General => {
-                let rows = moments.zip(links);
-                let rows = rows.map(|(row, link)| row.jointed(&link.passive, link.pivot));
-                rows.flat_map(|row| row.into_iter().chain([no_torque]))
-                    .collect()
-            }
-            Self::Rough => {
-                let rows = moments.zip(links).flat_map(|(row, link)| {
-                    let laws = link.passive.law_row().into_iter().copied();
-                    let friction = laws.chain([no_torque]);
-                    let row = row.jointed(&link.passive, link.pivot);
-                    row.into_iter().chain(friction)
-                });
+                let rows = rows.zip(attachments(links));
+                let rows = rows.flat_map(|((row, _), place)| row.straight(place).into_array());
                 rows.collect()
             }
+            Self::General => rows
+                .flat_map(|(row, link)| row.general(link).into_array())
+                .collect(),
+            Self::Rough => rows
+                .flat_map(|(row, link)| row.rough(link).into_array())
+                .collect(),
+        }
+    }
+
+    /// Returns the constants of energies and powers, a row for each link.
+    pub(crate) fn bodies(self, links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
+        let bodies = carried(links).into_iter().zip(links);
+        match self {
+            Self::Straight => bodies
+                .flat_map(|(carried, link)| carried.straight(link, gravity).into_array())
+                .collect(),
+            Self::General => bodies
+                .flat_map(|(carried, link)| carried.general(link, gravity).into_array())
+                .collect(),
+            Self::Rough => bodies
+                .flat_map(|(carried, link)| carried.rough(link, gravity).into_array())
+                .collect(),
         }
     }
 }
 
 /// Returns true if some friction is not viscous.
-pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
+fn are_rough(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
-    links.iter().any(|link| {
-        let [coulomb, quadratic, _, drag, _] = link.passive.law_row();
-        [coulomb, quadratic, drag].iter().any(|law| **law != zero)
-    })
+    let laws = links.iter().flat_map(|link| &link.passive.laws);
+    laws.into_iter()
+        .any(|law| law.coulomb != zero || law.quadratic != zero)
 }
 
 fn are_straight(links: &[LinkNumbers]) -> bool {
@@ -106,44 +119,237 @@ struct Moments {
 }
 
 impl Moments {
-    /// Returns the columns of the straight equations; `place` is that of the children.
-    fn straight(self, place: Double) -> [Double; 6] {
+    /// Returns the constants of the straight equations; `place` is that of the children.
+    fn straight(self, place: Double) -> StraightRow<Double> {
         let Self {
+            inertia,
+            moment: [moment, _],
+            mass,
+            gain: [gain_along, _],
+            inverse_inertia,
+        } = self;
+        StraightRow {
             inertia,
             moment,
             mass,
-            gain,
+            gain_along,
             inverse_inertia,
-        } = self;
-        [inertia, moment[0], mass, gain[0], inverse_inertia, place]
+            along: place,
+        }
     }
 
-    /// Returns the columns that the general and the rough equations share, and, with the
-    /// children's pivot in place of the link's own, those of trees by rule.
-    fn jointed(self, passive: &PassiveTorques<Double>, pivot: [Double; 2]) -> [Double; 13] {
-        let Self {
-            inertia,
-            moment,
-            mass,
-            gain,
-            inverse_inertia,
-        } = self;
-        [
-            inertia,
-            moment[0],
-            moment[1],
-            mass,
-            gain[0],
-            gain[1],
-            inverse_inertia,
-            pivot[0],
-            pivot[1],
-            passive.friction,
-            passive.drag,
-            passive.spring,
-            passive.rest,
-        ]
+    /// Returns the constants of the general equations.
+    fn general(self, link: &LinkNumbers) -> GeneralRow<Double> {
+        let ([along, across], passive) = (link.pivot, &link.passive);
+        GeneralRow {
+            inertia: self.inertia,
+            moment: self.moment[0],
+            lateral_moment: self.moment[1],
+            mass: self.mass,
+            gain_along: self.gain[0],
+            gain_across: self.gain[1],
+            inverse_inertia: self.inverse_inertia,
+            along,
+            across,
+            friction: passive.friction,
+            drag: passive.drag,
+            spring: passive.spring,
+            rest: passive.rest,
+            drive_torque: Double::from_f64(0.0),
+        }
     }
+
+    /// Returns the constants of the equations of all kinds of friction.
+    fn rough(self, link: &LinkNumbers) -> RoughRow<Double> {
+        let ([along, across], passive) = (link.pivot, &link.passive);
+        let [joint, ground] = &passive.laws;
+        RoughRow {
+            inertia: self.inertia,
+            moment: self.moment[0],
+            lateral_moment: self.moment[1],
+            mass: self.mass,
+            gain_along: self.gain[0],
+            gain_across: self.gain[1],
+            inverse_inertia: self.inverse_inertia,
+            along,
+            across,
+            friction: passive.friction,
+            drag: passive.drag,
+            spring: passive.spring,
+            rest: passive.rest,
+            coulomb: joint.coulomb,
+            quadratic_friction: joint.quadratic,
+            friction_width: joint.width,
+            quadratic_drag: ground.quadratic,
+            drag_width: ground.width,
+            drive_torque: Double::from_f64(0.0),
+        }
+    }
+
+    /// Returns the constants of the equations of links that may be held.
+    #[cfg(feature = "strips")]
+    fn held(self, link: &LinkNumbers) -> HeldRow<Double> {
+        let ([along, across], passive) = (link.pivot, &link.passive);
+        let [joint, ground] = &passive.laws;
+        HeldRow {
+            inertia: self.inertia,
+            moment: self.moment[0],
+            lateral_moment: self.moment[1],
+            mass: self.mass,
+            inverse_inertia: self.inverse_inertia,
+            along,
+            across,
+            friction: passive.friction,
+            drag: passive.drag,
+            spring: passive.spring,
+            rest: passive.rest,
+            coulomb: joint.coulomb,
+            quadratic_friction: joint.quadratic,
+            friction_width: joint.width,
+            quadratic_drag: ground.quadratic,
+            drag_width: ground.width,
+            drive_torque: Double::from_f64(0.0),
+        }
+    }
+
+    /// Returns the constants of the equations of trees by rule, with those of energies;
+    /// children hang at `place`.
+    fn by_rule(
+        self,
+        link: &LinkNumbers,
+        place: [Double; 2],
+        carried: Carried,
+        gravity: Double,
+    ) -> ByRuleRow<Double> {
+        let passive = &link.passive;
+        let [joint, ground] = &passive.laws;
+        ByRuleRow {
+            inertia: self.inertia,
+            moment: self.moment[0],
+            lateral_moment: self.moment[1],
+            mass: self.mass,
+            gain_along: self.gain[0],
+            gain_across: self.gain[1],
+            inverse_inertia: self.inverse_inertia,
+            along: place[0],
+            across: place[1],
+            friction: passive.friction,
+            drag: passive.drag,
+            spring: passive.spring,
+            rest: passive.rest,
+            coulomb: joint.coulomb,
+            quadratic_friction: joint.quadratic,
+            friction_width: joint.width,
+            quadratic_drag: ground.quadratic,
+            drag_width: ground.width,
+            body_mass: link.mass,
+            body_inertia: link.inertia,
+            com_along: link.com[0],
+            com_across: link.com[1],
+            place_along: place[0],
+            place_across: place[1],
+            carried_moment: carried.moment[0],
+            lateral_carried_moment: carried.moment[1],
+            gravity,
+            stiffness: passive.spring,
+            pivot_friction: passive.friction,
+            ground_drag: passive.drag,
+            pivot_coulomb: joint.coulomb,
+            pivot_quadratic: joint.quadratic,
+            ground_quadratic: ground.quadratic,
+            drive_torque: Double::from_f64(0.0),
+        }
+    }
+}
+
+/// All that hangs from the pivot of a link, itself included.
+#[derive(Clone, Copy, Debug)]
+struct Carried {
+    mass: Double,
+    /// First moment about the pivot, along the link and across it.
+    moment: [Double; 2],
+}
+
+impl Carried {
+    /// Returns the constants of energies of links of [`Form::Straight`].
+    fn straight(self, link: &LinkNumbers, gravity: Double) -> StraightBodyRow<Double> {
+        StraightBodyRow {
+            body_mass: link.mass,
+            body_inertia: link.inertia,
+            com_along: link.com[0],
+            pivot_along: link.pivot[0],
+            weight_moment: gravity * self.moment[0],
+        }
+    }
+
+    /// Returns those of [`Form::General`].
+    fn general(self, link: &LinkNumbers, gravity: Double) -> GeneralBodyRow<Double> {
+        let passive = &link.passive;
+        GeneralBodyRow {
+            rest: passive.rest,
+            body_mass: link.mass,
+            body_inertia: link.inertia,
+            com_along: link.com[0],
+            com_across: link.com[1],
+            pivot_along: link.pivot[0],
+            pivot_across: link.pivot[1],
+            carried_moment: self.moment[0],
+            lateral_carried_moment: self.moment[1],
+            weight_moment: gravity * self.moment[0],
+            lateral_weight_moment: gravity * self.moment[1],
+            stiffness: passive.spring,
+            pivot_friction: passive.friction,
+            ground_drag: passive.drag,
+        }
+    }
+
+    /// Returns those of [`Form::Rough`].
+    fn rough(self, link: &LinkNumbers, gravity: Double) -> RoughBodyRow<Double> {
+        let passive = &link.passive;
+        let [joint, ground] = &passive.laws;
+        RoughBodyRow {
+            rest: passive.rest,
+            friction_width: joint.width,
+            drag_width: ground.width,
+            body_mass: link.mass,
+            body_inertia: link.inertia,
+            com_along: link.com[0],
+            com_across: link.com[1],
+            pivot_along: link.pivot[0],
+            pivot_across: link.pivot[1],
+            carried_moment: self.moment[0],
+            lateral_carried_moment: self.moment[1],
+            weight_moment: gravity * self.moment[0],
+            lateral_weight_moment: gravity * self.moment[1],
+            stiffness: passive.spring,
+            pivot_friction: passive.friction,
+            ground_drag: passive.drag,
+            pivot_coulomb: joint.coulomb,
+            pivot_quadratic: joint.quadratic,
+            ground_quadratic: ground.quadratic,
+        }
+    }
+}
+
+/// Returns what each link carries.
+fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
+    let own = links.iter().map(|link| Carried {
+        mass: link.mass,
+        moment: link.com.map(|place| link.mass * place),
+    });
+    let mut all: Vec<Carried> = own.collect();
+    // Parents stand before their children.
+    for (number, link) in links.iter().enumerate().rev() {
+        let mass = all.get(number).map(|own| own.mass);
+        let parent = link.parent.and_then(|parent| all.get_mut(parent));
+        if let (Some(mass), Some(parent)) = (mass, parent) {
+            parent.mass += mass;
+            for (moment, place) in parent.moment.iter_mut().zip(link.pivot) {
+                *moment += mass * place;
+            }
+        }
+    }
+    all
 }
 
 /// The links' parents, and which of the links have children.
@@ -193,21 +399,12 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
-/// Numbers of a row of [`Form::Rough`].
-#[cfg(feature = "strips")]
-const ROUGH: usize = 19;
-
-/// Returns the constants of the equations of links that may be held, a row for each link:
-/// those of [`Form::Rough`] without b/J of links without children.
+/// Returns the constants of the equations of links that may be held, a row for each link.
 #[cfg(feature = "strips")]
 pub(crate) fn held(links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
-    let rough = Form::Rough.rows(links, carries);
-    let (rows, _) = rough.as_chunks::<ROUGH>();
-    let rows = rows.iter().flat_map(|row| {
-        let [inertia, moment, lateral, mass, _, _, others @ ..] = row;
-        [inertia, moment, lateral, mass].into_iter().chain(others)
-    });
-    rows.copied().collect()
+    let rows = moments(links, carries).into_iter().zip(links);
+    rows.flat_map(|(row, link)| row.held(link).into_array())
+        .collect()
 }
 
 /// Links of one generation, all alike.
@@ -216,8 +413,6 @@ pub(crate) struct Generation {
     pub(crate) link: usize,
     /// Place of its children, along the link and across it.
     pub(crate) place: [Double; 2],
-    /// Mass of all that hangs there.
-    pub(crate) carried: Double,
 }
 
 /// Rows of the equations of trees by rule, for each generation from the root on.
@@ -227,66 +422,27 @@ pub(crate) fn by_rule(
     gravity: Double,
     generations: &[Generation],
 ) -> Vec<Double> {
-    let moments = moments(links, carries);
-    let rows = generations.iter().flat_map(|generation| {
-        let &Generation {
-            link,
-            place,
-            carried,
-        } = generation;
-        let own = links.get(link).zip(moments.get(link));
-        let row = own.map(|(link, moments)| {
-            let carried = [0, 1].map(|axis| link.mass * link.com[axis] + carried * place[axis]);
-            let row = moments.jointed(&link.passive, place);
-            let body = [link.mass, link.inertia, link.com[0], link.com[1]];
-            let passive = &link.passive;
-            let forces = [gravity, passive.spring, passive.friction, passive.drag];
-            let laws = passive.law_row().into_iter().copied();
-            let no_torque = Double::from_f64(0.0);
-            let row = row.into_iter().chain(laws).chain(body).chain(place);
-            row.chain(carried).chain(forces).chain([no_torque])
-        });
-        row.into_iter().flatten()
+    let (moments, carried) = (moments(links, carries), carried(links));
+    let rows = generations.iter().filter_map(|generation| {
+        let &Generation { link, place } = generation;
+        let (own, carried) = (links.get(link)?, *carried.get(link)?);
+        Some(moments.get(link)?.by_rule(own, place, carried, gravity))
     });
-    rows.collect()
-}
-
-/// Rows of [`Bodies`](branched_pendulum::tree::Bodies).
-pub(crate) fn bodies(links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
-    let half = Double::from_f64(0.5);
-    let rows = links.iter().flat_map(|link| {
-        let [along, across] = link.com;
-        let [first, lateral] = link.com.map(|place| link.mass * place);
-        let about = link.inertia + first * along + lateral * across;
-        [
-            half * link.mass,
-            first,
-            lateral,
-            half * about,
-            link.pivot[0],
-            link.pivot[1],
-            gravity * link.mass,
-            gravity * first,
-            gravity * lateral,
-            half * link.passive.spring,
-            link.passive.friction,
-            link.passive.drag,
-        ]
-    });
-    rows.collect()
-}
-
-/// Rows of laws of friction of [`Bodies`](branched_pendulum::tree::Bodies).
-pub(crate) fn laws(links: &[LinkNumbers]) -> Vec<Double> {
-    let laws = links.iter().flat_map(|link| link.passive.law_row());
-    laws.copied().collect()
+    rows.flat_map(ByRuleRow::into_array).collect()
 }
 
 /// Rows of a [`PropertyTable`](branched_pendulum::tree::PropertyTable).
 pub(crate) fn properties(links: &[LinkNumbers]) -> Vec<Double> {
     let rows = links.iter().flat_map(|link| {
-        let ([d, e], [along, across], [x, y]) = (link.com, link.pivot, link.end);
-        [link.mass, link.inertia, d, e, along, across, x, y]
+        let properties = LinkProperties {
+            parent: link.parent,
+            mass: link.mass,
+            inertia: link.inertia,
+            centre: link.com,
+            pivot: link.pivot,
+            end: link.end,
+        };
+        properties.into_row()
     });
     rows.collect()
 }

@@ -54,20 +54,12 @@ impl<T: Scalar> ByRule<T> {
             order.extend(&generation);
             copies.push(count);
         }
-        let mut carried = Double::from_f64(0.0);
-        let mut rows = Vec::with_capacity(first.len());
-        for (generation, &(link, child)) in first.iter().enumerate().rev() {
-            let place = child.and_then(|child| links.get(child));
-            let place = place.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
-            rows.push(Generation {
-                link,
-                place,
-                carried,
-            });
-            let copies = *copies.get(generation)? as f64;
-            carried = Double::from_f64(copies) * (links.get(link)?.mass + carried);
-        }
-        rows.reverse();
+        let generations = first.iter().map(|&(link, child)| {
+            let child = child.and_then(|child| links.get(child));
+            let place = child.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
+            Generation { link, place }
+        });
+        let rows: Vec<Generation> = generations.collect();
         let rows = rows::by_rule(links, carries, gravity, &rows);
         Some(Self {
             tree: ScaleTree::new(copies, in_numbers(&rows)),

@@ -6,13 +6,15 @@ use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Pendulum, Workspace};
-use branched_pendulum::tree::{Bodies, PropertyTable, Shape};
+use branched_pendulum::tree::{PropertyTable, Shape};
 
+use crate::bodies::FormBodies;
 use crate::description::TreeDescription;
 use crate::drive::Courses;
+use crate::equations::GeneralEquations;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
-use crate::numbers::{self, LinkNumbers};
+use crate::numbers;
 #[cfg(feature = "strips")]
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
@@ -64,8 +66,8 @@ use crate::symmetric::Symmetry;
 pub struct PendulumTree<T = f64> {
     pub(crate) described: Arc<Described>,
     pub(crate) equations: Equations<T>,
-    pub(crate) bodies: Bodies<T>,
-    pub(crate) properties: PropertyTable<T>,
+    pub(crate) bodies: FormBodies<T>,
+    pub(crate) properties: PropertyTable<GeneralEquations, T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) rule: Option<ByRule<T>>,
     #[cfg(feature = "strips")]
@@ -161,7 +163,11 @@ impl<T: Scalar> PendulumTree<T> {
         Ok(Self {
             described: Arc::new(described),
             equations,
-            bodies: bodies(&links, gravity, &shape),
+            bodies: FormBodies::new(
+                form,
+                shape.clone(),
+                in_numbers(&form.bodies(&links, gravity)),
+            ),
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links)))
                 .standing(stands),
             drive: drive.map(|drive| Courses::of(drive, stands, &parameters)),
@@ -244,19 +250,6 @@ impl<T: Scalar> PendulumTree<T> {
     pub(crate) fn acting<'a>(&self, time: T, torques: Option<&'a [T]>) -> Acting<'a, T> {
         let drive = self.drive.as_ref().map(|drive| drive.root(time));
         Acting { drive, torques }
-    }
-}
-
-fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> Bodies<T> {
-    let bodies = Bodies::new(shape.clone(), in_numbers(&rows::bodies(links, gravity)));
-    let rests: Vec<Double> = links.iter().map(|link| link.passive.rest).collect();
-    let bodies = match rests.iter().all(|rest| rest.high() == 0.0) {
-        true => bodies,
-        false => bodies.with_rests(rests.into_iter().map(constant).collect()),
-    };
-    match rows::are_rough(links) {
-        true => bodies.with_laws(in_numbers(&rows::laws(links))),
-        false => bodies,
     }
 }
 

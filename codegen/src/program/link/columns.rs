@@ -49,12 +49,19 @@ named_members! {
         ComAcross = "com_across": "place of the centre of mass across the link (m)",
         PlaceAlong = "place_along": "place of the children's pivot along the link (m)",
         PlaceAcross = "place_across": "place of the children's pivot across the link (m)",
+        PivotAlong = "pivot_along": "place of the pivot along the parent (m)",
+        PivotAcross = "pivot_across": "place of the pivot across the parent (m)",
         CarriedMoment = "carried_moment": "first moment of all that the link carries (kg m)",
         LateralCarriedMoment = "lateral_carried_moment": "first moment of that across the link (kg m)",
+        WeightMoment = "weight_moment": "weight of all that the link carries times its lever along the link (J)",
+        LateralWeightMoment = "lateral_weight_moment": "weight of that times its lever across the link (J)",
         Gravity = "gravity": "gravity (m/s²)",
         Stiffness = "stiffness": "stiffness of the torsion spring (N m)",
         PivotFriction = "pivot_friction": "friction in the pivot (N m s)",
         GroundDrag = "ground_drag": "drag against the ground (N m s)",
+        PivotCoulomb = "pivot_coulomb": "Coulomb friction in the pivot (N m)",
+        PivotQuadratic = "pivot_quadratic": "quadratic friction in the pivot (N m s²)",
+        GroundQuadratic = "ground_quadratic": "quadratic drag against the ground (N m s²)",
         DriveTorque = "drive_torque": "torque on the root over m l², stated by each evaluation",
     }
 }
@@ -65,6 +72,7 @@ impl LoopTree {
         let torque = usize::from(self.has_joint_torques);
         match argument {
             Argument::Constants => self.columns.len(),
+            Argument::Body => self.body_columns.len(),
             Argument::Motion => {
                 5 + usize::from(self.has_outside_torques) + usize::from(self.has_held_links)
             }
@@ -73,7 +81,7 @@ impl LoopTree {
             Argument::Sums => 5 + torque,
             Argument::Elimination => 3,
             Argument::Carried if self.has_several_places => 4,
-            Argument::Given(function) => function.given().len(),
+            Argument::Given(names) => names.len(),
             _ => 2,
         }
     }
@@ -110,12 +118,13 @@ impl LoopTree {
         ];
         let names: &[&str] = match argument {
             Argument::Constants => return self.columns[index].name(),
+            Argument::Body => return self.body_columns[index].name(),
             Argument::Motion => &LINK_MOTION,
             Argument::Response => &RESPONSE,
             Argument::Sums if self.has_several_places => &ATTACHED,
             Argument::Sums => &SUMS,
             Argument::Elimination => &["gain_x", "gain_y", "offset"],
-            Argument::Given(function) => function.given(),
+            Argument::Given(names) => names,
             _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
         };
         names[index]

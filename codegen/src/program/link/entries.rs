@@ -24,8 +24,14 @@ impl EntryList<'_, '_> {
             .links
             .iter()
             .any(|link| link.passive.has_joint_torque());
+        let Some(forces) = &mechanics.joint_forces else {
+            unreachable!("trees in loops come with the torques of a link");
+        };
         let functions = Functions {
             table: &table,
+            rows: Argument::Constants,
+            link: &balance.symbols,
+            forces,
             joints,
             forced: scene.requests.forces,
             prescribed: !scene.prescribed.is_empty(),
@@ -47,33 +53,42 @@ impl EntryList<'_, '_> {
             };
             self.entries.push(Entry::new(signature, purpose, outputs));
         }
-        if let Some(scales) = &mechanics.scales {
-            self.scale_functions(&functions, &balance.symbols, scales);
+        if let Some(body) = &mechanics.body {
+            if let Some(scales) = &mechanics.scales {
+                self.scale_functions(&functions, body, scales);
+            }
+            let rows = Argument::Body;
+            self.body_functions(&Functions { rows, ..functions }, body);
         }
         self.root(mechanics, &table);
         if let Some(drive) = &mechanics.drive {
             self.drive(mechanics, drive);
         }
-        let columns = self.columns_read(functions.drive_torque);
-        self.lowering.strips(scene, &table, columns)
+        let torque = functions.drive_torque.then_some(Column::DriveTorque);
+        let columns = self.columns_read(Argument::Constants, torque);
+        let body_columns = self.columns_read(Argument::Body, None);
+        self.lowering.strips(scene, &table, [columns, body_columns])
     }
 
-    /// The columns that the functions read; these are numbered anew.
-    fn columns_read(&mut self, drive_torque: bool) -> Vec<Column> {
+    /// The columns that the functions read of a row, with one that comes last in any case;
+    /// these are numbered anew.
+    fn columns_read(&mut self, rows: Argument, last: Option<Column>) -> Vec<Column> {
         let outputs = self.entries.iter().flat_map(|entry| &entry.outputs);
         let outputs: Vec<ValueId> = outputs.copied().collect();
         let builder = &mut self.lowering.builder;
         let needed = builder.needed(&outputs);
         let is_read = |column: &Column| {
-            let wanted = Op::Input(Argument::Constants, *column as usize);
-            let last = drive_torque && *column == Column::DriveTorque;
-            last || needed.iter().any(|&id| *builder.op(id) == wanted)
+            let wanted = Op::Input(rows, *column as usize);
+            last == Some(*column) || needed.iter().any(|&id| *builder.op(id) == wanted)
         };
         let columns: Vec<Column> = Column::ALL.into_iter().filter(is_read).collect();
         for definition in &mut builder.definitions {
-            if let Op::Input(Argument::Constants, index) = &mut definition.op {
-                let place = columns.iter().position(|&column| column as usize == *index);
-                *index = place.unwrap_or(usize::MAX);
+            match &mut definition.op {
+                Op::Input(argument, index) if *argument == rows => {
+                    let place = columns.iter().position(|&column| column as usize == *index);
+                    *index = place.unwrap_or(usize::MAX);
+                }
+                _ => {}
             }
         }
         columns

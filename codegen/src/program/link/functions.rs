@@ -4,12 +4,14 @@
 use super::columns::Column;
 use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, ReducedLink, Response};
+use super::known::TorqueUnit;
 use super::strips::Table;
 use crate::functions::{Argument, LinkFunction};
+use crate::mechanics::{JointForces, LinkSymbols};
 use crate::program::ValueId;
 use crate::program::entries::EntryList;
-use crate::program::friction::Law;
 use crate::program::pair::Pair;
+use crate::scene::FrictionPlace;
 
 /// The links whose constants an entry point reads.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -23,8 +25,13 @@ pub(super) enum Kind {
 }
 
 /// The functions of one link.
+#[derive(Clone, Copy)]
 pub(super) struct Functions<'t> {
     pub(super) table: &'t Table,
+    /// The argument whose elements columns are.
+    pub(super) rows: Argument,
+    pub(super) link: &'t LinkSymbols,
+    pub(super) forces: &'t JointForces,
     pub(super) joints: bool,
     pub(super) forced: bool,
     /// Links may be held.
@@ -49,7 +56,7 @@ impl Functions<'_> {
         };
         match common {
             Some(number) => builder.number(number),
-            None => builder.input(Argument::Constants, column as usize),
+            None => builder.input(self.rows, column as usize),
         }
     }
 
@@ -76,16 +83,12 @@ impl Functions<'_> {
         let moment = [at(Column::Moment), at(Column::LateralMoment)];
         let (inertia, mass) = (at(Column::Inertia), at(Column::Mass));
         let (length, inverse_length) = (at(Column::Length), at(Column::InverseLength));
-        let drag = at(Column::Drag);
         let driven = at(Column::DriveTorque);
-        let air = self.ground_law(list, own);
-        let joint = self.joint_torque(list, own);
+        let [joint, dragged] = self.resisting_torques(list, own);
         let outside = self.outside_torque(list, own);
         let builder = &mut list.lowering.builder;
-        // −c (ω − ω_π) − D − κ (θ − θ_π − ρ) − k ω − D⁰ + τ + Q and the torques of the children's joints.
-        let dragged = builder.mul(drag, omega);
-        let braked = builder.braking_torque(&air, omega, "_ground");
-        let dragged = builder.add(dragged, braked);
+        // Those of the joint and of drag act against the link, those of τ, Q and the children's
+        // joints on it.
         let resisting = builder.add(joint, dragged);
         let below = torque.unwrap_or_else(|| builder.integer(0));
         let pushed = builder.add(below, driven);
@@ -106,41 +109,23 @@ impl Functions<'_> {
         (link, joint)
     }
 
-    /// The law of friction in the joint over m l².
-    pub(super) fn joint_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
-        Law {
-            coulomb: self.column(list, kind, Column::Coulomb),
-            quadratic: self.column(list, kind, Column::QuadraticFriction),
-            width: self.column(list, kind, Column::FrictionWidth),
-        }
-    }
-
-    /// The law of drag against the ground over m l².
-    pub(super) fn ground_law(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> Law {
-        Law {
-            coulomb: list.lowering.builder.integer(0),
-            quadratic: self.column(list, kind, Column::QuadraticDrag),
-            width: self.column(list, kind, Column::DragWidth),
-        }
-    }
-
-    /// The torque of the joint on the parent, c (ω − ω_π) + D + κ (θ − θ_π − ρ).
-    fn joint_torque(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> ValueId {
-        let friction = self.column(list, kind, Column::Friction);
-        let law = self.joint_law(list, kind);
-        let spring = self.column(list, kind, Column::Spring);
-        let rate = self.motion(list, Motion::JointRate);
-        let mut angle = self.motion(list, Motion::JointAngle);
-        let rest = self.column(list, kind, Column::Rest);
-        let builder = &mut list.lowering.builder;
-        if !builder.is(rest, 0) {
-            angle = builder.sub(angle, rest);
-        }
-        let (slowed, bent) = (builder.mul(friction, rate), builder.mul(spring, angle));
-        let braked = builder.braking_torque(&law, rate, "_joint");
-        let slowed = builder.add(slowed, braked);
-        let torque = builder.add(slowed, bent);
-        builder.name(torque, "joint_torque")
+    /// The torques of the joint on the parent and of drag on the ground, over m l².
+    fn resisting_torques(&self, list: &mut EntryList<'_, '_>, kind: Kind) -> [ValueId; 2] {
+        let unit = TorqueUnit::Reduced;
+        let JointForces {
+            spring,
+            friction,
+            drag,
+            ..
+        } = self.forces;
+        let mut known = self.known_forces(list, kind, unit);
+        known.push(self.known_braking(list, kind, unit, FrictionPlace::Joint));
+        let [bent, slowed] =
+            [spring, friction].map(|torque| list.lowering.at_values(torque, &known));
+        let torque = list.lowering.builder.add(slowed, bent);
+        let torque = list.lowering.builder.name(torque, "joint_torque");
+        known.push(self.known_braking(list, kind, unit, FrictionPlace::Ground));
+        [torque, list.lowering.at_values(drag, &known)]
     }
 
     /// The torque from outside over m l².

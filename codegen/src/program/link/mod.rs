@@ -7,13 +7,15 @@
 //! from the root to the leaves it is formed. `equations` are those of one link,
 //! `tree` takes them through a tree that is written out.
 
-mod bodies;
+mod body;
 mod columns;
 mod deficit;
 mod entries;
 mod equations;
 mod functions;
 mod held;
+mod known;
+mod quantities;
 mod reduced_units;
 mod root;
 mod scales;

@@ -20,17 +20,8 @@ pub struct StripConstants {
     pub is_leaf: bool,
     /// A constant for each of the columns that the equations read.
     pub constants: Vec<ConstantId>,
-    /// Links of the strip as bodies, in SI units, where energies are asked for: half of the
-    /// mass; first moments along and across; half of the moment of inertia about the
-    /// pivot; place on the parent, along and across; weight, and weight times the two
-    /// components of the centre of mass; half of the spring's stiffness, friction, drag.
-    pub body: Option<[ConstantId; 12]>,
-    /// Angle at which its springs are at rest, where energies are asked for and any
-    /// spring of the tree has one.
-    pub rest: Option<ConstantId>,
-    /// Laws of friction and drag that are not viscous, where energies are asked for and any
-    /// link of the tree has one: C, q and ε in the pivot, q and ε against the ground.
-    pub laws: Option<[ConstantId; 5]>,
+    /// A constant for each of the columns that energies and powers read.
+    pub body: Vec<ConstantId>,
     /// [Properties](crate::scene::LINK_PROPERTIES) of the links, if positions are asked for.
     pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
 }
@@ -38,10 +29,9 @@ pub struct StripConstants {
 impl StripConstants {
     /// All constants that it holds.
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
-        let others = self.body.iter().flatten().chain(&self.rest);
-        let others = others.chain(self.laws.iter().flatten());
-        let others = others.chain(self.properties.iter().flatten());
-        self.constants.iter().chain(others).copied()
+        let properties = self.properties.iter().flatten();
+        let all = self.constants.iter().chain(&self.body);
+        all.chain(properties).copied()
     }
 }
 
@@ -50,6 +40,8 @@ impl StripConstants {
 pub struct LoopTree {
     /// The constants that the equations read, by strip.
     pub columns: Vec<Column>,
+    /// The constants that energies and powers read, likewise.
+    pub body_columns: Vec<Column>,
     /// From the root outwards.
     pub strips: Vec<StripConstants>,
     /// True if children of one link hang at several places.
@@ -200,8 +192,8 @@ impl Lowering<'_> {
         });
         let mut rows: Vec<[ValueId; Column::ALL.len()]> = rows.collect();
         let root_gravity = builder.neg(units.gravity);
-        if scene.requests.scales() {
-            self.scale_columns(scene, balance, &mut rows);
+        if let Some(body) = &self.mechanics.body {
+            self.body_columns(scene, balance, body, &units, &mut rows);
         }
         Table {
             rows,
@@ -290,41 +282,36 @@ impl Lowering<'_> {
         &mut self,
         scene: &Scene,
         table: &Table,
-        columns: Vec<Column>,
+        [columns, body_columns]: [Vec<Column>; 2],
     ) -> LoopTree {
         let any = |force: fn(&crate::scene::Link) -> bool| scene.links.iter().any(force);
         let mut strips = Vec::with_capacity(scene.links.len());
-        let mut bodies: Vec<Option<[ConstantId; 12]>> = vec![None; scene.orbits.len()];
-        let has_laws = scene.requests.energies && any(|link| !link.passive.is_viscous());
-        let has_rests = scene.requests.energies && any(|link| !link.passive.rest.is_zero());
         for link in &scene.links {
             let orbit = link.orbit.0;
-            let constants = columns.iter().map(|&column| {
-                let value = table.rows[orbit][column as usize];
-                match self.builder.as_constant(value) {
+            let builder = &mut self.builder;
+            let mut constants = |columns: &[Column]| {
+                let values = columns.iter().map(|&of| table.rows[orbit][of as usize]);
+                let constants = values.map(|value| match builder.as_constant(value) {
                     Some(constant) => constant,
                     // There are too many values.
-                    None if self.builder.is_exceeded() => ConstantId(0),
+                    None if builder.is_exceeded() => ConstantId(0),
                     None => unreachable!("rows hold constants"),
-                }
-            });
-            let constants = constants.collect();
-            if scene.requests.energies && bodies[orbit].is_none() {
-                bodies[orbit] = Some(self.body(scene, link));
-            }
+                });
+                constants.collect::<Vec<_>>()
+            };
+            let [constants, body] = [constants(&columns), constants(&body_columns)];
             strips.push(StripConstants {
                 name: link.name.clone(),
                 is_leaf: table.is_leaf[orbit],
                 constants,
-                body: bodies[orbit],
-                rest: has_rests.then(|| self.quantity(&link.passive.rest)),
-                laws: has_laws.then(|| link.passive.law_row().map(|part| self.quantity(part))),
+                body,
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
         let drive = scene.drive.as_ref();
         LoopTree {
             columns,
+            body_columns,
             strips,
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),

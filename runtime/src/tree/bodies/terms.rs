@@ -2,210 +2,286 @@
 
 use core::marker::PhantomData;
 
-use super::{Bodies, ROW};
+use super::{Bodies, BodyEquations};
 use crate::scalar::Scalar;
+use crate::scalar::kind::{compiled, compiled_once};
 use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd};
 use crate::system::Workspace;
+use crate::tree::LinkMotion;
 use crate::tree::columns::Columns;
+use crate::tree::equations::Row;
 use crate::tree::sum::total;
 use crate::tree::sweep::VectorPlaces;
 
-/// A link, or as many as `V` has lanes.
-pub(super) struct TurnedLink<V, const P: usize> {
-    /// What is known of its pivot.
-    pub(super) pivot: [V; P],
-    pub(super) sine: V,
-    pub(super) cosine: V,
-    /// Angle or angular velocity of the link: whichever the terms are formed of.
-    pub(super) given: V,
+/// A term of each link that is summed over the tree.
+pub(super) trait LinkTerm {
+    /// The term takes the velocity of the link's pivot.
+    const PIVOTS: bool = false;
+
+    /// The term takes the angle of the joint and no velocities; without, velocities and no
+    /// joints.
+    const AT_REST: bool = false;
+
+    /// Returns the term of a link, of the velocity of its pivot and of what the drive does: the
+    /// acceleration of the root's pivot, and the torque on this link.
+    fn term<E: BodyEquations, V: Scalar>(
+        body: &E::Body<V>,
+        link: LinkMotion<V>,
+        pivot: [V; 2],
+        drive: [V; 3],
+    ) -> [V; 1];
 }
 
-/// Terms of each link, `N` of them, that are summed over the tree, and what has to be known
-/// of its pivot for them: `P` numbers, zero for the root.
-pub(super) trait LinkTerms<const P: usize, const N: usize> {
-    /// Returns what is known of a child's pivot.
-    fn pivot<V: Scalar>(child: &[V; ROW], parent: TurnedLink<V, P>) -> [V; P];
-
-    /// Returns the terms of a link; `joint` is what it is given less what its parent is, and
-    /// less the angle at which its spring is at rest.
-    fn terms<V: Scalar>(row: &[V; ROW], link: TurnedLink<V, P>, joint: V) -> [V; N];
+/// Angles and velocities of all links, and the acceleration of the root's pivot and the torque
+/// on the root.
+#[derive(Clone, Copy)]
+pub(super) struct TreeState<'a, T> {
+    pub(super) theta: &'a [T],
+    /// Empty where terms are those of a tree at rest.
+    pub(super) omega: &'a [T],
+    pub(super) drive: [T; 3],
 }
 
-/// Returns the sums of the terms; NaN for slices of another length than there are links.
-pub(super) fn sums<S: LinkTerms<P, N>, T: Scalar, const P: usize, const N: usize>(
-    bodies: &Bodies<T>,
+/// Returns the sum of the terms; NaN for slices of another length than there are links.
+pub(super) fn sum_of<S: LinkTerm, E: BodyEquations, T: Scalar>(
+    bodies: &Bodies<E, T>,
     workspace: &mut Workspace<T>,
-    theta: &[T],
-    given: &[T],
-) -> [T; N] {
+    state: TreeState<'_, T>,
+) -> T {
     let links = bodies.shape.links();
-    let whole = [theta.len(), given.len()] == [links; 2];
-    let sums = whole.then(|| {
-        in_widest::<T, _>(LinkSums {
+    let moving = match S::AT_REST {
+        true => 0,
+        false => links,
+    };
+    let whole = [state.theta.len(), state.omega.len()] == [links, moving];
+    let sum = whole.then(|| {
+        let numbers = workspace.numbers((if S::PIVOTS { 5 } else { 3 }) * links);
+        let (turned, others) = numbers.split_at_mut(2 * links);
+        let (sines, cosines) = turned.split_at_mut(links);
+        compiled::<Turned, T>()(state.theta, sines, cosines);
+        let (terms, pivots) = others.split_at_mut(links);
+        let formed = in_widest::<T, _>(LinkSums {
             bodies,
-            theta,
-            given,
-            numbers: workspace.numbers((2 + P + N) * links),
+            state,
+            turned,
+            pivots,
+            terms,
             kind: PhantomData::<S>,
-        })
+        });
+        formed.map(|()| compiled::<Total, T>()(terms))
     });
-    sums.flatten().unwrap_or([T::from_f64(f64::NAN); N])
+    sum.flatten().unwrap_or_else(|| T::from_f64(f64::NAN))
 }
 
-/// What they are formed of.
-struct LinkSums<'a, S, T, const P: usize, const N: usize> {
-    bodies: &'a Bodies<T>,
-    theta: &'a [T],
-    given: &'a [T],
-    /// Columns of sines and cosines, of pivots, of terms.
-    numbers: &'a mut [T],
+compiled_once! {
+    /// [`turn`].
+    Turned<T> = turn_in_widest: fn(&[T], &mut [T], &mut [T])
+}
+
+compiled_once! {
+    /// [`total`].
+    Total<T> = total_in_widest: fn(&[T]) -> T
+}
+
+fn turn_in_widest<T: Scalar>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
+    in_widest::<T, _>(Turn {
+        angles,
+        sines,
+        cosines,
+    });
+}
+
+fn total_in_widest<T: Scalar>(terms: &[T]) -> T {
+    in_widest::<T, _>(Terms(terms))
+}
+
+/// Sines and cosines of angles.
+struct Turn<'a, T> {
+    angles: &'a [T],
+    sines: &'a mut [T],
+    cosines: &'a mut [T],
+}
+
+impl<T: Scalar> Kernel<T> for Turn<'_, T> {
+    type Output = ();
+
+    /// Those of each by itself, sooner.
+    #[inline(always)]
+    fn run<V: Simd<T>>(self) {
+        const BLOCK: usize = 8;
+        let (blocks, rest) = self.angles.as_chunks::<BLOCK>();
+        let (sine_blocks, sines) = self.sines.as_chunks_mut::<BLOCK>();
+        let (cosine_blocks, cosines) = self.cosines.as_chunks_mut::<BLOCK>();
+        for ((block, sines), cosines) in blocks.iter().zip(sine_blocks).zip(cosine_blocks) {
+            (*sines, *cosines) = T::sin_cos_each(block);
+        }
+        for ((angle, sine), cosine) in rest.iter().zip(sines).zip(cosines) {
+            (*sine, *cosine) = angle.sin_cos();
+        }
+    }
+}
+
+/// A sum of terms.
+struct Terms<'a, T>(&'a [T]);
+
+impl<T: Scalar> Kernel<T> for Terms<'_, T> {
+    type Output = T;
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(self) -> T {
+        total(self.0)
+    }
+}
+
+/// What terms are formed of.
+struct LinkSums<'a, S, E, T> {
+    bodies: &'a Bodies<E, T>,
+    state: TreeState<'a, T>,
+    /// Columns of sines and cosines.
+    turned: &'a mut [T],
+    /// Columns of velocities of pivots, where terms take them.
+    pivots: &'a mut [T],
+    terms: &'a mut [T],
     kind: PhantomData<S>,
 }
 
-impl<S: LinkTerms<P, N>, T: Scalar, const P: usize, const N: usize> Kernel<T>
-    for LinkSums<'_, S, T, P, N>
-{
+impl<S: LinkTerm, E: BodyEquations, T: Scalar> Kernel<T> for LinkSums<'_, S, E, T> {
     /// None where rows or parents are lacking.
-    type Output = Option<[T; N]>;
+    type Output = Option<()>;
 
-    // Nothing is fused: the sums have the same bits in all registers.
+    // Nothing is fused: the terms have the same bits in all registers.
     #[inline(always)]
-    fn run<V: Simd<T>>(self) -> Option<[T; N]> {
-        let (bodies, links) = (self.bodies, self.theta.len());
-        let (turned, others) = self.numbers.split_at_mut(2 * links);
-        let (sines, cosines) = turned.split_at_mut(links);
-        turn(self.theta, sines, cosines);
-        let (pivots, terms) = others.split_at_mut(P * links);
-        let along = Along::<'_, S, T, P, N> {
-            given: self.given,
-            turned: Columns::new(turned, links),
-            pivots: Columns::new(pivots, links),
-            terms: Columns::new(&mut *terms, links),
+    fn run<V: Simd<T>>(self) -> Option<()> {
+        let (bodies, links) = (self.bodies, self.state.theta.len());
+        let along = Along::<'_, S, E, T> {
+            state: self.state,
+            turned: Columns::new(self.turned, links),
+            pivots: Columns::new(self.pivots, links),
+            terms: Columns::new(self.terms, links),
             kind: PhantomData,
         };
         for strip in bodies.shape.strips() {
-            let (row, rest) = (bodies.row(strip.row)?, bodies.rests.get(strip.row));
             match strip.parent {
                 Some(parent) if strip.count >= V::LANES => {
-                    let constants = WideRow::<V>::of(row, rest);
+                    let body = bodies.row::<V>(strip.row)?;
                     let own = along.from(strip.link, strip.count)?;
                     let parents = along.from(parent, strip.count)?;
                     let mut places = VectorPlaces::of::<T, V>(strip.count);
                     while let Some(place) = places.next() {
-                        own.form(&constants, place, Some((&parents, place)))?;
+                        own.form(&body, place, Some((&parents, place)))?;
                     }
                 }
                 _ => {
-                    let constants = WideRow::<V::One>::of(row, rest);
+                    let body = bodies.row::<V::One>(strip.row)?;
                     for (link, parent) in strip.each() {
                         let parent = parent.map(|parent| (&along, parent));
-                        along.form(&constants, link, parent)?;
+                        along.form(&body, link, parent)?;
                     }
                 }
             }
         }
-        let mut sums = [T::from_f64(0.0); N];
-        for (term, sum) in sums.iter_mut().enumerate() {
-            *sum = total(terms.get(term * links..(term + 1) * links)?);
-        }
-        Some(sums)
-    }
-}
-
-/// Writes sines and cosines of angles: those of each by itself, sooner.
-#[inline(always)]
-fn turn<T: Scalar>(angles: &[T], sines: &mut [T], cosines: &mut [T]) {
-    const BLOCK: usize = 8;
-    let (blocks, rest) = angles.as_chunks::<BLOCK>();
-    let (sine_blocks, sines) = sines.as_chunks_mut::<BLOCK>();
-    let (cosine_blocks, cosines) = cosines.as_chunks_mut::<BLOCK>();
-    for ((block, sines), cosines) in blocks.iter().zip(sine_blocks).zip(cosine_blocks) {
-        (*sines, *cosines) = T::sin_cos_each(block);
-    }
-    for ((angle, sine), cosine) in rest.iter().zip(sines).zip(cosines) {
-        (*sine, *cosine) = angle.sin_cos();
-    }
-}
-
-/// A row, and the angle at which the spring is at rest unless it is zero for all.
-struct WideRow<V> {
-    row: [V; ROW],
-    rest: Option<V>,
-}
-
-impl<V> WideRow<V> {
-    #[inline(always)]
-    fn of<T: Scalar>(row: &[T; ROW], rest: Option<&T>) -> Self
-    where
-        V: Simd<T>,
-    {
-        let mut constants = [V::from_f64(0.0); ROW];
-        for (constant, &value) in constants.iter_mut().zip(row) {
-            *constant = V::splat(value);
-        }
-        Self {
-            row: constants,
-            rest: rest.map(|&rest| V::splat(rest)),
-        }
+        Some(())
     }
 }
 
 /// The way from the root to the leaves.
-struct Along<'a, S, T, const P: usize, const N: usize> {
-    given: &'a [T],
+struct Along<'a, S, E, T> {
+    state: TreeState<'a, T>,
     /// Sines and cosines.
     turned: Columns<'a, T, 2>,
-    pivots: Columns<'a, T, P>,
-    terms: Columns<'a, T, N>,
-    kind: PhantomData<S>,
+    pivots: Columns<'a, T, 2>,
+    terms: Columns<'a, T, 1>,
+    kind: PhantomData<(S, E)>,
 }
 
-impl<S: LinkTerms<P, N>, T: Scalar, const P: usize, const N: usize> Along<'_, S, T, P, N> {
-    /// Forms what is known of the pivots of a link, or of as many as `V` has lanes, whose
+impl<S: LinkTerm, E: BodyEquations, T: Scalar> Along<'_, S, E, T> {
+    /// Forms the velocity of the pivot of a link, or of as many as `V` has lanes, whose
     /// parents have a place in their own columns, and their terms.
     #[inline(always)]
     fn form<V: Simd<T>>(
         &self,
-        constants: &WideRow<V>,
+        body: &E::Body<V>,
         place: usize,
         parent: Option<(&Self, usize)>,
     ) -> Option<()> {
-        let WideRow { row, rest } = constants;
-        let mut link = self.link::<V>(place, [V::from_f64(0.0); P])?;
-        let mut joint = link.given;
+        let mut link = self.motion::<V>(place)?;
+        let (mut pivot, mut drive) = ([V::from_f64(0.0); 2], self.state.drive.map(V::splat));
+        if S::AT_REST {
+            link.joint_angle = self.angle(place)?;
+        }
         if let Some((parents, place)) = parent {
-            let parent = parents.link::<V>(place, parents.pivots.load(place)?)?;
-            joint = joint - parent.given;
-            link.pivot = S::pivot(row, parent);
+            if S::AT_REST {
+                link.joint_angle = link.joint_angle - parents.angle(place)?;
+            }
+            if S::PIVOTS {
+                let above = parents.pivots.load(place)?;
+                pivot = E::pivot_velocity(body, parents.motion::<V>(place)?, above);
+            }
+            drive[2] = V::from_f64(0.0);
         }
-        if let &Some(rest) = rest {
-            joint = joint - rest;
+        if S::PIVOTS {
+            self.pivots.store(place, &pivot)?;
         }
-        self.pivots.store(place, &link.pivot)?;
-        self.terms.store(place, &S::terms(row, link, joint))
+        self.terms
+            .store(place, &S::term::<E, V>(body, link, pivot, drive))
     }
 
     /// The columns of so many links, from one on.
     #[inline(always)]
     fn from(&self, first: usize, count: usize) -> Option<Self> {
+        let TreeState {
+            theta,
+            omega,
+            drive,
+        } = self.state;
+        let links = first..first + count;
+        let state = TreeState {
+            theta: theta.get(links.clone())?,
+            omega: if S::AT_REST { omega } else { omega.get(links)? },
+            drive,
+        };
+        let pivots = match S::PIVOTS {
+            true => self.pivots.window(first, count)?,
+            false => self.pivots,
+        };
         Some(Self {
-            given: self.given.get(first..first + count)?,
+            state,
             turned: self.turned.window(first, count)?,
-            pivots: self.pivots.window(first, count)?,
+            pivots,
             terms: self.terms.window(first, count)?,
             kind: PhantomData,
         })
     }
 
+    /// The motion of links but for that of joints.
     #[inline(always)]
-    fn link<V: Simd<T>>(&self, place: usize, pivot: [V; P]) -> Option<TurnedLink<V, P>> {
+    fn motion<V: Simd<T>>(&self, place: usize) -> Option<LinkMotion<V>> {
         let [sine, cosine] = self.turned.load(place)?;
-        Some(TurnedLink {
-            pivot,
-            sine,
-            cosine,
-            given: V::load(self.given.get(place..)?)?,
-        })
+        let omega = match S::AT_REST {
+            true => V::from_f64(0.0),
+            false => V::load(self.state.omega.get(place..)?)?,
+        };
+        Some(LinkMotion::turning(sine, cosine, omega))
+    }
+
+    #[inline(always)]
+    fn angle<V: Simd<T>>(&self, place: usize) -> Option<V> {
+        V::load(self.state.theta.get(place..)?)
+    }
+}
+
+impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
+    /// Returns a row, if there is one.
+    #[inline(always)]
+    pub(super) fn row<V: Simd<T>>(&self, number: usize) -> Option<E::Body<V>> {
+        let length = <E::Body<V> as Row<V>>::LENGTH;
+        let start = number.checked_mul(length)?;
+        let numbers = self.rows.get(start..)?.get(..length)?;
+        let mut row = <E::Body<V> as Row<V>>::filled(V::from_f64(0.0));
+        for (place, &number) in row.as_mut().iter_mut().zip(numbers) {
+            *place = V::splat(number);
+        }
+        Some(row)
     }
 }

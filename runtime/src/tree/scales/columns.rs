@@ -112,15 +112,7 @@ impl<T: Scalar> ScaleColumns<'_, T> {
     #[inline(always)]
     pub(super) fn motion<V: Simd<T>>(&self, place: usize) -> LinkMotion<V> {
         let [sine, cosine, omega] = self.read(MOTION, place);
-        LinkMotion {
-            sine,
-            cosine,
-            omega,
-            joint_angle: omega,
-            joint_rate: omega,
-            outside_torque: omega,
-            held: omega,
-        }
+        LinkMotion::turning(sine, cosine, omega)
     }
 
     /// Copies some numbers of two consecutive columns of others, from a place there to one

@@ -56,7 +56,7 @@ pub(crate) struct ByRuleEquations;
 
 #[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
 impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
-    type Constants<T: ::branched_pendulum::Scalar> = [T; 31];
+    type Constants<T: ::branched_pendulum::Scalar> = [T; 34];
     type Response<T: ::branched_pendulum::Scalar> = [T; 6];
     type Sums<T: ::branched_pendulum::Scalar> = [T; 6];
     type Elimination<T: ::branched_pendulum::Scalar> = [T; 3];
@@ -79,7 +79,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
         let [
             inertia, _, _, _, gain_along, gain_across, _, _, _, friction, drag, spring,
             rest, coulomb, quadratic_friction, friction_width, quadratic_drag, drag_width,
-            _, _, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -150,7 +150,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, along, across, friction, drag,
             spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, drive_torque,
+            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, drive_torque,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -258,7 +258,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
     ) -> (T, Self::Carried<T>) {
         let [
             _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [gain_x, gain_y, offset] = elimination;
@@ -297,7 +297,7 @@ impl ::branched_pendulum::tree::LinkEquations for ByRuleEquations {
         let [
             _, _, _, _, gain_along, gain_across, inverse_inertia, _, _, friction, drag,
             spring, rest, coulomb, quadratic_friction, friction_width, quadratic_drag,
-            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            drag_width, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             sine,
@@ -340,31 +340,31 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ///
     /// ```text
     /// strain = −ρ + φ
-    /// spring torque = −κ_i ρ + κ_i φ
-    /// friction torque = c φ̇
-    /// drag torque = k ω_i
+    /// spring torque = κ_i (−ρ + φ)
+    /// friction torque = c φ̇ + D
+    /// drag torque = k ω_i + D⁰
     /// ```
     ///
     /// <details><summary>LaTeX</summary>
     ///
     /// ```latex
     /// \epsilon = -\rho + \varphi
-    /// \tau_{spring} = -\kappa_i\,\rho + \kappa_i\,\varphi
-    /// \tau_{friction} = c\,\dot\varphi
-    /// \tau_{drag} = k\,\omega_{\mathrm{i}}
+    /// \tau_{spring} = \kappa_i\,\left(-\rho + \varphi\right)
+    /// \tau_{friction} = c\,\dot\varphi + D
+    /// \tau_{drag} = k\,\omega_{\mathrm{i}} + D^{0}
     /// ```
     /// </details>
     ///
-    /// Cost: 12 ×, 7 ±, 1 ÷, 2 √; 5 of the ± take a × along where the scalar fuses.
+    /// Cost: 11 ×, 6 ±, 1 ÷, 2 √; 5 of the ± take a × along where the scalar fuses.
     #[inline(always)]
     fn scale_torques<T: ::branched_pendulum::Scalar>(
         constants: &Self::Constants<T>,
         link: ::branched_pendulum::tree::LinkMotion<T>,
     ) -> [T; 4] {
         let [
-            _, _, _, _, _, _, _, _, _, _, _, _, rest, coulomb, quadratic_friction,
-            friction_width, quadratic_drag, drag_width, _, _, _, _, _, _, _, _, _,
-            stiffness, pivot_friction, ground_drag, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, rest, _, _, friction_width, _, drag_width,
+            _, _, _, _, _, _, _, _, _, stiffness, pivot_friction, ground_drag,
+            pivot_coulomb, pivot_quadratic, ground_quadratic, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion {
             omega,
@@ -375,15 +375,16 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         let speed_joint = friction_width
             .mul_add(friction_width, joint_rate * joint_rate)
             .sqrt();
+        let joint_angle_minus_rest = joint_angle - rest;
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
         [
-            joint_angle - rest,
-            stiffness * joint_angle - stiffness * rest,
-            quadratic_friction
-                .mul_add(speed_joint, coulomb / speed_joint)
+            joint_angle_minus_rest,
+            stiffness * joint_angle_minus_rest,
+            pivot_quadratic
+                .mul_add(speed_joint, pivot_coulomb / speed_joint)
                 .mul_add(joint_rate, pivot_friction * joint_rate),
-            (quadratic_drag * speed_ground).mul_add(omega, ground_drag * omega),
+            (ground_quadratic * speed_ground).mul_add(omega, ground_drag * omega),
         ]
     }
 
@@ -416,7 +417,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 4] {
         let [
             _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, com_along,
-            com_across, place_along, place_across, _, _, _, _, _, _, _,
+            com_across, place_along, place_across, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [pivot_velocity_x, pivot_velocity_y] = given;
@@ -463,7 +464,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 4] {
         let [
             _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass, _, com_along,
-            com_across, place_along, place_across, _, _, _, _, _, _, _,
+            com_across, place_along, place_across, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let _ = link;
         let [velocity_x, velocity_y, carried_x, carried_y] = given;
@@ -520,7 +521,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
         let [
             _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, body_mass, body_inertia,
             _, _, _, _, carried_moment, lateral_carried_moment, gravity, stiffness, _, _,
-            _,
+            _, _, _, _,
         ] = *constants;
         let _ = link;
         let [
@@ -563,7 +564,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 6] {
         let [
             inertia, moment, lateral_moment, mass, _, _, _, along, across, _, _, _, _, _,
-            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+            _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [deficit_xx_below, deficit_xy_below, deficit_yy_below] = given;
@@ -610,7 +611,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 3] {
         let [
             _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _,
-            body_inertia, _, _, _, _, _, _, _, _, _, _, _,
+            body_inertia, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [
@@ -665,7 +666,8 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 7] {
         let [
             _, _, _, _, _, _, _, along, across, _, _, _, _, _, _, _, _, _, _, _,
-            com_along, com_across, place_along, place_across, _, _, _, _, _, _, _,
+            com_along, com_across, place_along, place_across, _, _, _, _, _, _, _, _, _,
+            _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
@@ -720,7 +722,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 1] {
         let [
             _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            carried_moment, lateral_carried_moment, gravity, _, _, _, _,
+            carried_moment, lateral_carried_moment, gravity, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
         let [
@@ -766,7 +768,7 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
     ) -> [T; 1] {
         let [
             _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-            carried_moment, lateral_carried_moment, _, _, _, _, _,
+            carried_moment, lateral_carried_moment, _, _, _, _, _, _, _, _,
         ] = *constants;
         let ::branched_pendulum::tree::LinkMotion { sine, cosine, .. } = link;
         let [acceleration_x, acceleration_y] = given;
@@ -784,6 +786,157 @@ impl ::branched_pendulum::tree::ScaleEquations for ByRuleEquations {
                                 ),
                         ),
                 ),
+        ]
+    }
+}
+
+/// The constants of a link that the equations read.
+#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+pub(crate) struct ByRuleRow<T> {
+    /// M/(L² m), moment of inertia about the pivot.
+    pub(crate) inertia: T,
+    /// H/(L m), first moment of mass about the pivot.
+    pub(crate) moment: T,
+    /// First moment across the link over L m.
+    pub(crate) lateral_moment: T,
+    /// Mass over m that is not in the constants of the parent.
+    pub(crate) mass: T,
+    /// H L/M of a leaf.
+    pub(crate) gain_along: T,
+    /// First moment of a leaf across the link, times L/M.
+    pub(crate) gain_across: T,
+    /// L² m/M of a leaf.
+    pub(crate) inverse_inertia: T,
+    /// Place of the attachment along the link, over L.
+    pub(crate) along: T,
+    /// Place of the attachment across the link, over L.
+    pub(crate) across: T,
+    /// Friction in the pivot over m l².
+    pub(crate) friction: T,
+    /// Drag against the ground over m l².
+    pub(crate) drag: T,
+    /// Stiffness of the torsion spring over m l².
+    pub(crate) spring: T,
+    /// Angle at which the torsion spring is at rest.
+    pub(crate) rest: T,
+    /// Coulomb friction in the pivot over m l².
+    pub(crate) coulomb: T,
+    /// Quadratic friction in the pivot over m l².
+    pub(crate) quadratic_friction: T,
+    /// Width of friction in the pivot, rad/s.
+    pub(crate) friction_width: T,
+    /// Quadratic drag over m l².
+    pub(crate) quadratic_drag: T,
+    /// Width of drag, rad/s.
+    pub(crate) drag_width: T,
+    /// Mass (kg).
+    pub(crate) body_mass: T,
+    /// Moment of inertia about the centre of mass (kg m²).
+    pub(crate) body_inertia: T,
+    /// Place of the centre of mass along the link (m).
+    pub(crate) com_along: T,
+    /// Place of the centre of mass across the link (m).
+    pub(crate) com_across: T,
+    /// Place of the children's pivot along the link (m).
+    pub(crate) place_along: T,
+    /// Place of the children's pivot across the link (m).
+    pub(crate) place_across: T,
+    /// First moment of all that the link carries (kg m).
+    pub(crate) carried_moment: T,
+    /// First moment of that across the link (kg m).
+    pub(crate) lateral_carried_moment: T,
+    /// Gravity (m/s²).
+    pub(crate) gravity: T,
+    /// Stiffness of the torsion spring (N m).
+    pub(crate) stiffness: T,
+    /// Friction in the pivot (N m s).
+    pub(crate) pivot_friction: T,
+    /// Drag against the ground (N m s).
+    pub(crate) ground_drag: T,
+    /// Coulomb friction in the pivot (N m).
+    pub(crate) pivot_coulomb: T,
+    /// Quadratic friction in the pivot (N m s²).
+    pub(crate) pivot_quadratic: T,
+    /// Quadratic drag against the ground (N m s²).
+    pub(crate) ground_quadratic: T,
+    /// Torque on the root over m l², stated by each evaluation.
+    pub(crate) drive_torque: T,
+}
+
+impl<T> ByRuleRow<T> {
+    /// Returns the constants in the order of the columns.
+    pub(crate) fn into_array(self) -> [T; 34] {
+        let Self {
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            gain_along,
+            gain_across,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            body_mass,
+            body_inertia,
+            com_along,
+            com_across,
+            place_along,
+            place_across,
+            carried_moment,
+            lateral_carried_moment,
+            gravity,
+            stiffness,
+            pivot_friction,
+            ground_drag,
+            pivot_coulomb,
+            pivot_quadratic,
+            ground_quadratic,
+            drive_torque,
+        } = self;
+        [
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            gain_along,
+            gain_across,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            body_mass,
+            body_inertia,
+            com_along,
+            com_across,
+            place_along,
+            place_across,
+            carried_moment,
+            lateral_carried_moment,
+            gravity,
+            stiffness,
+            pivot_friction,
+            ground_drag,
+            pivot_coulomb,
+            pivot_quadratic,
+            ground_quadratic,
+            drive_torque,
         ]
     }
 }

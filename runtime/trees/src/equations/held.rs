@@ -219,9 +219,9 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
             .mul_add(speed_joint, coulomb / speed_joint)
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
-        let held_times_outside_torque = held * outside_torque;
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
+        let held_times_outside_torque = held * outside_torque;
         let first_moment_x = moment * cosine - lateral_moment * sine;
         let first_moment_y = lateral_moment.mul_add(cosine, moment * sine);
         let first_moment_x_2 = first_moment_x - moment_x_below;
@@ -353,9 +353,9 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
             .mul_add(speed_joint, coulomb / speed_joint)
             .mul_add(joint_rate, joint_torque);
         let joint_torque = spring.mul_add(joint_angle - rest, joint_torque);
-        let held_times_outside_torque = held * outside_torque;
         let omega_squared = omega * omega;
         let speed_ground = drag_width.mul_add(drag_width, omega_squared).sqrt();
+        let held_times_outside_torque = held * outside_torque;
         let minus_bias_torque = outside_torque - held_times_outside_torque
             - (joint_torque
                 + (quadratic_drag * speed_ground).mul_add(omega, drag * omega));
@@ -371,5 +371,88 @@ impl ::branched_pendulum::tree::LinkEquations for HeldEquations {
         let tangential = gain_x.mul_add(gravity_x, tangential);
         let tangential = gain_y.mul_add(gravity_y, tangential);
         one_minus_held * tangential - held * tangential
+    }
+}
+
+/// The constants of a link that the equations read.
+#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+pub(crate) struct HeldRow<T> {
+    /// M/(L² m), moment of inertia about the pivot.
+    pub(crate) inertia: T,
+    /// H/(L m), first moment of mass about the pivot.
+    pub(crate) moment: T,
+    /// First moment across the link over L m.
+    pub(crate) lateral_moment: T,
+    /// Mass over m that is not in the constants of the parent.
+    pub(crate) mass: T,
+    /// L² m/M of a leaf.
+    pub(crate) inverse_inertia: T,
+    /// Place of the attachment along the link, over L.
+    pub(crate) along: T,
+    /// Place of the attachment across the link, over L.
+    pub(crate) across: T,
+    /// Friction in the pivot over m l².
+    pub(crate) friction: T,
+    /// Drag against the ground over m l².
+    pub(crate) drag: T,
+    /// Stiffness of the torsion spring over m l².
+    pub(crate) spring: T,
+    /// Angle at which the torsion spring is at rest.
+    pub(crate) rest: T,
+    /// Coulomb friction in the pivot over m l².
+    pub(crate) coulomb: T,
+    /// Quadratic friction in the pivot over m l².
+    pub(crate) quadratic_friction: T,
+    /// Width of friction in the pivot, rad/s.
+    pub(crate) friction_width: T,
+    /// Quadratic drag over m l².
+    pub(crate) quadratic_drag: T,
+    /// Width of drag, rad/s.
+    pub(crate) drag_width: T,
+    /// Torque on the root over m l², stated by each evaluation.
+    pub(crate) drive_torque: T,
+}
+
+impl<T> HeldRow<T> {
+    /// Returns the constants in the order of the columns.
+    pub(crate) fn into_array(self) -> [T; 17] {
+        let Self {
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            drive_torque,
+        } = self;
+        [
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            drive_torque,
+        ]
     }
 }

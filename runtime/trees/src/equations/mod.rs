@@ -17,9 +17,9 @@ mod rough;
 #[rustfmt::skip]
 mod straight;
 
-pub(crate) use by_rule::ByRuleEquations;
-pub(crate) use general::GeneralEquations;
+pub(crate) use by_rule::{ByRuleEquations, ByRuleRow};
+pub(crate) use general::{GeneralBodyRow, GeneralEquations, GeneralRow};
 #[cfg(feature = "strips")]
-pub(crate) use held::HeldEquations;
-pub(crate) use rough::RoughEquations;
-pub(crate) use straight::StraightEquations;
+pub(crate) use held::{HeldEquations, HeldRow};
+pub(crate) use rough::{RoughBodyRow, RoughEquations, RoughRow};
+pub(crate) use straight::{StraightBodyRow, StraightEquations, StraightRow};

@@ -337,3 +337,401 @@ impl ::branched_pendulum::tree::LinkEquations for RoughEquations {
         gain_y.mul_add(gravity_y, gain_x.mul_add(gravity_x, minus_offset))
     }
 }
+
+#[allow(clippy::many_single_char_names, clippy::possible_missing_comma)]
+impl ::branched_pendulum::tree::BodyEquations for RoughEquations {
+    type Body<T: ::branched_pendulum::Scalar> = [T; 19];
+
+    /// Velocity **P**' of a child's pivot, given the motion of the parent and the
+    /// velocity of the parent's pivot.
+    ///
+    /// ```text
+    /// P'_x = ℓ cos θ_i ω_i − w sin θ_i ω_i + P_x
+    /// P'_y = ℓ sin θ_i ω_i + w cos θ_i ω_i + P_y
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// P'_x = \ell\,\cos\theta_{\mathrm{i}}\,\omega_{\mathrm{i}} - w\,\sin\theta_{\mathrm{i}}\,\omega_{\mathrm{i}} + P_x
+    /// P'_y = \ell\,\sin\theta_{\mathrm{i}}\,\omega_{\mathrm{i}} + w\,\cos\theta_{\mathrm{i}}\,\omega_{\mathrm{i}} + P_y
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 6 ×, 4 ±.
+    #[inline(always)]
+    fn pivot_velocity<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+        given: [T; 2],
+    ) -> [T; 2] {
+        let [
+            _, _, _, _, _, _, _, pivot_along, pivot_across, _, _, _, _, _, _, _, _, _, _,
+        ] = *body;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
+        let [pivot_velocity_x, pivot_velocity_y] = given;
+        [
+            omega * (pivot_along * cosine - pivot_across * sine) + pivot_velocity_x,
+            omega * (pivot_along * sine + pivot_across * cosine) + pivot_velocity_y,
+        ]
+    }
+
+    /// Kinetic energy, given the velocity of the link's pivot.
+    ///
+    /// ```text
+    /// K = (m ((P_x + ω_i (d cos θ_i − e sin θ_i))² + (P_y + ω_i (d sin θ_i + e cos θ_i))²)
+    ///     + I ω_i²) / 2
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// K = \frac{\left(m\,\left(\left(P_x + \omega_{\mathrm{i}}\,\left(d\,\cos\theta_{\mathrm{i}} - e\,\sin\theta_{\mathrm{i}}\right)\right)^{2} + \left(P_y + \omega_{\mathrm{i}}\,\left(d\,\sin\theta_{\mathrm{i}} + e\,\cos\theta_{\mathrm{i}}\right)\right)^{2}\right) + I\,\omega_{\mathrm{i}}^{2}\right)}{2}
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 12 ×, 6 ±.
+    #[inline(always)]
+    fn kinetic_energy<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+        given: [T; 2],
+    ) -> [T; 1] {
+        let [
+            _, _, _, body_mass, body_inertia, com_along, com_across, _, _, _, _, _, _, _,
+            _, _, _, _, _,
+        ] = *body;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
+        let [pivot_velocity_x, pivot_velocity_y] = given;
+        let omega_squared = omega * omega;
+        let sum_with_pivot_velocity_x = pivot_velocity_x
+            + omega * (com_along * cosine - com_across * sine);
+        let sum_with_pivot_velocity_y = pivot_velocity_y
+            + omega * (com_along * sine + com_across * cosine);
+        [
+            T::from_f64(0.5)
+                * (body_mass
+                    * (sum_with_pivot_velocity_x * sum_with_pivot_velocity_x
+                        + sum_with_pivot_velocity_y * sum_with_pivot_velocity_y)
+                    + body_inertia * omega_squared),
+        ]
+    }
+
+    /// Potential energy of the weight that the link carries and of the spring in its
+    /// pivot, zero where all angles are zero and springs at rest.
+    ///
+    /// ```text
+    /// U = κ_i (−ρ + φ)² / 2 + G (1 − cos θ_i) + G_⊥ sin θ_i
+    /// G = g_0 H
+    /// G_⊥ = g_0 H_⊥
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// U = \frac{\kappa_i\,\left(-\rho + \varphi\right)^{2}}{2} + G\,\left(1 - \cos\theta_{\mathrm{i}}\right) + G_{\perp}\,\sin\theta_{\mathrm{i}}
+    /// G = g\,H
+    /// G_{\perp} = g\,H_{\perp}
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 5 ×, 4 ±.
+    #[inline(always)]
+    fn potential_energy<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+    ) -> [T; 1] {
+        let [
+            rest, _, _, _, _, _, _, _, _, _, _, weight_moment, lateral_weight_moment,
+            stiffness, _, _, _, _, _,
+        ] = *body;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, joint_angle, .. } = link;
+        let joint_angle_minus_rest = joint_angle - rest;
+        [
+            T::from_f64(0.5) * stiffness
+                * (joint_angle_minus_rest * joint_angle_minus_rest)
+                + weight_moment * (T::from_f64(1.0) - cosine)
+                + lateral_weight_moment * sine,
+        ]
+    }
+
+    /// Power that friction in the link's pivot and drag take, as torques times rates.
+    ///
+    /// ```text
+    /// P = φ̇ (c φ̇ + D) + ω_i (k ω_i + D⁰)
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// P = \dot\varphi\,\left(c\,\dot\varphi + D\right) + \omega_{\mathrm{i}}\,\left(k\,\omega_{\mathrm{i}} + D^{0}\right)
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 10 ×, 6 ±, 1 ÷, 2 √.
+    #[inline(always)]
+    fn friction_loss<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+    ) -> [T; 1] {
+        let [
+            _, friction_width, drag_width, _, _, _, _, _, _, _, _, _, _, _,
+            pivot_friction, ground_drag, pivot_coulomb, pivot_quadratic, ground_quadratic,
+        ] = *body;
+        let ::branched_pendulum::tree::LinkMotion { omega, joint_rate, .. } = link;
+        let omega_squared = omega * omega;
+        let speed_joint = (joint_rate * joint_rate + friction_width * friction_width)
+            .sqrt();
+        let speed_ground = (omega_squared + drag_width * drag_width).sqrt();
+        [
+            joint_rate
+                * (joint_rate
+                    * (pivot_friction
+                        + (pivot_coulomb / speed_joint + pivot_quadratic * speed_joint)))
+                + omega * (omega * (ground_drag + ground_quadratic * speed_ground)),
+        ]
+    }
+
+    /// Power of the torque τ_0 on the link, and of the inertial forces under the
+    /// acceleration **A** of the root's pivot on all that the link carries.
+    ///
+    /// ```text
+    /// P = ω_i (τ_0 − (A_x (H cos θ_i − H_⊥ sin θ_i) + A_y (H sin θ_i + H_⊥ cos θ_i)))
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// P = \omega_{\mathrm{i}}\,\left(\tau_0 - \left(A_x\,\left(H\,\cos\theta_{\mathrm{i}} - H_{\perp}\,\sin\theta_{\mathrm{i}}\right) + A_y\,\left(H\,\sin\theta_{\mathrm{i}} + H_{\perp}\,\cos\theta_{\mathrm{i}}\right)\right)\right)
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 7 ×, 4 ±.
+    #[inline(always)]
+    fn drive_power<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+        given: [T; 3],
+    ) -> [T; 1] {
+        let [
+            _, _, _, _, _, _, _, _, _, carried_moment, lateral_carried_moment, _, _, _, _,
+            _, _, _, _,
+        ] = *body;
+        let ::branched_pendulum::tree::LinkMotion { sine, cosine, omega, .. } = link;
+        let [acceleration_x, acceleration_y, root_torque] = given;
+        [
+            omega
+                * (root_torque
+                    - (acceleration_x
+                        * (carried_moment * cosine - lateral_carried_moment * sine)
+                        + acceleration_y
+                            * (carried_moment * sine + lateral_carried_moment * cosine))),
+        ]
+    }
+
+    /// Power of the torque from outside.
+    ///
+    /// ```text
+    /// P = Q ω_i
+    /// ```
+    ///
+    /// <details><summary>LaTeX</summary>
+    ///
+    /// ```latex
+    /// P = Q\,\omega_{\mathrm{i}}
+    /// ```
+    /// </details>
+    ///
+    /// Cost: 1 ×.
+    #[inline(always)]
+    fn outside_power<T: ::branched_pendulum::Scalar>(
+        body: &Self::Body<T>,
+        link: ::branched_pendulum::tree::LinkMotion<T>,
+    ) -> [T; 1] {
+        let _ = body;
+        let ::branched_pendulum::tree::LinkMotion { omega, outside_torque, .. } = link;
+        [outside_torque * omega]
+    }
+}
+
+/// The constants of a link that the equations read.
+#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+pub(crate) struct RoughRow<T> {
+    /// M/(L² m), moment of inertia about the pivot.
+    pub(crate) inertia: T,
+    /// H/(L m), first moment of mass about the pivot.
+    pub(crate) moment: T,
+    /// First moment across the link over L m.
+    pub(crate) lateral_moment: T,
+    /// Mass over m that is not in the constants of the parent.
+    pub(crate) mass: T,
+    /// H L/M of a leaf.
+    pub(crate) gain_along: T,
+    /// First moment of a leaf across the link, times L/M.
+    pub(crate) gain_across: T,
+    /// L² m/M of a leaf.
+    pub(crate) inverse_inertia: T,
+    /// Place of the attachment along the link, over L.
+    pub(crate) along: T,
+    /// Place of the attachment across the link, over L.
+    pub(crate) across: T,
+    /// Friction in the pivot over m l².
+    pub(crate) friction: T,
+    /// Drag against the ground over m l².
+    pub(crate) drag: T,
+    /// Stiffness of the torsion spring over m l².
+    pub(crate) spring: T,
+    /// Angle at which the torsion spring is at rest.
+    pub(crate) rest: T,
+    /// Coulomb friction in the pivot over m l².
+    pub(crate) coulomb: T,
+    /// Quadratic friction in the pivot over m l².
+    pub(crate) quadratic_friction: T,
+    /// Width of friction in the pivot, rad/s.
+    pub(crate) friction_width: T,
+    /// Quadratic drag over m l².
+    pub(crate) quadratic_drag: T,
+    /// Width of drag, rad/s.
+    pub(crate) drag_width: T,
+    /// Torque on the root over m l², stated by each evaluation.
+    pub(crate) drive_torque: T,
+}
+
+impl<T> RoughRow<T> {
+    /// Returns the constants in the order of the columns.
+    pub(crate) fn into_array(self) -> [T; 19] {
+        let Self {
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            gain_along,
+            gain_across,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            drive_torque,
+        } = self;
+        [
+            inertia,
+            moment,
+            lateral_moment,
+            mass,
+            gain_along,
+            gain_across,
+            inverse_inertia,
+            along,
+            across,
+            friction,
+            drag,
+            spring,
+            rest,
+            coulomb,
+            quadratic_friction,
+            friction_width,
+            quadratic_drag,
+            drag_width,
+            drive_torque,
+        ]
+    }
+}
+
+/// The constants of a link that energies and powers read.
+#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
+pub(crate) struct RoughBodyRow<T> {
+    /// Angle at which the torsion spring is at rest.
+    pub(crate) rest: T,
+    /// Width of friction in the pivot, rad/s.
+    pub(crate) friction_width: T,
+    /// Width of drag, rad/s.
+    pub(crate) drag_width: T,
+    /// Mass (kg).
+    pub(crate) body_mass: T,
+    /// Moment of inertia about the centre of mass (kg m²).
+    pub(crate) body_inertia: T,
+    /// Place of the centre of mass along the link (m).
+    pub(crate) com_along: T,
+    /// Place of the centre of mass across the link (m).
+    pub(crate) com_across: T,
+    /// Place of the pivot along the parent (m).
+    pub(crate) pivot_along: T,
+    /// Place of the pivot across the parent (m).
+    pub(crate) pivot_across: T,
+    /// First moment of all that the link carries (kg m).
+    pub(crate) carried_moment: T,
+    /// First moment of that across the link (kg m).
+    pub(crate) lateral_carried_moment: T,
+    /// Weight of all that the link carries times its lever along the link (J).
+    pub(crate) weight_moment: T,
+    /// Weight of that times its lever across the link (J).
+    pub(crate) lateral_weight_moment: T,
+    /// Stiffness of the torsion spring (N m).
+    pub(crate) stiffness: T,
+    /// Friction in the pivot (N m s).
+    pub(crate) pivot_friction: T,
+    /// Drag against the ground (N m s).
+    pub(crate) ground_drag: T,
+    /// Coulomb friction in the pivot (N m).
+    pub(crate) pivot_coulomb: T,
+    /// Quadratic friction in the pivot (N m s²).
+    pub(crate) pivot_quadratic: T,
+    /// Quadratic drag against the ground (N m s²).
+    pub(crate) ground_quadratic: T,
+}
+
+impl<T> RoughBodyRow<T> {
+    /// Returns the constants in the order of the columns.
+    pub(crate) fn into_array(self) -> [T; 19] {
+        let Self {
+            rest,
+            friction_width,
+            drag_width,
+            body_mass,
+            body_inertia,
+            com_along,
+            com_across,
+            pivot_along,
+            pivot_across,
+            carried_moment,
+            lateral_carried_moment,
+            weight_moment,
+            lateral_weight_moment,
+            stiffness,
+            pivot_friction,
+            ground_drag,
+            pivot_coulomb,
+            pivot_quadratic,
+            ground_quadratic,
+        } = self;
+        [
+            rest,
+            friction_width,
+            drag_width,
+            body_mass,
+            body_inertia,
+            com_along,
+            com_across,
+            pivot_along,
+            pivot_across,
+            carried_moment,
+            lateral_carried_moment,
+            weight_moment,
+            lateral_weight_moment,
+            stiffness,
+            pivot_friction,
+            ground_drag,
+            pivot_coulomb,
+            pivot_quadratic,
+            ground_quadratic,
+        ]
+    }
+}

@@ -1,10 +1,10 @@
-//! Quantities of links as constants of the model, and links as bodies.
+//! Quantities of links as constants of the model.
 
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
 use crate::scene::QuantityAtom::{Exact, Parameter};
-use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity, Scene};
+use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.
@@ -55,37 +55,5 @@ impl Lowering<'_> {
     /// The properties of a link.
     pub(super) fn link_properties(&mut self, link: &Link) -> [ConstantId; LINK_PROPERTIES.len()] {
         link.properties().map(|quantity| self.quantity(quantity))
-    }
-
-    /// A link as a body, see [`StripConstants::body`](super::StripConstants).
-    pub(super) fn body(&mut self, scene: &Scene, link: &Link) -> [ConstantId; 12] {
-        let gravity = self.quantity(&scene.gravity);
-        let mut at = |quantity: &Quantity| self.quantity(quantity);
-        let (mass, inertia) = (at(&link.mass), at(&link.inertia));
-        let [d, e] = [&link.com.along, &link.com.lateral].map(&mut at);
-        let [along, across] = [&link.pivot.along, &link.pivot.lateral].map(&mut at);
-        let passive = &link.passive;
-        let [spring, friction, drag] = [&passive.spring, &passive.friction, &passive.drag].map(at);
-        let setup = &mut self.builder.setup;
-        let two = setup.number(2.into());
-        let [h, k] = [d, e].map(|place| setup.mul(mass, place));
-        let squares = [setup.mul(h, d), setup.mul(k, e)];
-        let about = squares
-            .into_iter()
-            .fold(inertia, |sum, square| setup.add(sum, square));
-        [
-            setup.div(mass, two),
-            h,
-            k,
-            setup.div(about, two),
-            along,
-            across,
-            setup.mul(gravity, mass),
-            setup.mul(gravity, h),
-            setup.mul(gravity, k),
-            setup.div(spring, two),
-            friction,
-            drag,
-        ]
     }
 }
