@@ -40,7 +40,7 @@ enum Part {
     Trees,
 }
 
-impl program::Arguments for Arguments {
+impl frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
 }
 

@@ -4,7 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{program, release_map};
+use branched_pendulum_examples::release_map;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
     frame::main(release_map::run)

@@ -4,7 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{program, stability_map};
+use branched_pendulum_examples::stability_map;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
     frame::main(stability_map::run)

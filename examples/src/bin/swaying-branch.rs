@@ -4,7 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{program, swaying_branch};
+use branched_pendulum_examples::swaying_branch;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
     frame::main(swaying_branch::run)

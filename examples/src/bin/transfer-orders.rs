@@ -4,7 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{program, transfer_orders};
+use branched_pendulum_examples::transfer_orders;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
     frame::main(transfer_orders::run)

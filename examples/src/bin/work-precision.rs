@@ -4,7 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::{program, work_precision};
+use branched_pendulum_examples::work_precision;
+use branched_pendulum_program::frame;
 
 fn main() -> ExitCode {
     frame::main(work_precision::run)

@@ -173,7 +173,7 @@ fn balance(arguments: &Arguments, findings: &Findings) -> String {
             }
         }
     }
-    text + &missing.told(arguments)
+    text + missing.told(arguments).as_str()
 }
 
 /// A run that may be long enough where this one is not.

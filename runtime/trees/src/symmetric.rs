@@ -135,6 +135,8 @@ fn symmetric<T: Scalar>(
 }
 
 fn rigid(link: &LinkNumbers) -> RigidLink<Double> {
+    // Coulomb friction acts in pivots alone.
+    let [joint, ground] = &link.passive.laws;
     RigidLink {
         parent: link.parent,
         mass: link.mass,
@@ -145,7 +147,13 @@ fn rigid(link: &LinkNumbers) -> RigidLink<Double> {
         rest: link.passive.rest,
         friction: link.passive.friction,
         drag: link.passive.drag,
-        laws: link.passive.law_row().map(|number| *number),
+        laws: [
+            joint.coulomb,
+            joint.quadratic,
+            joint.width,
+            ground.quadratic,
+            ground.width,
+        ],
     }
 }
 

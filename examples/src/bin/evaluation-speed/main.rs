@@ -18,7 +18,7 @@ mod tests;
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::program;
+use branched_pendulum_program::frame;
 use clap::Parser;
 
 /// What do the accelerations of one state cost, in emitted code one by one and in
@@ -30,7 +30,7 @@ use clap::Parser;
 #[command(name = "evaluation-speed", version, verbatim_doc_comment)]
 struct Arguments {}
 
-impl program::Arguments for Arguments {
+impl frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
 }
 

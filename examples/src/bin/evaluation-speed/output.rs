@@ -24,7 +24,7 @@ pub fn table(rows: &[Row]) -> String {
             ratio.map_or(String::new(), |ratio| format!("({ratio:.3})"))
         };
         let name = format!("{} {}", row.links, row.scene);
-        text += &(line(&name, row.times.map(cell)) + &line("", row.times.map(ratio)));
+        text += &(line(&name, row.times.map(cell)) + line("", row.times.map(ratio)).as_str());
     }
     text
 }
@@ -43,7 +43,7 @@ pub fn errors(rows: &[Errors]) -> String {
             |error: Option<f64>| error.map_or("-".to_owned(), |error| format!("{error:.2}"));
         let ulps = |ulps: Option<f64>| ulps.map_or(String::new(), |ulps| format!("({ulps:.1})"));
         let name = format!("{} {}", row.links, row.scene);
-        text += &(line(&name, row.worst.map(worst)) + &line("", row.ulps.map(ulps)));
+        text += &(line(&name, row.worst.map(worst)) + line("", row.ulps.map(ulps)).as_str());
     }
     text
 }
