@@ -10,13 +10,14 @@ use crate::report::{Faults, OutputMessage, SizeMessage};
 const ALWAYS: [&str; 5] = ["energies", "momenta", "modes", "positions", "forces"];
 
 /// Outputs that are derived for one tree.
-const DERIVED: [&str; 5] = ["symmetric", "transfer", "budget", "taylor", "transverse"];
+const DERIVED: [&str; 2] = ["taylor", "transverse"];
 
 /// Most links.
 const MOST: usize = 1 << 16;
 
 /// Checks a description as [`resolve`] does, and that nothing is asked for which
-/// has to be derived. Outputs that hold for every tree may be asked for or not.
+/// has to be derived. Outputs that hold for every tree, or every one with copies, may be asked
+/// for or not.
 pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut refuse = |name: &proc_macro2::Ident, what: String| {
         report.error(name.span(), OutputMessage::NotAtRunTime { what });
@@ -31,9 +32,6 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
         let always = ALWAYS.contains(&name.as_str()) && request.forms.is_none();
         !derived && !always
     });
-    for observable in kept.observables.drain(..) {
-        refuse(&observable.name, "observe(...)".to_owned());
-    }
     let scene = resolve(&kept, report)?;
     if let (Layout::Generations { links, .. }, Some(root)) =
         (scene.layout, description.roots.first())

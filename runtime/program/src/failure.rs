@@ -235,7 +235,7 @@ mod tests {
     use crate::frame::messages;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
-    use branched_pendulum::analysis::{EquilibriumError, ModesError, SectorModesError};
+    use branched_pendulum::analysis::{ModesError, SectorModesError};
     use branched_pendulum::approximate::LinearError;
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;

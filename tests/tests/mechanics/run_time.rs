@@ -1,6 +1,7 @@
 //! Trees that are described at run time, against the interpreted program that the compiler
 //! derives for each, and against bodies with Cartesian velocities.
 
+mod growth;
 mod transfer;
 
 use std::collections::BTreeSet;

@@ -1,5 +1,6 @@
 //! What the command does, a module for each subcommand.
 
+pub mod advise;
 pub mod describe;
 pub mod growth;
 pub mod map;
@@ -11,13 +12,18 @@ pub mod transfer;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::Command;
+use clap::{Arg, Command, value_parser};
+use clap_complete::Shell;
 
 use crate::Failure;
 use crate::frame::{self, Arguments, Job};
 
 /// Name of the command.
 const NAME: &str = "branched-pendulum";
+
+/// The subcommand that no tree is asked for, and its argument.
+const COMPLETIONS: &str = "completions";
+const SHELL: &str = "shell";
 
 /// A subcommand: its options, and what runs it with the words of its command line.
 struct Subcommand {
@@ -46,6 +52,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("map", map::run),
         subcommand("transfer", transfer::run),
         subcommand("methods", methods::run),
+        subcommand("advise", advise::run),
     ]
 }
 
@@ -59,18 +66,38 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> ExitCode {
         let rest = words.into_iter().skip(2);
         return (own.run)(std::iter::once(first).chain(rest).collect());
     }
-    let answer = command(all).try_get_matches_from(words);
-    frame::answer(answer.err())
+    match command(all).try_get_matches_from(words) {
+        Err(answer) => frame::answer(Some(answer)),
+        Ok(matches) => {
+            if let Some(shell) = matches
+                .subcommand_matches(COMPLETIONS)
+                .and_then(|matches| matches.get_one::<Shell>(SHELL))
+            {
+                let mut text = Vec::new();
+                clap_complete::generate(*shell, &mut command(subcommands()), NAME, &mut text);
+                return frame::write_out(&text);
+            }
+            ExitCode::SUCCESS
+        }
+    }
 }
 
 /// The whole command, for its help and for completions.
 fn command(all: Vec<Subcommand>) -> Command {
+    let completions = Command::new(COMPLETIONS)
+        .about("Writes completions of the command for a shell")
+        .arg(
+            Arg::new(SHELL)
+                .required(true)
+                .value_parser(value_parser!(Shell)),
+        );
     let own = all.into_iter();
     let own = own.map(|Subcommand { name, command, .. }| command.name(name));
     Command::new(NAME)
         .version(env!("CARGO_PKG_VERSION"))
         .about("Motions, modes, growth and energy transfers of a pendulum tree from a text file")
         .subcommands(own)
+        .subcommand(completions)
         .subcommand_required(true)
         .arg_required_else_help(true)
         .disable_help_subcommand(true)

@@ -106,6 +106,17 @@ pub fn run<A: Arguments>(
     }
 }
 
+/// Writes all bytes to the standard output and returns the exit code: 0, too, where its reader
+/// has read enough.
+pub fn write_out(bytes: &[u8]) -> ExitCode {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        _ => ExitCode::SUCCESS,
+    }
+}
+
 /// Writes a line to the standard error stream, which may be closed.
 fn say(program: &str, text: &str) {
     use std::io::Write;

@@ -13,6 +13,7 @@ mod error;
 mod floquet;
 mod record;
 mod rotation;
+mod sector;
 
 use std::ops::Range;
 
@@ -23,6 +24,7 @@ pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
 use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
+pub use self::sector::SectorDifferences;
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options};
@@ -247,23 +249,36 @@ impl Growth {
             rates: n + rates.start..n + rates.end,
         };
         let both = State::new(start.time, [&start.values, deviation].concat());
-        let all = Variational::new(system, 1);
+        self.one_by_one(&Variational::new(system, 1), &both, place, |run| {
+            // All of the deviation: parts of it drive each other.
+            let factor = run.record.scale();
+            run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
+        })
+    }
+
+    /// The growth of differences at their places in the state of a system, which `scale` divides
+    /// by their amplitude from time to time.
+    fn one_by_one<O: Ode<f64>>(
+        &self,
+        system: &O,
+        start: &State<f64>,
+        place: DifferenceRanges,
+        scale: impl Fn(&mut GrowthRun),
+    ) -> Result<Grown, GrowthError> {
         let [coarse, fine] = self.tolerances().map(|tolerance| {
             let method = Dop853::new(Options::with_tolerance(tolerance));
-            let mut run = self.begin(both.clone(), place.clone())?;
+            let mut run = self.begin(start.clone(), place.clone())?;
             for times in scales(&self.looks(start.time)) {
                 let mut number = 0;
                 let begin = run.state.clone();
-                let end = method.sample(&all, &begin, times, |time, state| {
+                let end = method.sample(system, &begin, times, |time, state| {
                     if number > 0 {
                         run.look(time, state);
                     }
                     number += 1;
                 })?;
                 run.state = end.state;
-                // All of the deviation: parts of it drive each other.
-                let factor = run.record.scale();
-                run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
+                scale(&mut run);
             }
             Ok::<GrowthRun, GrowthError>(run)
         });

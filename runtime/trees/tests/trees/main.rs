@@ -7,3 +7,4 @@ mod mechanics;
 mod prescribed;
 mod scales;
 mod text;
+mod transfer;

@@ -34,11 +34,8 @@ help: did you mean `mass`?";
 fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
     let tree = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2], ";
     for (more, name) in [
-        ("emit(energies, transfer(exact))", "transfer"),
-        ("emit(symmetric)", "symmetric"),
-        ("emit(budget(parseval))", "budget"),
-        ("emit(taylor)", "taylor"),
-        ("observe(f = theta_a^2)", "f"),
+        ("emit(energies, taylor)", "taylor"),
+        ("emit(transverse)", "transverse"),
     ] {
         let text = format!("{tree}{more}");
         let found = message(&text);
@@ -48,6 +45,10 @@ fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
     }
     let always = format!("{tree}emit(energies, momenta, modes, positions, forces)");
     assert!(PendulumTree::parse(&always).is_ok());
+    let of_copies = format!("{tree}emit(symmetric, transfer(exact), budget(parseval))");
+    assert!(PendulumTree::parse(&of_copies).is_ok());
+    let alone = "gravity = 9.81, a: rod(mass = 1, length = 1), emit(transfer(exact))";
+    assert!(message(alone).contains("identical"), "{}", message(alone));
     assert!(message(&format!("{tree}emit(energy)")).contains("did you mean `energies`?"));
 }
 

@@ -1,0 +1,81 @@
+//! What makes no sense is refused with its reason, and with what to write.
+
+use super::{Folder, TRIPLE, command};
+
+fn refusal(words: &[&str], code: i32) -> String {
+    let output = command(words).output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{words:?}: {text}");
+    text
+}
+
+#[test]
+fn trees_without_copies_have_no_differences() {
+    let folder = Folder::new("refusals");
+    let triple = folder.file("triple.txt", TRIPLE);
+    for command in ["growth", "map", "transfer"] {
+        let output = folder.run(&[command, "--tree", &triple]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(
+            text.contains("copies") && text.contains("* 2"),
+            "{command}: {text}"
+        );
+    }
+}
+
+#[test]
+fn mistakes_are_named_with_their_place() {
+    let folder = Folder::new("mistakes");
+    let wrong = folder.file("wrong.txt", "gravity = 9.81,\nrod(mas = 0.2, length = 0.3)");
+    let text = refusal(&["describe", "--tree", &wrong], 1);
+    assert!(
+        text.contains("--> 2:5") && text.contains("did you mean `mass`?"),
+        "{text}"
+    );
+    let chain = folder.file("chain.txt", "gravity = g, rod: rod(mass = 0.2, length = l)");
+    let text = refusal(&["describe", "--tree", &chain, "--set", "g=9.8"], 1);
+    assert!(text.contains("no value for `l`"), "{text}");
+    let text = refusal(&["describe", "--tree", &chain, "--set", "g=9.8,l=-1"], 1);
+    assert!(text.contains("must be positive"), "{text}");
+    for (words, code, told) in [
+        (
+            &["describe", "--tree", "nowhere.txt"][..],
+            1,
+            "there is no tree `nowhere.txt`",
+        ),
+        (
+            &["simulate", "--start", "1,2"],
+            1,
+            "2 numbers for 3 links: parent, child_1, child_2",
+        ),
+        (
+            &["simulate", "--start", "twig=3"],
+            1,
+            "there is no link `twig`",
+        ),
+        (
+            &["simulate", "--duration", "0"],
+            2,
+            "must be from 0.01 to 100000 s",
+        ),
+        (&["simulate", "--set", "friction"], 2, "is no `NAME=VALUE`"),
+        (
+            &["growth", "--pair", "parent,child"],
+            1,
+            "are no copies of each other",
+        ),
+        (&["map", "--x", "child=0:10"], 2, "is no axis"),
+        (&["map", "--x", "mass=0:1:0.5"], 1, "is neither a link"),
+        (&["transfer", "--into", "e"], 1, "the tree has in_phase, d"),
+        (
+            &["advise", "--right", "speed:1"],
+            2,
+            "outputs: angles, energy, pixels, transfer",
+        ),
+        (&["grow"], 2, "growth"),
+    ] {
+        let text = refusal(words, code);
+        assert!(text.contains(told), "{words:?}: {text}");
+    }
+}

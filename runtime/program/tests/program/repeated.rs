@@ -1,0 +1,80 @@
+//! Runs are repeated from their records, trees are read from standard input, and completions
+//! are written.
+
+use std::io::Write;
+use std::process::Stdio;
+
+use super::{Folder, Y, command};
+
+#[test]
+fn a_record_repeats_the_run() {
+    let folder = Folder::new("repeated");
+    let y = folder.file("y.txt", Y);
+    let words = [
+        "simulate",
+        "--tree",
+        &y,
+        "--duration",
+        "1",
+        "--start",
+        "stem=10,arm_1=3",
+    ];
+    folder.answer(&[&words[..], &["--set", "stiffness=3", "--rates", "arm=-20"]].concat());
+    let first = folder.read("results/motion.csv");
+    let record = folder.0.join("results/run.json");
+    let again = folder.0.join("again");
+    let output = command(&["simulate", "--repeat", record.to_str().unwrap(), "--output"])
+        .arg(&again)
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert_eq!(first, folder.read("again/motion.csv"));
+    // A record of another subcommand is none of this one.
+    let output = command(&["modes", "--repeat", record.to_str().unwrap()])
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        text.contains("records a run of branched-pendulum simulate"),
+        "{text}"
+    );
+}
+
+#[test]
+fn standard_input_is_a_tree() {
+    let mut child = command(&["describe", "--tree", "-", "--set", "stiffness=4"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(Y.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("arm_2  stem"), "{text}");
+}
+
+#[test]
+fn help_names_every_subcommand_and_shells_are_completed() {
+    let output = command(&["--help"]).output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    let completed = command(&["completions", "bash"]).output().unwrap();
+    let script = String::from_utf8(completed.stdout).unwrap();
+    for name in [
+        "describe", "simulate", "modes", "growth", "map", "transfer", "methods", "advise",
+    ] {
+        assert!(help.contains(&format!("\n  {name} ")), "{help}");
+        assert!(script.contains(name));
+        let own = command(&[name, "--help"]).output().unwrap();
+        let own = String::from_utf8(own.stdout).unwrap();
+        assert!(
+            own.contains(&format!("Usage: branched-pendulum {name}")),
+            "{own}"
+        );
+        assert!(own.contains("--tree <FILE|NAME>") && own.contains("--set <NAME=VALUE"));
+    }
+    assert!(script.contains("--duration"));
+}

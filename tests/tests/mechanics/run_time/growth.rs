@@ -1,0 +1,122 @@
+//! Growth of small differences beside motions in phase at run time, by dual numbers, against the
+//! derived transverse equations.
+
+use branched_pendulum::analysis::growth::{Growth, SectorDifferences, frequency_at_rest};
+use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::Sectors;
+use branched_pendulum::system::{Transverse, TransverseOde};
+use branched_pendulum_trees::PendulumTree;
+
+/// The paper's pendulum, its children in phase.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    in_phase(child),
+    emit(transverse),
+)]
+struct Paper;
+
+/// Three arms of two links, with springs and dry friction.
+#[branched_pendulum(
+    gravity = 9.80665,
+    trunk: rod(mass = 0.4, length = 0.3, friction = 1e-3) [
+        arm: rod(mass = 0.2, length = 0.2, spring = 0.05) [
+            hand: rod(mass = 0.1, length = 0.15, friction(coulomb = 2e-3, width = 0.5))
+        ] * 3
+    ],
+    in_phase(arm),
+    emit(transverse),
+)]
+struct Arms;
+
+/// Largest relative difference between growth factors by both ways, after releases of the
+/// reduced and of the whole tree, and the largest factor.
+fn differences<P: Transverse<f64> + Copy + Sync>(
+    model: P,
+    text: &str,
+    releases: &[[Vec<f64>; 2]],
+) -> [f64; 2] {
+    let tree = PendulumTree::parse(text).expect("it is right");
+    let system = linearised(AbsoluteAngles(&tree));
+    let system = SectorDifferences::new(system, &tree.sectors()[1]);
+    let ode = TransverseOde::new(model, 0).expect("there is one sector");
+    let own = system.frequency_at_rest().expect("it oscillates");
+    let frequency_hz = frequency_at_rest(&ode);
+    assert!(
+        (own / frequency_hz - 1.0).abs() < 1e-12,
+        "{own} {frequency_hz}"
+    );
+    let growth = Growth {
+        frequency_hz,
+        horizons: vec![1.0, 3.0],
+        tolerance: 1e-11,
+    };
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    for [reduced, whole] in releases {
+        let ones = vec![1.0; ode.sector().links];
+        let start = State::at_rest(0.0, &[&reduced[..], &ones].concat());
+        let derived = growth.in_lanes(&Ensemble::new(), &[(ode, start)]);
+        let [Ok(derived)] = derived.as_slice() else {
+            panic!("{derived:?}")
+        };
+        let own = growth.of_sector(&system, &State::at_rest(0.0, whole));
+        let own = own.expect("it is in phase");
+        for (own, derived) in own.factors.iter().zip(&derived.factors) {
+            worst = worst.max((own.value / derived.value - 1.0).abs());
+            largest = largest.max(own.value);
+        }
+    }
+    [worst, largest]
+}
+
+#[test]
+fn growth_agrees_with_the_transverse_equations() {
+    let paper = "gravity = 9.80665,
+        parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+        ]";
+    let releases = [0.3, 0.6, 0.9, 1.2].map(|angle| [vec![angle, 0.0], vec![angle, 0.0, 0.0]]);
+    let [worst, largest] = differences(&Paper::new(), paper, &releases);
+    assert!(worst < 1e-9 && largest > 2.0, "{worst:e} {largest}");
+
+    let arms = "gravity = 9.80665,
+        trunk: rod(mass = 0.4, length = 0.3, friction = 1e-3) [
+            arm: rod(mass = 0.2, length = 0.2, spring = 0.05) [
+                hand: rod(mass = 0.1, length = 0.15, friction(coulomb = 2e-3, width = 0.5))
+            ] * 3
+        ]";
+    let releases = [0.4, 1.0].map(|angle| {
+        let (arm, hand) = (0.3 * angle, -0.2);
+        let whole = vec![angle, arm, hand, arm, hand, arm, hand];
+        [vec![angle, arm, hand], whole]
+    });
+    let [worst, largest] = differences(&Arms::new(), arms, &releases);
+    assert!(worst < 1e-9 && largest > 1.0, "{worst:e} {largest}");
+}
+
+/// Differences of a start that is not in phase are not small ones beside it.
+#[test]
+fn a_start_out_of_phase_is_refused() {
+    let tree = PendulumTree::parse(
+        "gravity = 9.81, trunk: rod(mass = 0.4, length = 0.3) [
+            twig: rod(mass = 0.1, length = 0.2) * 2
+        ]",
+    );
+    let tree = tree.expect("it is right");
+    let system = linearised(AbsoluteAngles(&tree));
+    let system = SectorDifferences::new(system, &tree.sectors()[1]);
+    let growth = Growth {
+        frequency_hz: 1.0,
+        horizons: vec![1.0],
+        tolerance: 1e-9,
+    };
+    for start in [&[0.3, 0.1, 0.2][..], &[0.3, 0.1]] {
+        let refused = growth.of_sector(&system, &State::at_rest(0.0, start));
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains("difference"), "{refused}");
+    }
+}
