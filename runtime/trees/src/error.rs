@@ -13,7 +13,7 @@ use crate::text::LONGEST;
 #[non_exhaustive]
 pub enum TreeError {
     /// The text is no description of a tree that can be computed.
-    #[error("{0}")]
+    #[error(transparent)]
     Description(#[from] DescriptionError),
     /// Parameters without a value.
     #[error("no value for {}", quoted(.names))]

@@ -11,7 +11,7 @@ fn links_parameters_and_sectors_are_listed() {
     let text = folder.answer(&["describe", "--tree", &y, "--set", "stiffness=4"]);
     for told in [
         "y.txt: 3 links; the tree stands",
-        "stiffness = 4: torsion spring of `arm`, N m",
+        "stiffness = 4: spring of `arm`, N m",
         "sectors: in_phase, d",
         "rests with all angles zero",
     ] {
@@ -115,7 +115,7 @@ fn growth_begins_where_the_paper_sees_it() {
     let folder = Folder::new("growth");
     let words = ["growth", "--angles", "30,48", "--horizons", "10"];
     let text = folder.answer(&[&words[..], &["--vary", "friction=0,1e-4"]].concat());
-    assert!(text.contains("G(10 s) ≥ 10          48°"), "{text}");
+    assert!(text.contains("G(10 s) ≥ 10         48°"), "{text}");
     let (names, rows) = folder.table("growth.csv");
     let factor = names
         .iter()
