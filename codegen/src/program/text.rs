@@ -31,13 +31,23 @@ impl fmt::Display for Program {
             }
         }
         if let Some(strips) = &self.strips {
-            writeln!(f, "strips")?;
-            for strip in &strips.strips {
-                let columns = strips.columns.iter().zip(&strip.constants);
-                let columns: Vec<String> = columns
-                    .map(|(column, id)| format!("{} k{}", column.name(), id.0))
-                    .collect();
-                writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
+            let tables = [
+                ("strips", &strips.columns),
+                ("bodies", &strips.body_columns),
+            ];
+            for (number, (table, columns)) in tables.into_iter().enumerate() {
+                if number > 0 && columns.is_empty() {
+                    continue;
+                }
+                writeln!(f, "{table}")?;
+                for strip in &strips.strips {
+                    let constants = [&strip.constants, &strip.body][number];
+                    let columns = columns.iter().zip(constants);
+                    let columns: Vec<String> = columns
+                        .map(|(column, id)| format!("{} k{}", column.name(), id.0))
+                        .collect();
+                    writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
+                }
             }
         }
         for entry in &self.entries {

@@ -15,6 +15,7 @@
 
 mod bodies;
 mod canonical;
+mod carried;
 mod description;
 mod drive;
 mod energies;

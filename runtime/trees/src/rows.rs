@@ -1,16 +1,14 @@
-//! Rows of constants: of the equations the moments of each link about its pivot, with the links
-//! without children that hang from it counted as points at their pivots; of energies the first
-//! moments of all that it carries.
+//! Constants of the equations: the moments of each link about its pivot, with the links
+//! without children that hang from it counted as points at their pivots.
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::LinkProperties;
 use branched_pendulum_codegen::scene::PassiveTorques;
 
+use crate::carried::{Carried, carried};
 #[cfg(feature = "strips")]
 use crate::equations::HeldRow;
-use crate::equations::{
-    ByRuleRow, GeneralBodyRow, GeneralRow, RoughBodyRow, RoughRow, StraightBodyRow, StraightRow,
-};
+use crate::equations::{ByRuleRow, GeneralRow, RoughRow, StraightRow};
 use crate::numbers::LinkNumbers;
 
 /// Forms of the equations, by what the links of a tree have.
@@ -49,22 +47,6 @@ impl Form {
                 .collect(),
             Self::Rough => rows
                 .flat_map(|(row, link)| row.rough(link).into_array())
-                .collect(),
-        }
-    }
-
-    /// Returns the constants of energies and powers, a row for each link.
-    pub(crate) fn bodies(self, links: &[LinkNumbers], gravity: Double) -> Vec<Double> {
-        let bodies = carried(links).into_iter().zip(links);
-        match self {
-            Self::Straight => bodies
-                .flat_map(|(carried, link)| carried.straight(link, gravity).into_array())
-                .collect(),
-            Self::General => bodies
-                .flat_map(|(carried, link)| carried.general(link, gravity).into_array())
-                .collect(),
-            Self::Rough => bodies
-                .flat_map(|(carried, link)| carried.rough(link, gravity).into_array())
                 .collect(),
         }
     }
@@ -260,96 +242,6 @@ impl Moments {
             drive_torque: Double::from_f64(0.0),
         }
     }
-}
-
-/// All that hangs from the pivot of a link, itself included.
-#[derive(Clone, Copy, Debug)]
-struct Carried {
-    mass: Double,
-    /// First moment about the pivot, along the link and across it.
-    moment: [Double; 2],
-}
-
-impl Carried {
-    /// Returns the constants of energies of links of [`Form::Straight`].
-    fn straight(self, link: &LinkNumbers, gravity: Double) -> StraightBodyRow<Double> {
-        StraightBodyRow {
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            pivot_along: link.pivot[0],
-            weight_moment: gravity * self.moment[0],
-        }
-    }
-
-    /// Returns those of [`Form::General`].
-    fn general(self, link: &LinkNumbers, gravity: Double) -> GeneralBodyRow<Double> {
-        let passive = &link.passive;
-        GeneralBodyRow {
-            rest: passive.rest,
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            com_across: link.com[1],
-            pivot_along: link.pivot[0],
-            pivot_across: link.pivot[1],
-            carried_moment: self.moment[0],
-            lateral_carried_moment: self.moment[1],
-            weight_moment: gravity * self.moment[0],
-            lateral_weight_moment: gravity * self.moment[1],
-            stiffness: passive.spring,
-            pivot_friction: passive.friction,
-            ground_drag: passive.drag,
-        }
-    }
-
-    /// Returns those of [`Form::Rough`].
-    fn rough(self, link: &LinkNumbers, gravity: Double) -> RoughBodyRow<Double> {
-        let passive = &link.passive;
-        let [joint, ground] = &passive.laws;
-        RoughBodyRow {
-            rest: passive.rest,
-            friction_width: joint.width,
-            drag_width: ground.width,
-            body_mass: link.mass,
-            body_inertia: link.inertia,
-            com_along: link.com[0],
-            com_across: link.com[1],
-            pivot_along: link.pivot[0],
-            pivot_across: link.pivot[1],
-            carried_moment: self.moment[0],
-            lateral_carried_moment: self.moment[1],
-            weight_moment: gravity * self.moment[0],
-            lateral_weight_moment: gravity * self.moment[1],
-            stiffness: passive.spring,
-            pivot_friction: passive.friction,
-            ground_drag: passive.drag,
-            pivot_coulomb: joint.coulomb,
-            pivot_quadratic: joint.quadratic,
-            ground_quadratic: ground.quadratic,
-        }
-    }
-}
-
-/// Returns what each link carries.
-fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
-    let own = links.iter().map(|link| Carried {
-        mass: link.mass,
-        moment: link.com.map(|place| link.mass * place),
-    });
-    let mut all: Vec<Carried> = own.collect();
-    // Parents stand before their children.
-    for (number, link) in links.iter().enumerate().rev() {
-        let mass = all.get(number).map(|own| own.mass);
-        let parent = link.parent.and_then(|parent| all.get_mut(parent));
-        if let (Some(mass), Some(parent)) = (mass, parent) {
-            parent.mass += mass;
-            for (moment, place) in parent.moment.iter_mut().zip(link.pivot) {
-                *moment += mass * place;
-            }
-        }
-    }
-    all
 }
 
 /// The links' parents, and which of the links have children.

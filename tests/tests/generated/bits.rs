@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use branched_pendulum::tree::{LinkEquations, LinkMotion, Row};
+use branched_pendulum::tree::{BodyEquations, LinkEquations, LinkMotion, Row};
 use branched_pendulum::{Budget, Scalar, Transfer};
 use branched_pendulum_codegen::functions::Argument;
 use branched_pendulum_compiler_tests::random::Random;
@@ -316,6 +316,9 @@ fn functions_of_a_link_in_loops() {
         let elimination: <E as LinkEquations>::Elimination<f64> = row(&mut random);
         let carried: <E as LinkEquations>::Carried<f64> = row(&mut random);
         let pivot: [f64; 2] = row(&mut random);
+        let body: <E as BodyEquations>::Body<f64> = row(&mut random);
+        let given: [f64; 3] = row(&mut random);
+        let [x, y, _] = given;
         let time = random.between(-5.0, 50.0);
         let input = |argument: Argument, index: usize| match argument {
             Argument::Constants => constants[index],
@@ -325,6 +328,8 @@ fn functions_of_a_link_in_loops() {
             Argument::Elimination => elimination[index],
             Argument::Carried => carried[index],
             Argument::Pivot => pivot[index],
+            Argument::Body => body[index],
+            Argument::Given(_) => given[index],
             _ => time,
         };
         let (answer, kept) = E::inner(&constants, link, sums);
@@ -339,6 +344,20 @@ fn functions_of_a_link_in_loops() {
                 "accelerate_leaf",
                 vec![E::accelerate_leaf(&constants, link, pivot)],
             ),
+            (
+                "pivot_velocity",
+                E::pivot_velocity(&body, link, [x, y]).to_vec(),
+            ),
+            (
+                "kinetic_energy",
+                E::kinetic_energy(&body, link, [x, y]).to_vec(),
+            ),
+            (
+                "potential_energy",
+                E::potential_energy(&body, link).to_vec(),
+            ),
+            ("friction_loss", E::friction_loss(&body, link).to_vec()),
+            ("drive_power", E::drive_power(&body, link, given).to_vec()),
             ("drive", model.drive(time).to_vec()),
         ];
         for (name, compiled) in compiled {
@@ -360,6 +379,11 @@ fn functions_of_a_link_in_loops() {
         "pivot",
         "accelerate",
         "accelerate_leaf",
+        "pivot_velocity",
+        "kinetic_energy",
+        "potential_energy",
+        "friction_loss",
+        "drive_power",
         "root_gravity",
         "root_drive",
         "drive"

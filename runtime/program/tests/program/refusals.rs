@@ -27,7 +27,10 @@ fn trees_without_copies_have_no_differences() {
 #[test]
 fn mistakes_are_named_with_their_place() {
     let folder = Folder::new("mistakes");
-    let wrong = folder.file("wrong.txt", "gravity = 9.81,\narm: rod(mas = 0.2, length = 0.3)");
+    let wrong = folder.file(
+        "wrong.txt",
+        "gravity = 9.81,\narm: rod(mas = 0.2, length = 0.3)",
+    );
     let text = refusal(&["describe", "--tree", &wrong], 1);
     assert!(
         text.contains("--> 2:10") && text.contains("did you mean `mass`?"),
