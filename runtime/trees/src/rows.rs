@@ -29,9 +29,9 @@ impl Form {
     }
 
     /// Returns the constants of the equations, a row for each link.
-    pub(crate) fn rows(self, links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+    pub(crate) fn rows<S: Scalar>(self, links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<S> {
         let moments = moments(links, carries).into_iter();
-        let no_torque = Double::from_f64(0.0);
+        let no_torque = S::from_f64(0.0);
         match self {
             Self::Straight => {
                 let rows = moments.zip(attachments(links));
@@ -83,8 +83,8 @@ fn are_straight(links: &[LinkNumbers]) -> bool {
 }
 
 /// The place of the pivot of each link's last child, along the link.
-fn attachments(links: &[LinkNumbers]) -> Vec<Double> {
-    let mut places = vec![Double::from_f64(0.0); links.len()];
+fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
+    let mut places = vec![S::from_f64(0.0); links.len()];
     for link in links {
         if let Some(place) = link.parent.and_then(|parent| places.get_mut(parent)) {
             *place = link.pivot[0];
@@ -96,18 +96,18 @@ fn attachments(links: &[LinkNumbers]) -> Vec<Double> {
 /// Moments of a link: those of the derived balance of one link (`docs/pipeline.md`),
 /// M = m (d² + e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
 #[derive(Clone, Copy, Debug)]
-struct Moments {
-    inertia: Double,
-    moment: [Double; 2],
-    mass: Double,
+struct Moments<S> {
+    inertia: S,
+    moment: [S; 2],
+    mass: S,
     /// h/M and h⊥/M of a link without children.
-    gain: [Double; 2],
-    inverse_inertia: Double,
+    gain: [S; 2],
+    inverse_inertia: S,
 }
 
-impl Moments {
+impl<S: Scalar> Moments<S> {
     /// Returns the columns of the straight equations; `place` is that of the children.
-    fn straight(self, place: Double) -> [Double; 6] {
+    fn straight(self, place: S) -> [S; 6] {
         let Self {
             inertia,
             moment,
@@ -120,7 +120,7 @@ impl Moments {
 
     /// Returns the columns that the general and the rough equations share, and, with the
     /// children's pivot in place of the link's own, those of trees by rule.
-    fn jointed(self, passive: &PassiveTorques<Double>, pivot: [Double; 2]) -> [Double; 13] {
+    fn jointed(self, passive: &PassiveTorques<S>, pivot: [S; 2]) -> [S; 13] {
         let Self {
             inertia,
             moment,
@@ -147,7 +147,7 @@ impl Moments {
 }
 
 /// The links' parents, and which of the links have children.
-pub(crate) fn parents(links: &[LinkNumbers]) -> (Vec<u32>, Vec<bool>) {
+pub(crate) fn parents<S>(links: &[LinkNumbers<S>]) -> (Vec<u32>, Vec<bool>) {
     let mut carries = vec![false; links.len()];
     let parents = links.iter().map(|link| {
         let parent = link.parent.unwrap_or(0);
@@ -160,9 +160,9 @@ pub(crate) fn parents(links: &[LinkNumbers]) -> (Vec<u32>, Vec<bool>) {
     (parents.collect(), carries)
 }
 
-fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
-    let zero = Double::from_f64(0.0);
-    let mut rows: Vec<Moments> = Vec::with_capacity(links.len());
+fn moments<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<Moments<S>> {
+    let zero = S::from_f64(0.0);
+    let mut rows: Vec<Moments<S>> = Vec::with_capacity(links.len());
     for (link, carries) in links.iter().zip(carries) {
         let [along, across] = link.com;
         let moment = link.com.map(|place| link.mass * place);
@@ -172,7 +172,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
             false => (
                 zero,
                 moment.map(|moment| moment / inertia),
-                Double::from_f64(1.0) / inertia,
+                S::from_f64(1.0) / inertia,
             ),
         };
         if let (false, Some(parent)) = (carries, link.parent.and_then(|at| rows.get_mut(at))) {
@@ -180,7 +180,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
             let first = [link.mass * along, link.mass * across];
             parent.inertia = parent.inertia + first[0] * along + first[1] * across;
             parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
-            parent.mass += link.mass;
+            parent.mass = parent.mass + link.mass;
         }
         rows.push(Moments {
             inertia,
