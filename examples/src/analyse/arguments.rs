@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 
 use crate::branched_double::Friction;
-use crate::measured_file::MeasuredFile;
 use branched_pendulum_program::frame::command_line::number;
+use branched_pendulum_program::measured_file::MeasuredFile;
 
 /// From measured angles of a pendulum to its energy and power with their errors: of the
 /// paper's pendulum H_d and W, of a chain of two links H and the power of friction. The

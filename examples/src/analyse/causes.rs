@@ -12,9 +12,9 @@ use super::source::Source;
 use super::subject::Subject;
 use super::verdict::Verdict;
 use super::wrong_pictures;
-use crate::measured_file::{MeasuredFile, Zero};
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::Progress;
+use branched_pendulum_program::measured_file::{MeasuredFile, Zero};
 
 /// Draws from which the closure of another reading follows; so many less where that is hopeless.
 const DRAWS: usize = 40;

@@ -8,9 +8,9 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::motion::{Disturbances, Motion, Record, Smoothed, one_by_one};
 use super::subject::Subject;
 use branched_pendulum_program::Failure;
+use branched_pendulum_program::smoothed::{Disturbances, Motion, Record, Smoothed, one_by_one};
 
 /// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {

@@ -3,7 +3,7 @@
 //! - [`arguments`]: the command line,
 //! - [`subject`]: the pendulums, [`scenes`] and [`parameters`]: their descriptions,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
-//! - [`motion`]: motions that the angles allow, [`estimate`]: what follows from them,
+//! - [`estimate`]: what follows from motions that the angles allow,
 //! - [`verdict`]: whether the energy budget closes, [`causes`]: readings of the table by which it
 //!   does, [`least`] and [`wrong_pictures`]: what they take from the data,
 //! - [`spectrogram`]: lines of the motion,
@@ -15,7 +15,6 @@ pub mod causes;
 pub mod charts;
 pub mod estimate;
 pub mod least;
-pub mod motion;
 pub mod parameters;
 pub mod report;
 pub mod scenes;
@@ -35,8 +34,8 @@ pub use subject::{Subject, TwoLinks};
 use branched_pendulum::Parametric;
 use branched_pendulum_data::{Table, TableOptions};
 
+use crate::analyse::scenes::Chain;
 use crate::branched_double::Apparatus;
-use crate::identify::scene::Chain;
 use arguments::Tree;
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::{Job, Progress};

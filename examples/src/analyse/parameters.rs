@@ -6,7 +6,7 @@ use std::path::Path;
 use branched_pendulum::Parametric;
 use serde_json::{Map, Value};
 
-use crate::identify::scene::Chain;
+use super::scenes::Chain;
 use branched_pendulum_program::Failure;
 
 /// Values that the authors of the measured double pendulum fitted (K. Kaheman et al.,

@@ -1,4 +1,4 @@
-//! The paper's apparatus as it may really be.
+//! The paper's apparatus as it may really be, and a chain all of whose properties are parameters.
 
 use branched_pendulum::branched_pendulum;
 
@@ -11,3 +11,17 @@ use branched_pendulum::branched_pendulum;
     emit(energies, momenta, symmetric, transfer(exact)),
 )]
 pub struct RealApparatus;
+
+/// A chain of two links.
+#[branched_pendulum(
+    gravity = gravity,
+    upper(mass = mass_1, com = com_1, inertia = inertia_1, joint = joint_1,
+        friction(viscous = viscous_1, coulomb = coulomb_1, width = 0.05),
+        drag(quadratic = quadratic_1, width = 0.05)) [
+        lower(mass = mass_2, com = com_2, inertia = inertia_2,
+            friction(viscous = viscous_2, coulomb = coulomb_2, width = 0.05),
+            drag(quadratic = quadratic_2, width = 0.05))
+    ],
+    emit(energies, modes),
+)]
+pub struct Chain;

@@ -4,8 +4,8 @@ use branched_pendulum_data::{Finding, Table};
 
 use super::arguments::Arguments;
 use super::camera::{Camera, Real, Release, Truth};
-use super::motion::Record;
 use branched_pendulum_program::Failure;
+use branched_pendulum_program::smoothed::Record;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;
@@ -31,7 +31,9 @@ impl<const N: usize> Source<N> {
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
     pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
-        let recording = arguments.measured.angles(table, N)?;
+        // Links of both pendulums hang on the first.
+        let parents: [Option<usize>; N] = std::array::from_fn(|link| (link > 0).then_some(0));
+        let recording = arguments.measured.angles(table, &parents)?;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
         let rows = (0..recording.times.len()).step_by(arguments.every);

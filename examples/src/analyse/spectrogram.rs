@@ -5,11 +5,11 @@ use branched_pendulum_data::Column;
 use branched_pendulum_measure::{LineSearch, Lines, Passage, Passages, Spectrum, SpectrumOptions};
 
 use super::estimate::Estimate;
-use super::motion::Motion;
 use super::source::Source;
 use super::subject::Names;
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::Job;
+use branched_pendulum_program::smoothed::Motion;
 
 /// Length of a stretch, s: longer than ten swings of the pendulums here.
 const SPAN: f64 = 10.0;

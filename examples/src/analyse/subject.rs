@@ -6,10 +6,10 @@ use branched_pendulum::scalar::Dual;
 use branched_pendulum::{Model, Parametric};
 use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 
-use super::motion::{Motion, Record, Smoothed, by_equations};
+use super::scenes::Chain;
 use crate::branched_double::apparatus::EXACT;
 use crate::branched_double::{Apparatus, Friction};
-use crate::identify::scene::Chain;
+use branched_pendulum_program::smoothed::{Motion, Record, Smoothed, by_equations};
 
 /// Names of what is told about a pendulum.
 #[derive(Clone, Copy, Debug)]

@@ -11,11 +11,11 @@ use super::arguments::Arguments;
 use super::estimate::{Draws, Estimate, Measured, quantity};
 use super::parameters::fitted;
 use super::report::{Trust, power_error};
+use super::scenes::Chain;
 use super::source::Source;
 use super::spectrogram::Spectrogram;
 use super::subject::{Subject, TwoLinks};
 use crate::branched_double::{Apparatus, Friction};
-use crate::identify::scene::Chain;
 
 const DRAWS: Draws = Draws { count: 50, seed: 7 };
 

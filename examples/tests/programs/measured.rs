@@ -1,5 +1,4 @@
-//! Files of measurements as `analyse` and `identify` take them: options, refusals, and where
-//! both lead.
+//! Files of measurements as `analyse` takes them: options, refusals, and where both lead.
 
 use std::fmt::Write;
 use std::fs;
@@ -8,7 +7,6 @@ use std::path::PathBuf;
 use super::{folder, run, text};
 
 const ANALYSE: &str = env!("CARGO_BIN_EXE_analyse");
-const IDENTIFY: &str = env!("CARGO_BIN_EXE_identify");
 
 /// Angles of a chain of two links in a small swing, at 40 times.
 fn swing() -> Vec<(f64, [f64; 2])> {
@@ -173,9 +171,8 @@ fn times_are_named_and_repeated_ones_dropped() {
     }
 }
 
-/// Both programs read alike: what one refuses the other does, in the same words.
 #[test]
-fn both_programs_refuse_alike() {
+fn files_that_cannot_be_read_are_refused() {
     let of_points = file("positions", "t,x,y", |time, [one, _]| {
         format!("{time},{},{}", 0.25 * one.sin(), -0.25 * one.cos())
     });
@@ -208,37 +205,28 @@ fn both_programs_refuse_alike() {
             "angles of 1 links where the pendulum has 2",
         ),
     ] {
-        for program in [ANALYSE, IDENTIFY] {
-            let output = file.with_file_name("refused");
-            let tree = if program == ANALYSE {
-                "--pendulum"
-            } else {
-                "--tree"
-            };
-            let mut words = vec![file.to_str().unwrap(), tree, "chain"];
-            words.extend(["--output", output.to_str().unwrap()]);
-            words.extend(options);
-            let done = run(program, &words);
-            let error = text(&done.stderr);
-            assert_eq!(done.status.code(), Some(1), "{options:?}: {error}");
-            assert!(error.contains(expected), "{options:?}: {error}");
-        }
+        let output = file.with_file_name("refused");
+        let mut words = vec![file.to_str().unwrap(), "--pendulum", "chain"];
+        words.extend(["--output", output.to_str().unwrap()]);
+        words.extend(options);
+        let done = run(ANALYSE, &words);
+        let error = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(1), "{options:?}: {error}");
+        assert!(error.contains(expected), "{options:?}: {error}");
     }
-    for program in [ANALYSE, IDENTIFY] {
-        for (line, expected) in [
-            (
-                "a.csv --columns a --dots a:b",
-                "angles come from one of them",
-            ),
-            ("a.csv --time t --frame-rate 60", "cannot be used with"),
-            ("a.csv --pivot 1", "X,Y, or `origin`"),
-            ("--columns a,b", "--columns is of a file of measurements"),
-        ] {
-            let words: Vec<&str> = line.split_whitespace().collect();
-            let done = run(program, &words);
-            let error = text(&done.stderr);
-            assert_eq!(done.status.code(), Some(2), "{line}: {error}");
-            assert!(error.contains(expected), "{line}: {error}");
-        }
+    for (line, expected) in [
+        (
+            "a.csv --columns a --dots a:b",
+            "angles come from one of them",
+        ),
+        ("a.csv --time t --frame-rate 60", "cannot be used with"),
+        ("a.csv --pivot 1", "X,Y, or `origin`"),
+        ("--columns a,b", "--columns is of a file of measurements"),
+    ] {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let done = run(ANALYSE, &words);
+        let error = text(&done.stderr);
+        assert_eq!(done.status.code(), Some(2), "{line}: {error}");
+        assert!(error.contains(expected), "{line}: {error}");
     }
 }

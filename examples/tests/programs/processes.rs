@@ -23,7 +23,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 13] = [
+const PROGRAMS: [Program; 12] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.5", "--duration", "4", "--rate", "50"],
@@ -39,10 +39,6 @@ const PROGRAMS: [Program; 13] = [
     Program {
         path: env!("CARGO_BIN_EXE_analyse"),
         arguments: &["--duration", "1", "--draws", "50"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_identify"),
-        arguments: &["--duration", "5", "--laws", "viscous"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_transfer-orders"),
@@ -218,7 +214,7 @@ fn interrupted(program: &Program, moment: u32, after: Duration) {
 
 /// The programs that end within some seconds: the first ones.
 fn quick() -> impl Iterator<Item = &'static Program> {
-    PROGRAMS.iter().take(5)
+    PROGRAMS.iter().take(4)
 }
 
 /// `| head -1`: the first line is read, then the pipe is closed.
@@ -289,7 +285,6 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
             "branched-double" => "samples-40.0deg.csv",
             "advise" => "advice.csv",
             "analyse" => "estimate.csv",
-            "identify" => "parameters.json",
             _ => "onset.csv",
         };
         fs::create_dir_all(folder.join(name)).unwrap();

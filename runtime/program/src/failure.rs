@@ -36,7 +36,7 @@ pub enum Failure {
     },
     /// A file with a description that could not be read.
     #[error(
-        "there is no tree `{name}`: neither a shipped one (paper, chain, triple, y, branch, cascade) nor a file that can be read"
+        "there is no tree `{name}`: neither a shipped one (paper, apparatus, double-pendulum, chain, triple, y, branch, cascade) nor a file that can be read"
     )]
     NoTree {
         /// The name given.

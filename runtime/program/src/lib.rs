@@ -6,8 +6,10 @@ pub mod commands;
 pub mod failure;
 pub mod film;
 pub mod frame;
+pub mod measured_file;
 pub mod motion;
 pub mod release;
+pub mod smoothed;
 pub mod subject;
 pub mod windows;
 

@@ -10,7 +10,8 @@ use crate::subject::Subject;
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct ReleaseArguments {
     /// angles at the start from the vertical, degrees: of all links in their order, or of those
-    /// named, others being where they rest; a name without the number of a copy is all copies
+    /// named, others being where they rest; a name without the number of a copy is all copies;
+    /// `apart`: 45° of the first link and less, a different angle, of each other one, from rest
     #[arg(
         verbatim_doc_comment,
         long,
@@ -43,10 +44,27 @@ impl ReleaseArguments {
             Ok(subject.tree.equilibrium(&zeros)?)
         };
         let zeros = |subject: &Subject| Ok(vec![0.0; subject.tree.links()]);
-        let mut values = of_links(subject, "--start", &self.start, rest)?;
+        let mut values = match self.start.trim() {
+            APART => apart(rest(subject)?),
+            start => of_links(subject, "--start", start, rest)?,
+        };
         values.extend(of_links(subject, "--rates", &self.rates, zeros)?);
         Ok(State::new(0.0, values))
     }
+}
+
+/// The start of links that are all at angles of their own.
+pub(crate) const APART: &str = "apart";
+
+/// Turns links from where they rest, by at most 45°: multiples of the golden ratio, of which
+/// no two have equal fractions, keep them apart.
+fn apart(mut rest: Vec<f64>) -> Vec<f64> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for (link, angle) in rest.iter_mut().enumerate() {
+        let fraction = (link as f64 * GOLDEN).fract();
+        *angle += std::f64::consts::FRAC_PI_4 * (1.0 - 2.0 * fraction);
+    }
+    rest
 }
 
 /// A number for each link, given in degrees.

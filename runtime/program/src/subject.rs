@@ -5,7 +5,7 @@ use std::io::Read;
 use branched_pendulum::Positions;
 use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::Model;
-use branched_pendulum_trees::{PendulumTree, TreeDescription};
+use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 use crate::Failure;
 use crate::frame::command_line::parts;
@@ -14,7 +14,7 @@ use crate::frame::command_line::parts;
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct TreeArguments {
     /// the tree: a text file with its description, `-` for standard input, or a shipped one:
-    /// paper, chain, triple, y, branch, cascade
+    /// paper, apparatus, double-pendulum, chain, triple, y, branch, cascade
     #[arg(
         verbatim_doc_comment,
         long,
@@ -36,11 +36,51 @@ struct Shipped {
     values: &'static [(&'static str, f64)],
 }
 
-const SHIPPED: [Shipped; 6] = [
+const SHIPPED: [Shipped; 8] = [
     Shipped {
         name: "paper",
         text: include_str!("../trees/paper.txt"),
         values: &[("friction", 0.0)],
+    },
+    Shipped {
+        name: "apparatus",
+        text: include_str!("../trees/apparatus.txt"),
+        values: &[
+            ("gravity", 9.80665),
+            ("mass_1", 0.12880),
+            ("com_1", 0.084),
+            ("inertia_1", 1.88e-3),
+            ("joint_1", 0.27),
+            ("viscous_1", 1e-4),
+            ("coulomb_1", 0.0),
+            ("quadratic_1", 0.0),
+            ("mass_2", 0.10531),
+            ("com_2", 0.043),
+            ("inertia_2", 0.516e-3),
+            ("viscous_2", 2e-5),
+            ("coulomb_2", 0.0),
+            ("quadratic_2", 0.0),
+        ],
+    },
+    Shipped {
+        name: "double-pendulum",
+        text: include_str!("../trees/double-pendulum.txt"),
+        values: &[
+            ("gravity", 9.80665),
+            ("mass_1", 0.11),
+            ("com_1", 0.10),
+            ("inertia_1", 4e-4),
+            ("joint_1", 0.17),
+            ("viscous_1", 2e-4),
+            ("coulomb_1", 0.0),
+            ("quadratic_1", 0.0),
+            ("mass_2", 0.12),
+            ("com_2", 0.13),
+            ("inertia_2", 1.1e-3),
+            ("viscous_2", 2e-5),
+            ("coulomb_2", 0.0),
+            ("quadratic_2", 0.0),
+        ],
     },
     Shipped {
         name: "chain",
@@ -84,37 +124,66 @@ pub struct Subject {
     pub tree: PendulumTree,
 }
 
+/// A description that was read, with the values that are given for its parameters.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// Name for titles: that of a shipped tree, or of the file.
+    pub name: String,
+    /// The description as it was read.
+    pub text: String,
+    /// The description.
+    pub description: TreeDescription,
+    /// Values by `--set`.
+    pub set: Vec<(String, f64)>,
+    /// Values that a shipped tree has where none are set.
+    pub defaults: &'static [(&'static str, f64)],
+}
+
 impl TreeArguments {
     /// Reads the tree.
     ///
     /// # Errors
-    /// [`Failure::Unread`] where there is no such file; [`Failure::Tree`] with all mistakes of the
+    /// [`Failure::NoTree`] where there is no such file; [`Failure::Tree`] with all mistakes of the
     /// description, and for values that it has not or no pendulum can have.
     pub fn read(&self) -> Result<Subject, Failure> {
+        let described = self.described()?;
+        let set = described.set.iter();
+        let mut values: Vec<(&str, f64)> =
+            set.map(|(name, value)| (name.as_str(), *value)).collect();
+        for &(name, value) in described.defaults {
+            if values.iter().all(|(own, _)| *own != name) {
+                values.push((name, value));
+            }
+        }
+        described.subject(&values)
+    }
+
+    /// Reads the description, without a value for each of its parameters.
+    ///
+    /// # Errors
+    /// [`Failure::NoTree`], and [`Failure::Tree`] with all mistakes of the description.
+    pub fn described(&self) -> Result<Described, Failure> {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.tree);
         let (text, defaults) = match shipped {
             Some(shipped) => (shipped.text.to_owned(), shipped.values),
             None => (self.text()?, [].as_slice()),
         };
-        let refused = |source| Failure::Tree {
+        let description = TreeDescription::parse(&text);
+        let description = description.map_err(|error| Failure::Tree {
             name: self.tree.clone(),
-            source,
-        };
-        let description = TreeDescription::parse(&text).map_err(|error| refused(error.into()))?;
-        let set = self.set.iter().flatten();
-        let mut values: Vec<(&str, f64)> =
-            set.map(|(name, value)| (name.as_str(), *value)).collect();
-        for &(name, value) in defaults {
-            if values.iter().all(|(own, _)| *own != name) {
-                values.push((name, value));
-            }
-        }
-        let tree = description.tree(&values).map_err(refused)?;
+            source: error.into(),
+        })?;
         let name = match std::path::Path::new(&self.tree).file_name() {
             Some(name) => name.to_string_lossy().into_owned(),
             None => self.tree.clone(),
         };
-        Ok(Subject { name, text, tree })
+        Ok(Described {
+            name,
+            text,
+            description,
+            set: self.set.concat(),
+            defaults,
+        })
     }
 
     fn text(&self) -> Result<String, Failure> {
@@ -127,6 +196,30 @@ impl TreeArguments {
             name: self.tree.clone(),
             source,
         })
+    }
+}
+
+impl Described {
+    /// Returns the tree with these values of its parameters.
+    ///
+    /// # Errors
+    /// [`Failure::Tree`] for names that it has not, parameters without a value, and values that
+    /// no pendulum can have.
+    pub fn subject(&self, values: &[(&str, f64)]) -> Result<Subject, Failure> {
+        let tree = self.description.tree(values);
+        Ok(Subject {
+            name: self.name.clone(),
+            text: self.text.clone(),
+            tree: tree.map_err(|source| self.refused(source))?,
+        })
+    }
+
+    /// Returns a mistake in what is asked of the tree, with its name.
+    pub fn refused(&self, source: TreeError) -> Failure {
+        Failure::Tree {
+            name: self.name.clone(),
+            source,
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! The drive: torque and motion from outside as functions of time.
 
-use branched_pendulum::scalar::{Double, Dual, Scalar};
+use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::tree::RootDrive;
-use branched_pendulum_codegen::scene::{Drive, Signal, SignalAtom, TimeFunction};
+use branched_pendulum_codegen::scene::{Drive, Quantity, Scene, Signal, SignalAtom, TimeFunction};
 
-use crate::numbers::{evaluate, value};
+use crate::numbers::evaluate;
 
 /// The drive in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,12 +37,11 @@ fn acceleration<T: Scalar>(signal: &Signal<T>, time: T) -> T {
 }
 
 impl<T: Scalar> Courses<T> {
-    pub(crate) fn of(drive: &Drive, stands: bool, parameters: &[Double]) -> Self {
-        let drive = drive.map(&|quantity| {
-            let number = value(quantity, parameters);
-            T::from_parts(number.high(), number.low())
-        });
-        Self { drive, stands }
+    /// Returns the drive of a scene, whose quantities `constant` takes to numbers.
+    pub(crate) fn of(scene: &Scene, constant: &impl Fn(&Quantity) -> T) -> Option<Self> {
+        let drive = scene.drive.as_ref()?.map(constant);
+        let stands = scene.stands();
+        Some(Self { drive, stands })
     }
 
     pub(crate) fn cast<S>(&self, convert: &impl Fn(T) -> S) -> Courses<S> {

@@ -24,6 +24,7 @@ mod error;
 mod forms;
 mod model;
 mod numbers;
+mod parametric;
 #[cfg(feature = "strips")]
 mod prescribed;
 mod rows;
@@ -39,4 +40,5 @@ mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
+pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
 pub use tree::PendulumTree;

@@ -16,26 +16,26 @@ use crate::error::TreeError;
 
 /// A link. SI units; places are along the link and across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct LinkNumbers {
+pub(crate) struct LinkNumbers<S = Double> {
     pub(crate) parent: Option<usize>,
-    pub(crate) mass: Double,
-    pub(crate) inertia: Double,
-    pub(crate) com: [Double; 2],
-    pub(crate) pivot: [Double; 2],
-    pub(crate) end: [Double; 2],
-    pub(crate) passive: PassiveTorques<Double>,
+    pub(crate) mass: S,
+    pub(crate) inertia: S,
+    pub(crate) com: [S; 2],
+    pub(crate) pivot: [S; 2],
+    pub(crate) end: [S; 2],
+    pub(crate) passive: PassiveTorques<S>,
 }
 
 /// The value of a quantity.
-pub(crate) fn value(quantity: &Quantity, parameters: &[Double]) -> Double {
+pub(crate) fn value<S: Scalar>(quantity: &Quantity, parameters: &[S]) -> S {
     evaluate(quantity, &|atom| match atom {
         QuantityAtom::Exact(exact) => {
             let (high, low) = exact.to_parts();
-            Double::from_parts(high, low)
+            S::from_parts(high, low)
         }
         QuantityAtom::Parameter(id) => match parameters.get(id.0) {
             Some(&value) => value,
-            None => Double::from_f64(f64::NAN),
+            None => S::from_f64(f64::NAN),
         },
     })
 }
@@ -124,11 +124,8 @@ fn refusal(what: String, error: &ParameterError) -> TreeError {
 /// # Errors
 /// A number that is not finite, and a link that can turn without kinetic energy.
 pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumbers>, TreeError> {
-    let own: Vec<LinkNumbers> = scene
-        .links
-        .iter()
-        .map(|link| numbers(link, parameters))
-        .collect();
+    let own = scene.links.iter().map(|link| numbers(link, parameters));
+    let own: Vec<LinkNumbers> = own.collect();
     for (link, numbers) in scene.links.iter().zip(&own) {
         for (name, value) in named(numbers) {
             require(|| format!("{name} of `{}`", link.name), value, Sign::Any)?;
@@ -145,12 +142,22 @@ pub(crate) fn links(scene: &Scene, parameters: &[Double]) -> Result<Vec<LinkNumb
             requirement: "positive",
         });
     }
+    Ok(in_places(scene, &own))
+}
+
+/// The same links, in numbers that are taken as they are.
+pub(crate) fn links_as_given<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<LinkNumbers<S>> {
+    let own = scene.links.iter().map(|link| numbers(link, parameters));
+    in_places(scene, &own.collect::<Vec<_>>())
+}
+
+fn in_places<S: Scalar>(scene: &Scene, own: &[LinkNumbers<S>]) -> Vec<LinkNumbers<S>> {
     let places = places(scene).into_iter();
     let links = places.filter_map(|Place { link, parent, .. }| {
         let numbers = *own.get(link)?;
         Some(LinkNumbers { parent, ..numbers })
     });
-    Ok(links.collect())
+    links.collect()
 }
 
 /// A link of the whole tree.
@@ -209,7 +216,7 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
     names.collect()
 }
 
-fn numbers(link: &Link, parameters: &[Double]) -> LinkNumbers {
+fn numbers<S: Scalar>(link: &Link, parameters: &[S]) -> LinkNumbers<S> {
     let at = |quantity: &Quantity| value(quantity, parameters);
     let point = |offset: &Offset| [at(&offset.along), at(&offset.lateral)];
     LinkNumbers {

@@ -33,7 +33,7 @@ impl Form {
     }
 
     /// Returns the constants of the equations, a row for each link.
-    pub(crate) fn rows(self, links: &[LinkNumbers], carries: &[bool]) -> Vec<Double> {
+    pub(crate) fn rows<S: Scalar>(self, links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<S> {
         let moments = moments(links, carries).into_iter();
         let rows = moments.zip(links);
         match self {
@@ -78,8 +78,8 @@ fn are_straight(links: &[LinkNumbers]) -> bool {
 }
 
 /// The place of the pivot of each link's last child, along the link.
-fn attachments(links: &[LinkNumbers]) -> Vec<Double> {
-    let mut places = vec![Double::from_f64(0.0); links.len()];
+fn attachments<S: Scalar>(links: &[LinkNumbers<S>]) -> Vec<S> {
+    let mut places = vec![S::from_f64(0.0); links.len()];
     for link in links {
         if let Some(place) = link.parent.and_then(|parent| places.get_mut(parent)) {
             *place = link.pivot[0];
@@ -91,18 +91,18 @@ fn attachments(links: &[LinkNumbers]) -> Vec<Double> {
 /// Moments of a link: those of the derived balance of one link (`docs/pipeline.md`),
 /// M = m (d² + e²) + I + σ (ℓ² + w²), h = m d + σ ℓ, h⊥ = m e + σ w, S = m + σ.
 #[derive(Clone, Copy, Debug)]
-struct Moments {
-    inertia: Double,
-    moment: [Double; 2],
-    mass: Double,
+struct Moments<S> {
+    inertia: S,
+    moment: [S; 2],
+    mass: S,
     /// h/M and h⊥/M of a link without children.
-    gain: [Double; 2],
-    inverse_inertia: Double,
+    gain: [S; 2],
+    inverse_inertia: S,
 }
 
-impl Moments {
+impl<S: Scalar> Moments<S> {
     /// Returns the constants of the straight equations; `place` is that of the children.
-    fn straight(self, place: Double) -> StraightRow<Double> {
+    fn straight(self, place: S) -> StraightRow<S> {
         let Self {
             inertia,
             moment: [moment, _],
@@ -121,7 +121,7 @@ impl Moments {
     }
 
     /// Returns the constants of the general equations.
-    fn general(self, link: &LinkNumbers) -> GeneralRow<Double> {
+    fn general(self, link: &LinkNumbers<S>) -> GeneralRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         GeneralRow {
             inertia: self.inertia,
@@ -137,12 +137,12 @@ impl Moments {
             drag: passive.drag,
             spring: passive.spring,
             rest: passive.rest,
-            drive_torque: Double::from_f64(0.0),
+            drive_torque: S::from_f64(0.0),
         }
     }
 
     /// Returns the constants of the equations of all kinds of friction.
-    fn rough(self, link: &LinkNumbers) -> RoughRow<Double> {
+    fn rough(self, link: &LinkNumbers<S>) -> RoughRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         let [joint, ground] = &passive.laws;
         RoughRow {
@@ -164,13 +164,13 @@ impl Moments {
             friction_width: joint.width,
             quadratic_drag: ground.quadratic,
             drag_width: ground.width,
-            drive_torque: Double::from_f64(0.0),
+            drive_torque: S::from_f64(0.0),
         }
     }
 
     /// Returns the constants of the equations of links that may be held.
     #[cfg(feature = "strips")]
-    fn held(self, link: &LinkNumbers) -> HeldRow<Double> {
+    fn held(self, link: &LinkNumbers<S>) -> HeldRow<S> {
         let ([along, across], passive) = (link.pivot, &link.passive);
         let [joint, ground] = &passive.laws;
         HeldRow {
@@ -190,10 +190,12 @@ impl Moments {
             friction_width: joint.width,
             quadratic_drag: ground.quadratic,
             drag_width: ground.width,
-            drive_torque: Double::from_f64(0.0),
+            drive_torque: S::from_f64(0.0),
         }
     }
+}
 
+impl Moments<Double> {
     /// Returns the constants of the equations of trees by rule, with those of energies;
     /// children hang at `place`.
     fn by_rule(
@@ -245,7 +247,7 @@ impl Moments {
 }
 
 /// The links' parents, and which of the links have children.
-pub(crate) fn parents(links: &[LinkNumbers]) -> (Vec<u32>, Vec<bool>) {
+pub(crate) fn parents<S>(links: &[LinkNumbers<S>]) -> (Vec<u32>, Vec<bool>) {
     let mut carries = vec![false; links.len()];
     let parents = links.iter().map(|link| {
         let parent = link.parent.unwrap_or(0);
@@ -258,9 +260,9 @@ pub(crate) fn parents(links: &[LinkNumbers]) -> (Vec<u32>, Vec<bool>) {
     (parents.collect(), carries)
 }
 
-fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
-    let zero = Double::from_f64(0.0);
-    let mut rows: Vec<Moments> = Vec::with_capacity(links.len());
+fn moments<S: Scalar>(links: &[LinkNumbers<S>], carries: &[bool]) -> Vec<Moments<S>> {
+    let zero = S::from_f64(0.0);
+    let mut rows: Vec<Moments<S>> = Vec::with_capacity(links.len());
     for (link, carries) in links.iter().zip(carries) {
         let [along, across] = link.com;
         let moment = link.com.map(|place| link.mass * place);
@@ -270,7 +272,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
             false => (
                 zero,
                 moment.map(|moment| moment / inertia),
-                Double::from_f64(1.0) / inertia,
+                S::from_f64(1.0) / inertia,
             ),
         };
         if let (false, Some(parent)) = (carries, link.parent.and_then(|at| rows.get_mut(at))) {
@@ -278,7 +280,7 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
             let first = [link.mass * along, link.mass * across];
             parent.inertia = parent.inertia + first[0] * along + first[1] * across;
             parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
-            parent.mass += link.mass;
+            parent.mass = parent.mass + link.mass;
         }
         rows.push(Moments {
             inertia,

@@ -14,7 +14,7 @@ use crate::drive::Courses;
 use crate::equations::GeneralEquations;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
-use crate::numbers;
+use crate::numbers::{self, LinkNumbers};
 #[cfg(feature = "strips")]
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
@@ -131,16 +131,27 @@ impl<T: Scalar> PendulumTree<T> {
         let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
         numbers::check(scene, &parameters)?;
         let links = numbers::links(scene, &parameters)?;
+        Ok(Self::of_links(description, values, &links))
+    }
+
+    /// Returns the tree of these links, which those values make.
+    pub(crate) fn of_links(
+        description: TreeDescription,
+        values: Vec<f64>,
+        links: &[LinkNumbers],
+    ) -> Self {
+        let scene = &description.scene;
+        let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
         let gravity = numbers::value(&scene.gravity, &parameters);
-        let (parents, carries) = rows::parents(&links);
+        let (parents, carries) = rows::parents(links);
         let (drive, stands) = (scene.drive.as_ref(), scene.stands());
         let above = constant(-gravity);
-        let form = Form::of(&links, drive.is_some());
-        let rows = in_numbers(&form.rows(&links, &carries));
-        let rule = ByRule::of(&links, &carries, gravity);
+        let form = Form::of(links, drive.is_some());
+        let rows = in_numbers(&form.rows(links, &carries));
+        let rule = ByRule::of(links, &carries, gravity);
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
-            in_numbers(&rows::held(&links, &carries))
+            in_numbers(&rows::held(links, &carries))
         });
         let equations = Equations::new(form, &parents, rows, above);
         // All that is no constant: trees in the lanes of one share it.
@@ -160,21 +171,23 @@ impl<T: Scalar> PendulumTree<T> {
             description: description.clone(),
             values,
         };
-        Ok(Self {
+        Self {
             described: Arc::new(described),
             equations,
             bodies: FormBodies::new(
                 form,
                 shape.clone(),
-                in_numbers(&form.bodies(&links, gravity)),
+                in_numbers(&form.bodies(links, gravity)),
             ),
-            properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links)))
+            properties: PropertyTable::new(shape, in_numbers(&rows::properties(links)))
                 .standing(stands),
-            drive: drive.map(|drive| Courses::of(drive, stands, &parameters)),
+            drive: Courses::of(scene, &|quantity| {
+                constant(numbers::value(quantity, &parameters))
+            }),
             rule,
             #[cfg(feature = "strips")]
             held,
-        })
+        }
     }
 
     /// Returns the tree with another value of a parameter.

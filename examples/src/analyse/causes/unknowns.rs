@@ -4,7 +4,7 @@ use super::super::estimate::{Estimate, Measured, quantity};
 use super::super::least::{self, Unknown};
 use super::super::verdict::Verdict;
 use super::{Cause, FRICTION, Unclosed};
-use crate::measured_file::MeasuredFile;
+use branched_pendulum_program::measured_file::MeasuredFile;
 
 impl<const N: usize> Unclosed<'_, N> {
     /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.

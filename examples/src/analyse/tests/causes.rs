@@ -19,8 +19,8 @@ use super::super::subject::{Subject, TwoLinks};
 use super::super::verdict::Verdict;
 use super::super::{Arguments, Source};
 use super::super::{judged, run};
+use crate::analyse::scenes::Chain;
 use crate::branched_double::{Apparatus, Friction};
-use crate::identify::scene::Chain;
 use branched_pendulum_program::frame::{Job, Progress};
 
 /// Angles of links against time.

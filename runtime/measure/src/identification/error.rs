@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::convergence::Unfound;
+use super::family::ImpossibleValue;
 use crate::SmoothingError;
-use branched_pendulum::model::ParameterError;
 
 /// Why parameters were not identified.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub enum IdentificationError {
         value: f64,
     },
     /// A start from which no model can be made.
-    Start(ParameterError),
+    Start(ImpossibleValue),
     /// A time that is not finite or not later than the one before.
     Time {
         /// Index of the time.

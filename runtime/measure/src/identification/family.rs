@@ -1,10 +1,46 @@
 //! Equations of motion for every set of parameters.
 
+use core::fmt;
 use core::marker::PhantomData;
 
+use branched_pendulum::emitted::shown;
 use branched_pendulum::model::ParameterError;
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::system::{AbsoluteAngles, Model, Ode, Parametric};
+
+/// A value that no model of a family can have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpossibleValue {
+    /// The quantity, as in "mass of `child`".
+    pub what: String,
+    /// Value of the quantity, in SI units.
+    pub value: f64,
+    /// The condition on it, as in "positive".
+    pub requirement: &'static str,
+}
+
+impl fmt::Display for ImpossibleValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            what,
+            value,
+            requirement,
+        } = self;
+        write!(f, "{what} is {}, must be {requirement}", shown(*value))
+    }
+}
+
+impl core::error::Error for ImpossibleValue {}
+
+impl From<ParameterError> for ImpossibleValue {
+    fn from(error: ParameterError) -> Self {
+        Self {
+            what: error.what.to_owned(),
+            value: error.value,
+            requirement: error.requirement,
+        }
+    }
+}
 
 /// Equations of motion with named parameters. Models of the attribute are such by
 /// [`FamilyOf`]; equations of one's own, torques from outside for example, implement it.
@@ -26,8 +62,8 @@ pub trait Family: Sync {
     ///
     /// # Errors
     ///
-    /// The first parameter that no pendulum can have.
-    fn check(&self, values: &[f64]) -> Result<(), ParameterError>;
+    /// The first value that no pendulum can have.
+    fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue>;
 }
 
 /// All models of one description in absolute angles.
@@ -76,8 +112,8 @@ impl<M: Parametric<f64>> Family for FamilyOf<M> {
         AbsoluteAngles(M::with_parameters(|index| value_at(values, index)))
     }
 
-    fn check(&self, values: &[f64]) -> Result<(), ParameterError> {
-        M::check_parameters(|index| value_at(values, index))
+    fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue> {
+        Ok(M::check_parameters(|index| value_at(values, index))?)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::convergence::Convergence;
 use super::error::IdentificationError;
+use super::family::ImpossibleValue;
 use super::identifiability::Identifiability;
-use branched_pendulum::model::ParameterError;
 use branched_pendulum::system::State;
 
 /// Parameters that a record determines, with their errors.
@@ -28,7 +28,7 @@ pub struct Fit {
     pub blocks: usize,
     /// The first value found that no pendulum can have: a friction below zero says that the law of
     /// friction is another one, an inertia below zero that something is held where it is not.
-    pub impossible: Option<ParameterError>,
+    pub impossible: Option<ImpossibleValue>,
     /// Values of all parameters of the model.
     pub(super) values: Vec<f64>,
     /// Offset of each measured link, rad.

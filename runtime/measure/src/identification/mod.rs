@@ -67,7 +67,7 @@ mod task;
 
 pub use convergence::{Convergence, SearchFailure, Unfound};
 pub use error::IdentificationError;
-pub use family::{Family, FamilyOf};
+pub use family::{Family, FamilyOf, ImpossibleValue};
 pub use fit::{AngleErrors, Fit, ParameterEstimate, StageReport, Standing};
 pub use frequencies::Frequency;
 pub use identifiability::{Identifiability, OpenChange};

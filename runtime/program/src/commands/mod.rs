@@ -3,6 +3,7 @@
 pub mod advise;
 pub mod describe;
 pub mod growth;
+pub mod identify;
 pub mod map;
 pub mod methods;
 pub mod modes;
@@ -51,6 +52,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("growth", growth::run),
         subcommand("map", map::run),
         subcommand("transfer", transfer::run),
+        subcommand("identify", identify::run),
         subcommand("methods", methods::run),
         subcommand("advise", advise::run),
     ]
@@ -95,7 +97,7 @@ fn command(all: Vec<Subcommand>) -> Command {
     let own = own.map(|Subcommand { name, command, .. }| command.name(name));
     Command::new(NAME)
         .version(env!("CARGO_PKG_VERSION"))
-        .about("Motions, modes, growth and energy transfers of a pendulum tree from a text file")
+        .about("Motions, modes, growth, energy transfers and measurements of a pendulum tree from a text file")
         .subcommands(own)
         .subcommand(completions)
         .subcommand_required(true)

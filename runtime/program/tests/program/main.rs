@@ -1,11 +1,28 @@
 //! The command, run as its users run it, with trees that nobody compiled.
 
 mod answers;
+mod identify;
 mod refusals;
 mod repeated;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+
+/// Runs the command with these words to its end.
+fn run(words: &[&str]) -> Output {
+    command(words).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// A folder for one test that is not there yet.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
 
 /// Three rods, one below the other.
 const TRIPLE: &str = "gravity = 9.80665,

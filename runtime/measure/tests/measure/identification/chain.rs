@@ -1,9 +1,11 @@
 //! A chain of two links, with friction as real joints have it.
 
+use branched_pendulum::Parametric;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{Torques, UnderTorques};
-use branched_pendulum::{ParameterError, Parametric};
-use branched_pendulum_measure::identification::{AngleRecord, Family, FamilyOf, Identification};
+use branched_pendulum_measure::identification::{
+    AngleRecord, Family, FamilyOf, Identification, ImpossibleValue,
+};
 
 #[branched_pendulum(
     gravity = gravity,
@@ -58,8 +60,8 @@ impl Family for Rubbing {
         UnderTorques::of(chain, Laws([0, 1, 2, 3].map(|law| values[own + law])))
     }
 
-    fn check(&self, values: &[f64]) -> Result<(), ParameterError> {
-        Chain::<f64>::check_parameters(|index| values[index])
+    fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue> {
+        Ok(Chain::<f64>::check_parameters(|index| values[index])?)
     }
 }
 

@@ -1,6 +1,5 @@
 //! The angles: out of a file, or simulated.
 
-use branched_pendulum::prelude::{AbsoluteAngles, Dop853, Integrator, Options, State};
 use branched_pendulum_data::Finding;
 use branched_pendulum_measure::identification::AngleRecord;
 use rand_distr::{Distribution, StandardNormal};
@@ -8,11 +7,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use super::arguments::Arguments;
-use super::scene::{Described, simulated};
-use branched_pendulum_program::Failure;
+use super::unknowns::Unknowns;
+use crate::Failure;
+use crate::motion::sample;
 
-/// Pictures a second of a simulated record.
-const RATE: f64 = 100.0;
 /// Deviation of angles beside each other, rad: all are equally good.
 const DEVIATION: f64 = 1e-3;
 
@@ -36,21 +34,21 @@ pub struct Measurement {
     /// How the file was read.
     pub findings: Vec<Finding>,
     /// Values of all parameters, of a simulated record.
-    pub truth: Option<Vec<(&'static str, f64)>>,
+    pub truth: Option<Vec<(String, f64)>>,
 }
 
 impl Measurement {
-    /// Reads the file of the arguments, or simulates a tree.
+    /// Reads the file of the arguments, or simulates the tree.
     ///
     /// # Errors
-    /// [`Failure::Reading`], [`Failure::Links`] or [`Failure::Integration`].
-    pub fn new<M: Described>(arguments: &Arguments) -> Result<Self, Failure> {
+    /// [`Failure::Reading`] or [`Failure::Links`]; of a simulation [`Failure::Tree`],
+    /// [`Failure::Start`] or [`Failure::Motion`].
+    pub fn new(arguments: &Arguments, unknowns: &Unknowns) -> Result<Self, Failure> {
         let measured = &arguments.measured;
-        // Names are the same whatever the values.
-        let links = M::with_parameters::<f64>(|_| f64::NAN).link_names();
+        let links = unknowns.links();
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let recording = measured.read(file, links.len())?;
+                let recording = measured.read(file, &unknowns.parents())?;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
                 let angles = angles.map(|link| (0..count).map(|index| link.angle(index)).collect());
@@ -58,9 +56,11 @@ impl Measurement {
                 (recording.times, angles, recording.findings, None)
             }
             None => {
-                let (times, angles) = simulate::<M>(arguments)?;
-                let truth = M::PARAMETERS.iter().copied().zip(simulated::<M>());
-                (times, angles, Vec::new(), Some(truth.collect()))
+                let values = unknowns.simulated();
+                let (times, angles) = simulate(arguments, unknowns, &values)?;
+                let names = unknowns.parameters.iter().map(|own| own.name.clone());
+                let truth = names.zip(values).collect();
+                (times, angles, Vec::new(), Some(truth))
             }
         };
         let of = |times: &[f64], angles: &Angles| {
@@ -101,29 +101,26 @@ impl Measurement {
     }
 }
 
-fn simulate<M: Described>(arguments: &Arguments) -> Result<(Vec<f64>, Angles), Failure> {
-    let values = simulated::<M>();
-    let tree = M::with_parameters(|index| values[index]);
-    let count = (arguments.duration * RATE).round() as u32;
-    let times: Vec<f64> = (0..=count)
-        .map(|picture| f64::from(picture) / RATE)
-        .collect();
-    let start = State::at_rest(0.0, M::RELEASE);
-    let method = Dop853::new(Options::with_tolerance(1e-12));
-    let motion = method.sample_to_vec(&AbsoluteAngles(&tree), &start, &times);
-    let motion = motion.map_err(|error| Failure::integration(M::RELEASE[0].to_degrees(), error))?;
+fn simulate(
+    arguments: &Arguments,
+    unknowns: &Unknowns,
+    values: &[f64],
+) -> Result<(Vec<f64>, Angles), Failure> {
+    let subject = unknowns.subject(values)?;
+    let start = arguments.release.state(&subject)?;
+    let count = (arguments.duration * arguments.rate).round() as u32;
+    let times = (0..=count).map(|picture| f64::from(picture) / arguments.rate);
+    let motion = sample(&subject, &arguments.method, &start, times.collect())?;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(arguments.seed);
     let mut noise = || {
         let normal: f64 = StandardNormal.sample(&mut random);
         arguments.noise * normal
     };
-    let angles = (0..tree.links())
+    let angles = (0..subject.parents().len())
         .map(|link| {
-            motion
-                .iter()
-                .map(|state| Some(state.values[link] + noise()))
-                .collect()
+            let states = motion.states.iter();
+            states.map(|state| Some(state[link] + noise())).collect()
         })
         .collect();
-    Ok((times, angles))
+    Ok((motion.times, angles))
 }

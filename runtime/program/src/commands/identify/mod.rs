@@ -1,6 +1,6 @@
 //! Masses, lengths, inertias and friction of a real pendulum from its measured motion.
 //!
-//! - [`arguments`]: the command line, [`scene`]: the two trees,
+//! - [`arguments`]: the command line, [`unknowns`]: what is known of the tree's parameters,
 //! - [`source`]: angles out of a file, or simulated,
 //! - [`study`]: fits with three laws of friction, and what they leave over,
 //! - [`report`]: words and tables, [`charts`]: charts.
@@ -8,20 +8,19 @@
 pub mod arguments;
 pub mod charts;
 pub mod report;
-pub mod scene;
 pub mod source;
 pub mod study;
+pub mod unknowns;
 
 pub use arguments::Arguments;
 pub use source::Measurement;
 pub use study::{Outcome, Study};
+pub use unknowns::Unknowns;
 
-use arguments::Tree;
 use branched_pendulum_measure::IdentificationError;
-use scene::{Branched, Chain, Described};
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use crate::Failure;
+use crate::frame::Job;
 
 /// Reads or simulates the angles, fits them with each law of friction, prints the report and
 /// writes table and chart. Ctrl-C leaves the laws that are done.
@@ -29,22 +28,13 @@ use branched_pendulum_program::frame::Job;
 /// # Errors
 /// [`Failure`]; where no law was found to follow the motion, too, after the report.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
-    match arguments.tree {
-        Tree::Chain => of_tree::<Chain, 2, 4>(arguments, job),
-        Tree::Branched => of_tree::<Branched, 3, 6>(arguments, job),
-    }
-}
-
-/// For a tree of N links and D = 2N.
-fn of_tree<M: Described, const N: usize, const D: usize>(
-    arguments: &Arguments,
-    job: &Job,
-) -> Result<(), Failure> {
-    let measurement = Measurement::new::<M>(arguments)?;
-    let study = Study::<M>::new(arguments, &measurement);
-    let progress = job.progress(arguments.laws.len());
+    let unknowns = Unknowns::new(arguments)?;
+    let measurement = Measurement::new(arguments, &unknowns)?;
+    let study = Study::new(arguments, &unknowns, &measurement);
+    let laws = unknowns.laws(&arguments.laws);
+    let progress = job.progress(laws.len());
     let mut outcomes: Vec<Outcome> = Vec::new();
-    for &law in &arguments.laws {
+    for law in laws {
         if job.is_interrupted() {
             break;
         }
@@ -62,18 +52,19 @@ fn of_tree<M: Described, const N: usize, const D: usize>(
     let reported = outcomes.iter().rfind(|outcome| outcome.result().is_ok());
     let reported = reported.unwrap_or(last);
     let energies = match &reported.one_motion {
-        Ok(fit) => Some(study.energies::<N, D>(reported.law, fit)?),
+        Ok(fit) => study.energies(reported.law, fit)?,
         Err(_) => None,
     };
     job.print(&report::report(
         arguments,
+        &unknowns,
         &measurement,
         &outcomes,
         reported,
         energies.as_ref(),
     ))?;
     report::record(job, &measurement, &outcomes, energies.as_ref());
-    report::write::<M>(job, &measurement, reported, energies.as_ref())?;
+    report::write(job, &unknowns, &measurement, reported, energies.as_ref())?;
     job.chart(
         "identified",
         &charts::chart(&measurement, &outcomes, reported, energies.as_ref()),

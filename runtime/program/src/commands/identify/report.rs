@@ -7,15 +7,16 @@ use branched_pendulum_measure::identification::{DIVIDED, ParameterEstimate, Stan
 use serde_json::{Map, Value, json};
 
 use super::arguments::Arguments;
-use super::scene::{Described, MEASURABLE};
 use super::source::Measurement;
-use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use super::study::{Energies, Found, MOST_LINKS, MeasuredEnergy, Mismatch, Outcome, best};
+use super::unknowns::{Parameter, Unknowns};
+use crate::Failure;
+use crate::frame::Job;
 
 /// The report.
 pub fn report(
     arguments: &Arguments,
+    unknowns: &Unknowns,
     measurement: &Measurement,
     outcomes: &[Outcome],
     reported: &Outcome,
@@ -78,15 +79,20 @@ pub fn report(
         }
     }
     line(String::new());
-    text += &parameters(measurement, reported);
+    text += &parameters(unknowns, measurement, reported);
     if let Some(energies) = energies {
         let _ = write!(text, "{}", energy(energies));
+    } else if measurement.links.len() > MOST_LINKS {
+        let _ = writeln!(
+            text,
+            "The measured energy is estimated of trees of {MOST_LINKS} links at most."
+        );
     }
     text
 }
 
 /// The parameters: what the data determine first, then what goes with values that are held.
-fn parameters(measurement: &Measurement, reported: &Outcome) -> String {
+fn parameters(unknowns: &Unknowns, measurement: &Measurement, reported: &Outcome) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
         let _ = writeln!(text, "{words}");
@@ -172,11 +178,14 @@ fn parameters(measurement: &Measurement, reported: &Outcome) -> String {
             .iter()
             .filter(|(_, change)| change.abs() > WORTH);
         let names = own.map(|(name, _)| name).chain([&open.held]);
-        let is_measurable = |name: &&String| MEASURABLE.iter().any(|kind| name.starts_with(kind));
+        let is_measurable = |name: &&String| {
+            let own = unknowns.parameter(name);
+            own.is_some_and(Parameter::is_measurable)
+        };
         let names: Vec<&str> = names.filter(is_measurable).map(String::as_str).collect();
         if !names.is_empty() {
             line(format!(
-                "  for {}: weigh or measure {}, and give it by --known",
+                "  for {}: weigh or measure {}, and give it by --set",
                 open.held,
                 names.join(" or ")
             ));
@@ -242,16 +251,17 @@ const WORTH: f64 = 0.1;
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write<M: Described>(
+pub fn write(
     job: &Job,
+    unknowns: &Unknowns,
     measurement: &Measurement,
     outcome: &Outcome,
     energies: Option<&Energies>,
 ) -> Result<(), Failure> {
     if let Ok(fit) = outcome.result() {
-        let values = M::PARAMETERS.iter().zip(fit.parameters());
+        let values = unknowns.parameters.iter().zip(fit.parameters());
         let values: Map<String, Value> = values
-            .map(|(name, value)| ((*name).to_owned(), json!(value)))
+            .map(|(own, value)| (own.name.clone(), json!(value)))
             .collect();
         let table = format!("{:#}\n", Value::Object(values));
         job.write("parameters.json", table.as_bytes())?;

@@ -1,12 +1,10 @@
 //! Fits with several laws of friction, and what they leave over.
 
-use std::marker::PhantomData;
-
+use branched_pendulum::Energy;
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum_measure::identification::{
-    AngleErrors, FamilyOf, Fit, Identification, IdentificationError, SearchFailure, Shooting,
-    Unfound,
+    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, Unfound,
 };
 use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, bands};
 use rand_distr::{Distribution, StandardNormal};
@@ -14,20 +12,20 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use super::arguments::{Arguments, Law, Sign};
-use super::scene::{COULOMB, Described, FRICTION, GRAVITY, QUADRATIC};
 use super::source::Measurement;
-use crate::analyse::motion::{Motion, Record, Smoothed, by_equations, one_by_one};
-use branched_pendulum_program::Failure;
+use super::unknowns::{Knowledge, TreeFamily, Unknowns};
+use crate::Failure;
+use crate::smoothed::{Motion, Record, Smoothed, by_equations, one_by_one};
 
 /// Length of windows, s.
 pub const WINDOW: f64 = 1.0;
 
 /// Fits of one measurement.
 #[derive(Debug)]
-pub struct Study<'a, M> {
+pub struct Study<'a> {
     arguments: &'a Arguments,
+    unknowns: &'a Unknowns,
     measurement: &'a Measurement,
-    tree: PhantomData<fn() -> M>,
 }
 
 /// A fit, or the best of a search that found none.
@@ -127,58 +125,42 @@ impl Energies {
     }
 }
 
+/// Most links of a tree whose measured energy is estimated.
+pub const MOST_LINKS: usize = 6;
+
 /// Draws from which deviations of the measured energy follow.
 const DRAWS: usize = 100;
 
-impl<'a, M: Described> Study<'a, M> {
+impl<'a> Study<'a> {
     /// Fits of this measurement.
-    pub fn new(arguments: &'a Arguments, measurement: &'a Measurement) -> Self {
+    pub fn new(
+        arguments: &'a Arguments,
+        unknowns: &'a Unknowns,
+        measurement: &'a Measurement,
+    ) -> Self {
         Self {
             arguments,
+            unknowns,
             measurement,
-            tree: PhantomData,
         }
     }
 
-    fn identification(&self, law: Law) -> Identification<FamilyOf<M>> {
-        let given = |list: &[(String, f64)], name: &str| {
-            list.iter()
-                .rev()
-                .find(|(own, _)| own == name)
-                .map(|(_, value)| *value)
-        };
-        let rough = |name: &str| {
-            M::ROUGH
-                .iter()
-                .find(|(own, _)| *own == name)
-                .map(|(_, v)| *v)
-        };
-        let sizes = || COULOMB.iter().map(|size| (Law::Coulomb, size));
-        let sizes = || sizes().chain(QUADRATIC.iter().map(|size| (Law::All, size)));
-        let task = Identification::new(FamilyOf::<M>::new()).with_offsets();
-        let task = M::PARAMETERS.iter().fold(task, |task, name| {
-            let from = sizes().find(|(_, (own, _))| own == name);
-            if let Some(value) = given(&self.arguments.known, name) {
-                return task.known(name, value);
+    fn identification(&self, law: Law) -> Identification<TreeFamily> {
+        let task = Identification::new(self.unknowns.family()).with_offsets();
+        let parameters = &self.unknowns.parameters;
+        parameters.iter().fold(task, |task, own| {
+            let name = &own.name;
+            let task = match own.knowledge {
+                Knowledge::Known(value) => return task.known(name, value),
+                _ if own.law() > law => return task.known(name, 0.0),
+                Knowledge::Guess(value) => task.unknown(name, value),
+                Knowledge::Size(size) => task.unknown_from_zero(name, size),
+            };
+            match (self.arguments.friction, own.is_friction()) {
+                (Sign::Nonnegative, true) => task.at_least(name, 0.0),
+                _ => task,
             }
-            match (
-                given(&self.arguments.start, name).or_else(|| rough(name)),
-                from,
-            ) {
-                (Some(value), _) => task.unknown(name, value),
-                (None, Some((needed, (_, size)))) if law as u8 >= needed as u8 => {
-                    task.unknown_from_zero(name, *size)
-                }
-                (None, Some(_)) => task.known(name, 0.0),
-                (None, None) => task.known(name, GRAVITY),
-            }
-        });
-        let is_friction = |name: &&&str| FRICTION.iter().any(|law| name.starts_with(law));
-        let friction = M::PARAMETERS.iter().filter(is_friction);
-        match self.arguments.friction {
-            Sign::Either => task,
-            Sign::Nonnegative => friction.fold(task, |task, name| task.at_least(name, 0.0)),
-        }
+        })
     }
 
     /// Fits with one law, beginning where the fit with a poorer one has ended.
@@ -226,18 +208,31 @@ impl<'a, M: Described> Study<'a, M> {
         })
     }
 
-    /// Energies of the measured and of the fitted motion, with the fitted parameters, of a
-    /// tree of N links and D = 2N.
+    /// Energies of the measured and of the fitted motion, with the fitted parameters; none of
+    /// trees of more than [`MOST_LINKS`].
     ///
     /// # Errors
     /// [`Failure::Identification`] or [`Failure::Smoothing`].
-    pub fn energies<const N: usize, const D: usize>(
+    pub fn energies(&self, law: Law, fit: &Fit) -> Result<Option<Energies>, Failure> {
+        let energies = match self.measurement.links.len() {
+            1 => self.energies_of::<1, 2>(law, fit),
+            2 => self.energies_of::<2, 4>(law, fit),
+            3 => self.energies_of::<3, 6>(law, fit),
+            4 => self.energies_of::<4, 8>(law, fit),
+            5 => self.energies_of::<5, 10>(law, fit),
+            6 => self.energies_of::<6, 12>(law, fit),
+            _ => return Ok(None),
+        };
+        energies.map(Some)
+    }
+
+    /// Energies of a tree of N links, D = 2N.
+    fn energies_of<const N: usize, const D: usize>(
         &self,
         law: Law,
         fit: &Fit,
     ) -> Result<Energies, Failure> {
-        let values = fit.parameters();
-        let tree = M::with_parameters(|index| values[index]);
+        let tree = self.unknowns.subject_as_given(fit.parameters())?.tree;
         let energy = |[theta, omega]: [&[f64]; 2]| {
             tree.kinetic_energy_of(theta, omega) + tree.potential_energy_of(theta)
         };
@@ -302,25 +297,19 @@ fn found(result: Result<Fit, IdentificationError>) -> Result<Found, Identificati
 mod tests {
     use std::time::Instant;
 
-    use clap::Parser;
-
     use super::super::arguments::{Arguments, Law};
-    use super::super::scene::Chain;
     use super::super::source::Measurement;
+    use super::super::unknowns::Unknowns;
     use super::{Outcome, Study, best};
+    use crate::frame::command_line::parse_line;
 
     #[test]
     fn a_simulated_chain_is_found_within_its_bars() {
-        let arguments = Arguments {
-            duration: 6.0,
-            noise: 1e-4,
-            known: [("mass_1", 0.088), ("mass_2", 0.102), ("com_1", 0.09)]
-                .map(|(name, value)| (name.to_owned(), value))
-                .to_vec(),
-            ..Arguments::default()
-        };
-        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
-        let study = Study::<Chain>::new(&arguments, &measurement);
+        let line = "--duration 6 --noise 1e-4 --set mass_1=0.088,mass_2=0.102,com_1=0.09";
+        let arguments: Arguments = parse_line(line).unwrap();
+        let unknowns = Unknowns::new(&arguments).unwrap();
+        let measurement = Measurement::new(&arguments, &unknowns).unwrap();
+        let study = Study::new(&arguments, &unknowns, &measurement);
         let outcome = study.outcome(Law::All, None).unwrap();
         for (name, truth) in measurement.truth.iter().flatten() {
             let Ok(estimate) = outcome.result().unwrap().determined(name) else {
@@ -334,9 +323,8 @@ mod tests {
         }
         let rms = outcome.errors.as_ref().unwrap().rms();
         assert!((0.9e-4..1.1e-4).contains(&rms), "{rms}");
-        let energies = study
-            .energies::<2, 4>(Law::All, outcome.result().unwrap())
-            .unwrap();
+        let energies = study.energies(Law::All, outcome.result().unwrap());
+        let energies = energies.unwrap().unwrap();
         let mismatch = energies.mismatch(&energies.by_smoothness);
         assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");
         let mismatch = energies.mismatch(&energies.by_equations);
@@ -344,25 +332,19 @@ mod tests {
     }
 
     /// All that `identify` computes of the measured chain, with the time of each part:
-    /// `cargo test --release -p branched-pendulum-examples --lib three_laws -- --ignored --nocapture`
+    /// `cargo test --release -p branched-pendulum-program --lib three_laws -- --ignored --nocapture`
     #[test]
     #[ignore = "half a minute"]
     fn three_laws_of_friction_follow_one_another() {
         let file = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/../runtime/measure/tests/measure/identification/double-pendulum.csv"
+            "/../measure/tests/measure/identification/double-pendulum.csv"
         );
-        let line = [
-            "identify",
-            file,
-            "--fit",
-            "60",
-            "--known",
-            "gravity=9.80858",
-        ];
-        let arguments = Arguments::parse_from(line);
-        let measurement = Measurement::new::<Chain>(&arguments).unwrap();
-        let study = Study::<Chain>::new(&arguments, &measurement);
+        let line = format!("{file} --fit 60 --set gravity=9.80858");
+        let arguments: Arguments = parse_line(&line).unwrap();
+        let unknowns = Unknowns::new(&arguments).unwrap();
+        let measurement = Measurement::new(&arguments, &unknowns).unwrap();
+        let study = Study::new(&arguments, &unknowns, &measurement);
         let mut outcomes: Vec<Outcome> = Vec::new();
         for &law in &arguments.laws {
             let start = Instant::now();
@@ -389,9 +371,8 @@ mod tests {
             outcomes.push(outcome);
         }
         let start = Instant::now();
-        let energies = study
-            .energies::<2, 4>(Law::All, outcomes[2].result().unwrap())
-            .unwrap();
+        let energies = study.energies(Law::All, outcomes[2].result().unwrap());
+        let energies = energies.unwrap().unwrap();
         let mismatch = energies.mismatch(&energies.by_equations);
         println!("{mismatch:?} in {:.1?}", start.elapsed());
         assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");

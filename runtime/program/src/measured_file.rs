@@ -9,8 +9,8 @@ use branched_pendulum_data::{
 };
 use clap::{Args, ValueEnum};
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::command_line::{number, parts};
+use crate::Failure;
+use crate::frame::command_line::{number, parts};
 
 /// A file of angles or of dots against time, and what is known of it.
 #[derive(Args, Clone, Debug, Default, PartialEq)]
@@ -42,7 +42,7 @@ pub struct MeasuredFile {
     /// y of dots grows upwards
     #[arg(long, conflicts_with = "y_down")]
     pub y_up: bool,
-    /// angles of all links but the first are counted from the first, on which they hang
+    /// angles of all links but the first are counted from the links on which they hang
     #[arg(long)]
     pub relative: bool,
     /// the angle that a link shows which hangs at rest, degrees from -180 to 180: camera or
@@ -82,19 +82,20 @@ pub enum Counts {
 }
 
 impl MeasuredFile {
-    /// Reads `file` with what is known of it, as a pendulum of so many links.
+    /// Reads `file` with what is known of it, as a pendulum whose links hang on these `parents`.
     ///
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn read(&self, file: &Path, links: usize) -> Result<Recording, Failure> {
-        self.angles(&Table::read(file, &TableOptions::default())?, links)
+    pub fn read(&self, file: &Path, parents: &[Option<usize>]) -> Result<Recording, Failure> {
+        self.angles(&Table::read(file, &TableOptions::default())?, parents)
     }
 
-    /// Takes the angles of so many links out of a table.
+    /// Takes the angles of links that hang on these `parents` out of a table.
     ///
     /// # Errors
     /// Errors of [`read`](Self::read).
-    pub fn angles(&self, table: &Table, links: usize) -> Result<Recording, Failure> {
+    pub fn angles(&self, table: &Table, parents: &[Option<usize>]) -> Result<Recording, Failure> {
+        let links = parents.len();
         let clock = self.clock();
         let mut table = Cow::Borrowed(table);
         if let Some(counts) = self.drop_repeated {
@@ -107,9 +108,7 @@ impl MeasuredFile {
         if !self.leave_out.is_empty() {
             table = Cow::Owned(table.into_owned().leaving_out(&clock, &self.leave_out)?);
         }
-        // Links of both pendulums hang on the first.
-        let parents = || (0..links).map(|link| (link > 0).then_some(0));
-        let relative_to = self.relative.then(|| parents().collect());
+        let relative_to = self.relative.then(|| parents.to_vec());
         let columns = AngleColumns {
             clock: clock.clone(),
             columns: self.columns.clone(),

@@ -1,0 +1,239 @@
+//! Descriptions as families: equations of motion as functions of their parameters, and what the
+//! parameters are of.
+
+use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::system::{Ode, Workspace};
+use branched_pendulum_codegen::scene::{Link, ParameterId, Quantity, QuantityAtom, Scene};
+
+use crate::description::TreeDescription;
+use crate::drive::Courses;
+use crate::error::TreeError;
+use crate::forms::{Acting, Equations};
+use crate::numbers::{self, LinkNumbers};
+use crate::rows::{self, Form};
+use crate::tree::PendulumTree;
+
+/// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
+/// (rad), followed by the angular velocities (rad/s).
+#[derive(Clone, Debug)]
+pub struct EquationsOfMotion<T> {
+    links: usize,
+    equations: Equations<T>,
+    drive: Option<Courses<T>>,
+}
+
+impl<T: Scalar> Ode<T> for EquationsOfMotion<T> {
+    fn dimension(&self) -> usize {
+        2 * self.links
+    }
+
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        self.rates_with(&mut Workspace::new(), time, state, rates);
+    }
+
+    fn rates_with(&self, workspace: &mut Workspace<T>, time: T, state: &[T], rates: &mut [T]) {
+        if [state.len(), rates.len()] != [2 * self.links; 2] {
+            return rates.fill(T::from_f64(f64::NAN));
+        }
+        let (theta, omega) = state.split_at(self.links);
+        let (velocities, alpha) = rates.split_at_mut(self.links);
+        velocities.copy_from_slice(omega);
+        let drive = self.drive.as_ref().map(|drive| drive.root(time));
+        let torques = None;
+        let acting = Acting { drive, torques };
+        self.equations
+            .accelerate(workspace, acting, [theta, omega], alpha);
+    }
+}
+
+/// A use of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ParameterUse {
+    /// Gravity.
+    Gravity,
+    /// A mass.
+    Mass,
+    /// A place of a centre of mass, of a pivot or of an end.
+    Place,
+    /// A moment of inertia.
+    Inertia,
+    /// Viscous friction, in a pivot or against the air.
+    ViscousFriction,
+    /// Coulomb friction.
+    CoulombFriction,
+    /// Friction that grows with the square of the rate.
+    QuadraticFriction,
+    /// A spring's stiffness or angle of rest, or the width of a law of friction.
+    Joint,
+    /// The drive.
+    Drive,
+}
+
+/// A node of a description, with the links that are made of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DescribedNode {
+    /// Name of the node: `child` of the links `child_1` and `child_2`.
+    pub name: String,
+    /// The links, in the order of the angles: one, or all copies.
+    pub links: Vec<usize>,
+    /// Parameters of the viscous friction in their pivots.
+    pub friction: Vec<String>,
+}
+
+impl TreeDescription {
+    /// Returns the nodes of the description, in the order of their first links.
+    pub fn nodes(&self) -> Vec<DescribedNode> {
+        let mut nodes: Vec<DescribedNode> = Vec::new();
+        for (index, place) in numbers::places(&self.scene).into_iter().enumerate() {
+            let Some(link) = self.scene.links.get(place.link) else {
+                continue;
+            };
+            let Some(orbit) = self.scene.orbits.get(link.orbit.0) else {
+                continue;
+            };
+            if let Some(own) = nodes.iter_mut().find(|own| own.name == orbit.node) {
+                own.links.push(index);
+                continue;
+            }
+            let friction = link.passive.friction.atoms().into_iter();
+            let friction = friction.filter_map(|atom| match atom {
+                QuantityAtom::Parameter(id) => self.scene.parameters.get(id.0),
+                QuantityAtom::Exact(_) => None,
+            });
+            nodes.push(DescribedNode {
+                name: orbit.node.clone(),
+                links: vec![index],
+                friction: friction.map(|own| own.name.clone()).collect(),
+            });
+        }
+        nodes
+    }
+
+    /// Returns the names of the links, in the order of the angles.
+    pub fn links(&self) -> Vec<String> {
+        numbers::names(&self.scene)
+    }
+
+    /// Returns the link that each hangs from; of the root none.
+    pub fn parents(&self) -> Vec<Option<usize>> {
+        let places = numbers::places(&self.scene).into_iter();
+        places.map(|place| place.parent).collect()
+    }
+
+    /// Returns what a parameter is of; nothing for a name that is no parameter.
+    pub fn uses_of(&self, name: &str) -> Vec<ParameterUse> {
+        use ParameterUse::{
+            CoulombFriction, Drive, Gravity, Inertia, Joint, Mass, Place, QuadraticFriction,
+            ViscousFriction,
+        };
+        let Ok(place) = self.place(name) else {
+            return Vec::new();
+        };
+        let scene = &*self.scene;
+        let is_in = |quantity: &Quantity| {
+            let own = QuantityAtom::Parameter(ParameterId(place));
+            quantity.atoms().contains(&&own)
+        };
+        let of_links = |of: &dyn Fn(&Link) -> bool| scene.links.iter().any(of);
+        let of_laws =
+            |of: fn(&Link) -> [&Quantity; 2]| of_links(&|link| of(link).map(is_in).contains(&true));
+        // Of a drive's signals only constants can be asked for.
+        let of_drive = || {
+            let found = std::cell::Cell::new(false);
+            if let Some(drive) = &scene.drive {
+                drive.map(&|quantity| found.set(found.get() || is_in(quantity)));
+            }
+            found.get()
+        };
+        let uses = [
+            (Gravity, is_in(&scene.gravity)),
+            (Mass, of_links(&|link| is_in(&link.mass))),
+            (
+                Place,
+                of_links(&|link| {
+                    let offsets = [&link.com, &link.pivot, &link.end];
+                    let mut parts = offsets.iter().flat_map(|own| [&own.along, &own.lateral]);
+                    parts.any(is_in)
+                }),
+            ),
+            (Inertia, of_links(&|link| is_in(&link.inertia))),
+            (
+                ViscousFriction,
+                of_laws(|link| [&link.passive.friction, &link.passive.drag]),
+            ),
+            (
+                CoulombFriction,
+                of_laws(|link| link.passive.laws.each_ref().map(|law| &law.coulomb)),
+            ),
+            (
+                QuadraticFriction,
+                of_laws(|link| link.passive.laws.each_ref().map(|law| &law.quadratic)),
+            ),
+            (
+                Joint,
+                of_laws(|link| [&link.passive.spring, &link.passive.rest])
+                    || of_laws(|link| link.passive.laws.each_ref().map(|law| &law.width)),
+            ),
+            (Drive, of_drive()),
+        ];
+        let uses = uses.into_iter().filter(|(_, is_one)| *is_one);
+        uses.map(|(of, _)| of).collect()
+    }
+
+    /// Returns the equations of motion for a value of each parameter in their order, in SI
+    /// units, taken as they are. The values may be any numbers: of dual ones come the
+    /// derivatives with respect to the parameters.
+    ///
+    /// Of a value that is lacking all rates are NaN.
+    ///
+    /// # Examples
+    ///
+    /// The derivative of a pendulum's acceleration with respect to its length:
+    ///
+    /// ```
+    /// use branched_pendulum::scalar::Dual;
+    /// use branched_pendulum::system::Ode;
+    /// use branched_pendulum_trees::TreeDescription;
+    ///
+    /// let rod = TreeDescription::parse("gravity = 9.81, rod: rod(mass = 0.2, length = l)")?;
+    /// let length = Dual::<f64, 1>::variable(0.5, 0);
+    /// let [angle, rate] = [0.1, 0.0].map(Dual::constant);
+    /// let mut rates = [rate; 2];
+    /// rod.equations(&[length]).rates(rate, &[angle, rate], &mut rates);
+    /// // −3 g sin θ/(2 l) and its derivative.
+    /// let expected = -1.5 * 9.81 * 0.1_f64.sin() / 0.5;
+    /// assert!((rates[1].value - expected).abs() < 1e-13);
+    /// assert!((rates[1].tangents[0] + expected / 0.5).abs() < 1e-13);
+    /// # Ok::<(), branched_pendulum_trees::TreeError>(())
+    /// ```
+    pub fn equations<T: Scalar>(&self, values: &[T]) -> EquationsOfMotion<T> {
+        let scene: &Scene = &self.scene;
+        // No value of a parameter makes a form that lacks something: NaN is not zero.
+        let any = vec![Double::from_f64(f64::NAN); scene.parameters.len()];
+        let form = Form::of(&numbers::links_as_given(scene, &any), scene.drive.is_some());
+        let links: Vec<LinkNumbers<T>> = numbers::links_as_given(scene, values);
+        let (parents, carries) = rows::parents(&links);
+        let rows = form.rows(&links, &carries);
+        let above = -numbers::value(&scene.gravity, values);
+        EquationsOfMotion {
+            links: links.len(),
+            equations: Equations::new(form, &parents, rows, above),
+            drive: Courses::of(scene, &|quantity| numbers::value(quantity, values)),
+        }
+    }
+
+    /// Returns the tree for a value of each parameter in their order, in SI units, taken as they
+    /// are: what [`tree`](Self::tree) refuses, such as friction that drives, is not looked at.
+    ///
+    /// # Errors
+    /// [`TreeError::MissingValues`] for fewer values than there are parameters.
+    pub fn tree_as_given(&self, values: &[f64]) -> Result<PendulumTree, TreeError> {
+        let named: Vec<(&str, f64)> = self.parameters().zip(values.iter().copied()).collect();
+        let values = self.values(&named)?;
+        let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
+        let links = numbers::links_as_given(&self.scene, &parameters);
+        Ok(PendulumTree::of_links(self.clone(), values, &links))
+    }
+}
