@@ -66,7 +66,7 @@ impl<E: BodyEquations, T: Scalar> Bodies<E, T> {
     pub fn potential_energy(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
         let state = TreeState {
             theta,
-            omega: &[],
+            omega: theta,
             drive: [T::from_f64(0.0); 3],
         };
         sum_of::<PotentialEnergy, E, T>(self, workspace, state)

@@ -107,11 +107,13 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
         if [theta.len(), omega.len(), sums.len()] != [links; 3] {
             return sums.fill([T::from_f64(f64::NAN); 2]);
         }
-        let motions = motions(theta, omega);
+        let directions = directions(theta);
         let mut pivots = vec![[T::from_f64(0.0); 2]; links];
         for (link, parent, properties) in self.visited() {
             let from = |start: [T; 2], place, carrier: usize| {
-                let [x, y] = step(motions[carrier], place);
+                let (sine, cosine) = directions[carrier];
+                let motion = LinkMotion::turning(sine, cosine, omega[carrier]);
+                let [x, y] = step(motion, place);
                 [start[0] + x, start[1] + self.up * y]
             };
             if let Some(parent) = parent {
@@ -138,13 +140,14 @@ impl<E: PointEquations, T: Scalar> PropertyTable<E, T> {
             return torques.fill(T::from_f64(f64::NAN));
         }
         torques.fill(T::from_f64(0.0));
-        let motions = motions(theta, theta);
+        let directions = directions(theta);
         // Forces on the subtree of each link.
         let mut sums = forces.to_vec();
         for (link, parent, properties) in self.visited().into_iter().rev() {
             let torque = |[along, across]: [T; 2], carrier: usize, [x, y]: [T; 2]| {
-                let given = [along, across, x, self.up * y];
-                let [torque] = E::point_torque(motions[carrier], given);
+                let (sine, cosine) = directions[carrier];
+                let resting = LinkMotion::turning(sine, cosine, T::from_f64(0.0));
+                let [torque] = E::point_torque(resting, [along, across, x, self.up * y]);
                 torque
             };
             if let Some(place) = properties.place(point) {
@@ -193,12 +196,7 @@ impl Shape {
     }
 }
 
-/// The motions of links but for those of joints.
-fn motions<T: Scalar>(theta: &[T], omega: &[T]) -> Vec<LinkMotion<T>> {
-    let links = theta.iter().zip(omega);
-    let motion = |(angle, &rate): (&T, &T)| {
-        let (sine, cosine) = angle.sin_cos();
-        LinkMotion::turning(sine, cosine, rate)
-    };
-    links.map(motion).collect()
+/// Sines and cosines of the angles.
+fn directions<T: Scalar>(theta: &[T]) -> Vec<(T, T)> {
+    theta.iter().map(|angle| angle.sin_cos()).collect()
 }
