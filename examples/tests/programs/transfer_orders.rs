@@ -1,12 +1,12 @@
 //! The program `transfer-orders`, and the errors that it reports, for its own
 //! trees and for others.
 
+use branched_pendulum::TransferForms;
 use branched_pendulum::analysis::truncation::{
     Background, ErrorCurve, LevelCrossing, PhaseAverage, TruncationError, sector_frequencies,
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
-use branched_pendulum::TransferForms;
 use branched_pendulum_examples::program::{Job, Progress};
 use branched_pendulum_examples::scenes::BranchedDouble;
 use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};

@@ -90,7 +90,9 @@ impl BlockShape {
                 let slope = rise * sines[link] + sine * cosines[link];
                 slopes[link] = slopes[link] + own * (weight * slope);
             }
-            if self.is_mean && let Some(&lateral) = constants.lateral_gravity.get(first) {
+            if self.is_mean
+                && let Some(&lateral) = constants.lateral_gravity.get(first)
+            {
                 energy = energy + lateral * sine;
                 for (link, own) in column.iter() {
                     let own: T = own;

@@ -186,7 +186,9 @@ impl<T: Scalar> SymmetricTree<T> {
         };
         let [flows, pushes] = [(); 2].map(|()| memory.take(sectors * links));
         let centres = self.centres(&motion, &mut memory);
-        let rows = flows.chunks_exact_mut(links).zip(pushes.chunks_exact_mut(links));
+        let rows = flows
+            .chunks_exact_mut(links)
+            .zip(pushes.chunks_exact_mut(links));
         for (block, (flow, push)) in shape.blocks.iter().zip(rows) {
             // The derivatives of E_s by momenta, u, and by angles at fixed momenta.
             let mut own = memory.lend();

@@ -146,7 +146,9 @@ impl Constants<Double> {
         let weight = |axis: usize| moments.iter().map(move |moment| gravity * moment[axis]);
         let lateral_gravity: Vec<Double> = weight(1).collect();
         let has_springs = links.iter().any(|link| link.spring != zero);
-        let is_lateral = links.iter().any(|link| link.com[1] != zero || link.pivot[1] != zero);
+        let is_lateral = links
+            .iter()
+            .any(|link| link.com[1] != zero || link.pivot[1] != zero);
         let where_there_are = |asked: bool, list: Vec<Double>| match asked {
             true => list,
             false => Vec::new(),

@@ -136,7 +136,11 @@ impl<T: Scalar, const N: usize> Expansion<T, N> {
             && !self.tree.has_unequal_copies()
             && self.tree.shape.blocks.iter().all(|block| {
                 let own = block.first..block.first + block.columns.len();
-                block.is_mean || self.small.get(own).is_some_and(|own| own.iter().all(|s| *s))
+                block.is_mean
+                    || self
+                        .small
+                        .get(own)
+                        .is_some_and(|own| own.iter().all(|s| *s))
             });
         let first = if quadratic { 2 } else { 0 };
         let blocks = &self.tree.shape.blocks;

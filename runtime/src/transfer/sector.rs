@@ -6,11 +6,11 @@
 //! {E_s, K − T_s} = Σ x_i k_i + ∂V_s/∂θ_i (ω_i − x_i) − Σ (∂M_ij/∂θ_i) x_i x_j (ω_i − ω_j),
 //! {E_s, U − V_s} = Σ x_i (∂V_s/∂θ_i − ∂U/∂θ_i). No inverse and no expansion.
 
+use super::SymmetricTree;
 use super::constants::Constants;
 use super::memory::Rest;
 use super::motion::{Matrix, Motion, Slopes};
 use super::shape::BlockShape;
-use super::SymmetricTree;
 use crate::model::Transfer;
 use crate::scalar::Scalar;
 

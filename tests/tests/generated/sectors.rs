@@ -30,7 +30,10 @@ fn weights_are_those_of_the_symmetric_coordinates() {
     let symmetric = model.to_symmetric(&theta);
     let names = <Model as branched_pendulum::SymmetricPendulum<f64>>::COORDINATE_NAMES;
     let mut seen = 0;
-    for coordinate in Model::SECTORS.iter().flat_map(|sector| sector.coordinates()) {
+    for coordinate in Model::SECTORS
+        .iter()
+        .flat_map(|sector| sector.coordinates())
+    {
         let index = names.iter().position(|name| *name == coordinate.name());
         let value = symmetric[index.expect("a coordinate of that name")];
         let name = coordinate.name();

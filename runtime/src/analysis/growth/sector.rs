@@ -136,7 +136,14 @@ impl<L: Linearised<f64>> Ode<f64> for SectorDifferences<L> {
         motion[links..].copy_from_slice(&state[links + own..][..links]);
         self.write_deviation(state, deviation);
         let system = &self.system;
-        system.linearised_rates(inner, time, motion, deviation, motion_rates, deviation_rates);
+        system.linearised_rates(
+            inner,
+            time,
+            motion,
+            deviation,
+            motion_rates,
+            deviation_rates,
+        );
         rates[..links].copy_from_slice(&motion_rates[..links]);
         rates[links + own..][..links].copy_from_slice(&motion_rates[links..]);
         let DifferenceRanges {
@@ -170,7 +177,9 @@ impl Growth {
         }
         let (theta, omega) = start.values.split_at(links);
         let is_in_phase = |coordinate: &SectorCoordinate| {
-            [theta, omega].iter().all(|values| coordinate.of(values) == 0.0)
+            [theta, omega]
+                .iter()
+                .all(|values| coordinate.of(values) == 0.0)
         };
         if !system.coordinates.iter().all(is_in_phase) {
             return Err(GrowthError::Difference);

@@ -49,7 +49,13 @@ fn budget<T: Scalar>(
 ) -> SectorBudget<T> {
     let mut budget = SectorBudget::new();
     let given = Given::Absolute { theta, omega };
-    tree.budget(&mut Workspace::new(), definition, acting, given, &mut budget);
+    tree.budget(
+        &mut Workspace::new(),
+        definition,
+        acting,
+        given,
+        &mut budget,
+    );
     budget
 }
 
@@ -92,7 +98,10 @@ fn energies_change_as_the_budget_tells() {
                 let [rate] = rate.tangents;
                 let told = told.transfers[sector] + told.powers[sector];
                 let error = (rate - told).abs();
-                assert!(error < 1e-12 * size, "{definition:?} {sector}: {rate} {told}");
+                assert!(
+                    error < 1e-12 * size,
+                    "{definition:?} {sector}: {rate} {told}"
+                );
             }
         }
     }
@@ -110,9 +119,15 @@ fn energies_by_parseval_sum_up() {
         [&theta, &omega],
     );
     let near = |own: f64, other: f64| {
-        assert!((own - other).abs() < 1e-13 * other.abs().max(1.0), "{own} {other}");
+        assert!(
+            (own - other).abs() < 1e-13 * other.abs().max(1.0),
+            "{own} {other}"
+        );
     };
-    near(parseval.energies.iter().sum(), tree.energy_of(&theta, &omega));
+    near(
+        parseval.energies.iter().sum(),
+        tree.energy_of(&theta, &omega),
+    );
     near(parseval.transfers.iter().sum(), 0.0);
     near(parseval.powers.iter().sum(), tree.friction_power(&omega));
     let given = Given::Absolute {
@@ -125,8 +140,14 @@ fn energies_by_parseval_sum_up() {
     let by_scale = tree.budget_by_scale(0.0, [&theta, &omega, &[]]).unwrap();
     let levels = [0..1, 1..2, 2..6];
     for (scale, sectors) in levels.into_iter().enumerate() {
-        near(parseval.energies[sectors.clone()].iter().sum(), by_scale.energy(scale));
-        near(parseval.transfers[sectors].iter().sum(), by_scale.received(scale));
+        near(
+            parseval.energies[sectors.clone()].iter().sum(),
+            by_scale.energy(scale),
+        );
+        near(
+            parseval.transfers[sectors].iter().sum(),
+            by_scale.received(scale),
+        );
     }
 }
 
@@ -174,7 +195,10 @@ fn growth_and_forcing_are_the_transfer() {
             (forcing[sector], exact_forcing[sector]),
         ] {
             let error = (own.total() - exact.total().high()).abs();
-            assert!(error < 1e-13 * (own.kinetic.abs() + own.potential.abs()), "{sector}");
+            assert!(
+                error < 1e-13 * (own.kinetic.abs() + own.potential.abs()),
+                "{sector}"
+            );
         }
     }
 }
@@ -188,12 +212,14 @@ fn trees_in_loops_have_the_sectors_of_those_written_out() {
                 shape = rod, mass = 0.2, length = 0.3, mass_ratio = 0.5, length_ratio = 0.8)"
         )
     };
-    let [loops, unrolled] = ["loops", "unrolled"].map(|code| PendulumTree::parse(&text(code)).unwrap());
+    let [loops, unrolled] =
+        ["loops", "unrolled"].map(|code| PendulumTree::parse(&text(code)).unwrap());
     let [one, other] = [&loops, &unrolled].map(|tree| tree.symmetric().unwrap());
     let [theta, omega, _] = state(15);
     let place = |name: &String| loops.names().iter().position(|own| own == name).unwrap();
     let places: Vec<usize> = unrolled.names().iter().map(place).collect();
-    let ordered = |values: &[f64]| -> Vec<f64> { places.iter().map(|&place| values[place]).collect() };
+    let ordered =
+        |values: &[f64]| -> Vec<f64> { places.iter().map(|&place| values[place]).collect() };
     let by = EnergyDefinition::Canonical;
     let one_budget = budget(&one, by, &[], [&theta, &omega]);
     let other_budget = budget(&other, by, &[], [&ordered(&theta), &ordered(&omega)]);
@@ -251,10 +277,14 @@ fn symmetric_coordinates_move_as_the_links_do() {
     tree.symmetric_from_absolute(plain, &omega, rates);
     let method = Dop853::new(Options::with_tolerance(1e-12));
     let start = State::new(0.0, start);
-    let own = method.integrate(&SymmetricCoordinates(&tree), &start, 1.0, |_| ControlFlow::Continue(()));
+    let own = method.integrate(&SymmetricCoordinates(&tree), &start, 1.0, |_| {
+        ControlFlow::Continue(())
+    });
     let own = own.unwrap().state;
     let start = State::new(0.0, [&theta[..], &omega].concat());
-    let other = method.integrate(&AbsoluteAngles(&tree), &start, 1.0, |_| ControlFlow::Continue(()));
+    let other = method.integrate(&AbsoluteAngles(&tree), &start, 1.0, |_| {
+        ControlFlow::Continue(())
+    });
     let other = other.unwrap().state;
     let mut absolute = vec![0.0; links];
     tree.absolute_from_symmetric(plain, own.positions(), &mut absolute);
@@ -269,7 +299,10 @@ fn a_tree_without_copies_says_what_to_do() {
     let description = TreeDescription::parse(chain).unwrap();
     let refused = description.symmetric::<f64>(&[("m", 1.0)]).unwrap_err();
     assert_eq!(refused, TreeError::NoCopies);
-    assert!(refused.to_string().contains("`child(...) * 2`"), "{refused}");
+    assert!(
+        refused.to_string().contains("`child(...) * 2`"),
+        "{refused}"
+    );
     let tree = description.tree::<f64>(&[("m", 1.0)]).unwrap();
     assert_eq!(tree.symmetric().unwrap_err(), TreeError::NoCopies);
     let names: Vec<&str> = tree.sectors().iter().map(|sector| sector.name()).collect();
@@ -294,9 +327,19 @@ fn slices_of_other_lengths_are_answered_with_nan() {
     };
     symmetric.exact_transfers(&mut workspace, given, &mut transfers[1..]);
     assert!(transfers[1..].iter().all(|w| w.total().is_nan()));
-    symmetric.transfers(&mut workspace, TransferForm::Amplitude(16), given, &mut transfers);
+    symmetric.transfers(
+        &mut workspace,
+        TransferForm::Amplitude(16),
+        given,
+        &mut transfers,
+    );
     assert!(transfers.iter().all(|w| w.total().is_nan()));
     let mut powers = vec![0.0; count];
-    symmetric.powers(&mut workspace, Acting::Torques(&theta[1..]), given, &mut powers);
+    symmetric.powers(
+        &mut workspace,
+        Acting::Torques(&theta[1..]),
+        given,
+        &mut powers,
+    );
     assert!(powers.iter().all(|power| power.is_nan()));
 }

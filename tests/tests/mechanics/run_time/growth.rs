@@ -46,7 +46,10 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
     let ode = TransverseOde::new(model, 0).expect("there is one sector");
     let own = system.frequency_at_rest().expect("it oscillates");
     let frequency_hz = frequency_at_rest(&ode);
-    assert!((own / frequency_hz - 1.0).abs() < 1e-12, "{own} {frequency_hz}");
+    assert!(
+        (own / frequency_hz - 1.0).abs() < 1e-12,
+        "{own} {frequency_hz}"
+    );
     let growth = Growth {
         frequency_hz,
         horizons: vec![1.0, 3.0],
