@@ -14,8 +14,12 @@ use branched_pendulum::approximate::{Approximation, ForcedApproximation, Linear}
 use branched_pendulum::integrate::{Crossing, Event, Frames, Solver};
 use branched_pendulum::integrate::{LaneMethod, Projected};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::{LinkName, OdeFn, TaylorOde};
+use branched_pendulum::sectors::{Sector, SectorCoordinate};
+use branched_pendulum::system::{LinkName, OdeFn, TaylorOde, Workspace};
 use branched_pendulum::taylor::Quad;
+use branched_pendulum::transfer::{
+    Acting, EnergyDefinition, Given, Order, RigidLink, SectorBudget, SymmetricTree,
+};
 use counting::allocations;
 
 const STEP: f64 = 1e-3;
@@ -312,4 +316,62 @@ fn events() {
         })
         .unwrap();
     assert_eq!(after - before.unwrap(), 0);
+}
+
+/// Energy transfers of a tree in numbers, after the first evaluation with a workspace.
+#[test]
+fn no_transfer_allocates() {
+    let link = |parent: Option<usize>| RigidLink {
+        parent,
+        mass: 0.1,
+        inertia: 1e-3,
+        com: [0.05, 0.0],
+        pivot: [if parent.is_some() { 0.2 } else { 0.0 }, 0.0],
+        spring: 0.1,
+        rest: 0.0,
+        friction: 1e-3,
+        drag: 1e-3,
+        laws: [1e-3, 0.0, 0.1, 0.0, 1.0],
+    };
+    let coordinate = |name: &str, weights: &[(usize, f64)]| {
+        SectorCoordinate::new(name.to_owned(), weights.to_vec())
+    };
+    let means = vec![
+        coordinate("parent", &[(0, 1.0)]),
+        coordinate("m", &[(1, 1.0), (2, 1.0)]),
+    ];
+    let sectors = [
+        Sector::new("in_phase".to_owned(), means),
+        Sector::new(
+            "d".to_owned(),
+            vec![coordinate("d", &[(1, 1.0), (2, -1.0)])],
+        ),
+    ];
+    let links = [link(None), link(Some(0)), link(Some(0))];
+    let tree = SymmetricTree::<f64>::new(&links, 9.81, &sectors).unwrap();
+    let given = Given::Momenta {
+        coordinates: &[0.4, 0.3, 0.1],
+        momenta: &[0.02, -0.01, 0.01],
+    };
+    let (mut workspace, mut w) = (Workspace::new(), [Transfer::default(); 2]);
+    let (mut energies, mut powers) = ([[0.0; 2]; 2], [0.0; 2]);
+    let (mut matrix, mut budget) = ([0.0; 4], SectorBudget::new());
+    let mut expansion = tree.expansion::<5>(&[]);
+    let mut all = || {
+        tree.exact_transfers(&mut workspace, given, &mut w);
+        tree.energies(&mut workspace, given, &mut energies);
+        tree.powers(&mut workspace, Acting::Friction, given, &mut powers);
+        tree.transfer_matrix(&mut workspace, given, &mut matrix);
+        let by = EnergyDefinition::Parseval;
+        tree.budget(&mut workspace, by, &[Acting::Friction], given, &mut budget);
+        let state = [&[0.4, 0.3, 0.1][..], &[0.02, -0.01, 0.01]];
+        expansion.transfers(Order::Amplitude, 4, state, &mut w);
+        assert!(w[1].total().is_finite() && matrix[1].is_finite());
+    };
+    all();
+    let before = allocations();
+    for _ in 0..1000 {
+        all();
+    }
+    assert_eq!(allocations() - before, 0);
 }

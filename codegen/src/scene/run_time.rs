@@ -23,13 +23,19 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
         report.error(name.span(), OutputMessage::NotAtRunTime { what });
     };
     let mut kept = description.clone();
+    let is_single = |name: &proc_macro2::Ident| {
+        let all = description.requests.iter();
+        all.filter(|request| request.name == *name).count() == 1
+    };
     kept.requests.retain(|request| {
         let name = request.name.to_string();
         let derived = DERIVED.contains(&name.as_str());
         if derived {
             refuse(&request.name, format!("emit({name})"));
         }
-        let always = ALWAYS.contains(&name.as_str()) && request.forms.is_none();
+        let known = ALWAYS.contains(&name.as_str()) && request.forms.is_none();
+        // One that is written twice is a mistake.
+        let always = known && is_single(&request.name);
         !derived && !always
     });
     let scene = resolve(&kept, report)?;

@@ -35,7 +35,7 @@ use constants::{Constants, moments, rounded};
 use forces::Passive;
 use shape::SymmetricShape;
 
-use crate::scalar::{Double, Scalar};
+use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
 
 /// A tree with copies in numbers `T`, in its symmetric coordinates.
@@ -264,6 +264,39 @@ impl<T: Scalar> SymmetricTree<T> {
     pub fn sector(&self, name: &str) -> Option<usize> {
         let mut sectors = self.sectors().iter();
         sectors.position(|sector| sector.name() == name)
+    }
+
+    /// Moment of inertia M_ii (kg m²) of a link about its pivot, with all that hangs from it as
+    /// points at their pivots; NaN for no link.
+    #[must_use]
+    pub fn inertia(&self, link: usize) -> T {
+        at(&self.whole.inertia, link)
+    }
+
+    /// G and F (N m) of a link's share G (1 − cos θ) + F sin θ in the potential energy; NaN for no
+    /// link.
+    #[must_use]
+    pub fn gravity(&self, link: usize) -> [T; 2] {
+        let lateral = self.whole.lateral_gravity.get(link);
+        let lateral = lateral.copied().unwrap_or(T::from_f64(0.0));
+        [at(&self.whole.gravity, link), lateral]
+    }
+
+    /// μ and ν (kg m²) of the entry μ cos (θ_i − θ_j) + ν sin (θ_i − θ_j) of the mass matrix
+    /// between a link i and one above it; zero between others.
+    #[must_use]
+    pub fn coupling(&self, link: usize, above: usize) -> [T; 2] {
+        let zero = T::from_f64(0.0);
+        if link >= self.links() {
+            return [zero; 2];
+        }
+        let mut entries = self.shape.pattern.upwards(link);
+        let place = entries.find(|(_, other)| *other == above);
+        let of = |list: &[T]| {
+            let value = place.and_then(|(place, _)| list.get(place));
+            value.copied().unwrap_or(zero)
+        };
+        [of(&self.whole.coupling), of(&self.whole.lateral_coupling)]
     }
 
     /// The constants that energies of sectors are formed with.

@@ -75,14 +75,16 @@ pub(super) struct Entries<'a, T> {
 }
 
 impl<T: Scalar> Entries<'_, T> {
-    /// Turns the matrix into D and L of LᵀDL (physics (2.1)): links are eliminated from the
+    /// Turns the matrix into D⁻¹ and L of LᵀDL (physics (2.1)): links are eliminated from the
     /// leaves up, and no entry comes to be.
     pub(super) fn factor(&mut self, pattern: &Pattern) {
         for row in (0..pattern.rows()).rev() {
             let own = pattern.row(row);
+            let inverse = T::from_f64(1.0) / self.diagonal[row];
+            self.diagonal[row] = inverse;
             for place in own.clone() {
                 let column = pattern.above[place];
-                let factor = self.beside[place] / self.diagonal[row];
+                let factor = self.beside[place] * inverse;
                 self.diagonal[column] = self.diagonal[column] - factor * self.beside[place];
                 let further = pattern.row(column).zip(place + 1..own.end);
                 for (target, source) in further {
@@ -101,7 +103,7 @@ impl<T: Scalar> Entries<'_, T> {
             }
         }
         for row in 0..pattern.rows() {
-            let mut value = values[row] / self.diagonal[row];
+            let mut value = values[row] * self.diagonal[row];
             for (place, column) in pattern.upwards(row) {
                 value = value - self.beside[place] * values[column];
             }

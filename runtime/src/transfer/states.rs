@@ -2,7 +2,7 @@
 
 use super::memory::Rest;
 use super::motion::{Motion, factors, room};
-use super::{Given, SymmetricTree};
+use super::{Acting, Given, SymmetricTree};
 use crate::scalar::Scalar;
 use crate::sectors::{Normalisation, Sectors};
 use crate::system::Workspace;
@@ -37,19 +37,66 @@ impl<T: Scalar> SymmetricTree<T> {
         });
     }
 
+    /// Writes the angles (rad) and the angular velocities (rad/s) of the links; NaN for slices
+    /// of another length than there are links.
+    pub fn absolute(
+        &self,
+        workspace: &mut Workspace<T>,
+        given: Given<'_, T>,
+        [theta, omega]: [&mut [T]; 2],
+    ) {
+        self.write(workspace, given, theta, |motion, theta| {
+            theta.copy_from_slice(motion.theta);
+        });
+        self.write(workspace, given, omega, |motion, omega| {
+            omega.copy_from_slice(motion.omega);
+        });
+    }
+
+    /// Writes the accelerations (rad/s²) of the links that forces add to those by gravity and
+    /// springs: M⁻¹ Q. NaN for slices of another length than there are links.
+    pub fn accelerations_by(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        given: Given<'_, T>,
+        accelerations: &mut [T],
+    ) {
+        let mut memory = Rest(workspace.numbers(self.state_room()));
+        match self.motion(given, &mut memory) {
+            Some(motion) if accelerations.len() == self.links() => {
+                accelerations.fill(T::from_f64(0.0));
+                self.add_forces(acting, &motion, accelerations);
+                self.solve(&self.whole, motion.matrix, accelerations, memory);
+            }
+            _ => accelerations.fill(T::from_f64(f64::NAN)),
+        }
+    }
+
     /// Returns the energy H = K + U (J), zero where all angles are zero, nothing moves and the
     /// springs are at rest; NaN for slices of another length than there are links.
     #[must_use]
     pub fn hamiltonian(&self, workspace: &mut Workspace<T>, given: Given<'_, T>) -> T {
+        let [kinetic, potential] = self.kinetic_and_potential_energy(workspace, given);
+        kinetic + potential
+    }
+
+    /// Returns K and U (J), as [`hamiltonian`](Self::hamiltonian) sums them.
+    #[must_use]
+    pub fn kinetic_and_potential_energy(
+        &self,
+        workspace: &mut Workspace<T>,
+        given: Given<'_, T>,
+    ) -> [T; 2] {
         let mut memory = Rest(workspace.numbers(self.state_room()));
         let Some(motion) = self.motion(given, &mut memory) else {
-            return T::from_f64(f64::NAN);
+            return [T::from_f64(f64::NAN); 2];
         };
         let momenta = memory.take(self.links());
         self.write_absolute_momenta(&motion, momenta);
         let pairs = momenta.iter().zip(motion.omega);
         let twice = pairs.fold(T::from_f64(0.0), |sum, (&p, &omega)| sum + p * omega);
-        T::from_f64(0.5) * twice + self.potential_energy(&motion)
+        [T::from_f64(0.5) * twice, self.potential_energy(&motion)]
     }
 
     /// Writes the momenta of the absolute angles.

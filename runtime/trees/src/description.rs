@@ -34,7 +34,7 @@ impl TreeDescription {
     ///
     /// # Errors
     /// All mistakes, with their places in the text. Anything that is derived for one tree
-    /// alone is one: transfers, budgets, symmetric coordinates, observables.
+    /// alone is one: Taylor series and transverse equations.
     pub fn parse(text: &str) -> Result<Self, DescriptionError> {
         let scene = Arc::new(text::scene(text)?);
         Ok(Self { scene })

@@ -39,6 +39,25 @@ pub enum TreeError {
         /// The condition on it, as in "positive".
         requirement: &'static str,
     },
+    /// A name that no observable of the description has.
+    #[error("no observable `{name}`: {}", known(.observables))]
+    UnknownObservable {
+        /// The name.
+        name: String,
+        /// Names of all observables.
+        observables: Vec<String>,
+    },
+    /// A constant between copies that differ, which compiled models alone name.
+    #[error(
+        "`{observable}` asks for `{constant}`, which trees at run time do not name where copies \
+         differ: write its value, or a parameter, in its place"
+    )]
+    Constant {
+        /// Name of the observable.
+        observable: String,
+        /// Name of the constant.
+        constant: String,
+    },
     /// Symmetric coordinates, or what is made of them, of a tree without copies.
     #[error(
         "the tree has no copies, between which there are differences to transfer energy to: \

@@ -8,10 +8,11 @@
 //!
 //! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
 //! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
-//! variables, drives, every integrator, batches, ensembles in lanes. Momenta, linear modes and, of
-//! trees by rule, budgets by scale are there too. Other energy transfers, symmetric coordinates,
-//! observables and Taylor series are derived for one tree and stay with compiled models, as does
-//! the speed of code that is written out: `docs/run-time-trees.md`.
+//! variables, drives, every integrator, batches, ensembles in lanes. Momenta, linear modes,
+//! observables and, of trees by rule, budgets by scale are there too; of trees with copies symmetric
+//! coordinates and the energy transfer W in all its forms ([`PendulumTree::symmetric`]). Taylor series are
+//! derived for one tree and stay with compiled models, as does the speed of code that is written
+//! out: `docs/run-time-trees.md`.
 
 mod bodies;
 mod canonical;
@@ -24,6 +25,7 @@ mod error;
 mod forms;
 mod model;
 mod numbers;
+mod observables;
 mod parametric;
 #[cfg(feature = "strips")]
 mod prescribed;
@@ -40,5 +42,6 @@ mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
+pub use observables::Observable;
 pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
 pub use tree::PendulumTree;

@@ -1,16 +1,15 @@
 //! The paper's apparatus against reference numbers from arbitrary-precision
 //! arithmetic (physics §6 and §7).
 
-use branched_pendulum::TransferForm;
+mod run_time;
+
 use branched_pendulum::analysis::Modes;
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::Given;
 use branched_pendulum_compiler_tests::source::fixture;
 use branched_pendulum_tests::scenes::paper::Paper;
-use branched_pendulum_trees::PendulumTree;
 use serde_json::Value;
 
+use self::run_time::AtRunTime;
 use crate::support::{Worst, compile_paper};
 
 fn read(name: &str) -> Value {
@@ -151,14 +150,7 @@ fn energy_and_transfer_at_phase_points() {
     assert_eq!(model.gravity_parent(), constants.g_1);
     assert_eq!(model.gravity_child(), constants.g_2);
     let compiled = compile_paper();
-    let run_time = PendulumTree::parse(
-        "gravity = 9.80665,
-         parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
-             child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
-         ]",
-    );
-    let run_time = run_time.and_then(|tree| tree.symmetric());
-    let run_time = run_time.expect("it has two children alike");
+    let at_run_time = AtRunTime::new();
     let points = reference["points"].as_array().expect("points");
     assert_eq!(points.len(), 25);
     let mut worst = Worst::default();
@@ -222,33 +214,7 @@ fn energy_and_transfer_at_phase_points() {
         check("W", exact.total(), &terms.exact, total("transfer_exact"));
         let program = compiled.evaluate("transfer_exact_from_rates", &[&q, &rates]);
         check("W", by_rates.total(), &terms.exact, program[0] + program[1]);
-
-        let given = Given::Momenta {
-            coordinates: &q,
-            momenta: &p,
-        };
-        let mut check = |name: &str, own: f64, terms: &[f64]| {
-            worst.note(own - number(&point[name]), largest(terms), || {
-                format!("{name} at run time, point {count}")
-            });
-        };
-        let workspace = &mut Workspace::new();
-        check("H", run_time.hamiltonian(workspace, given), &terms.energy);
-        let mut energies = [[0.0; 2]; 2];
-        run_time.energies(workspace, given, &mut energies);
-        let [kinetic, potential] = energies[1];
-        check("Hd", kinetic + potential, &terms.antiphase_energy);
-        let mut transfers = |form| {
-            let mut transfers = [Transfer::default(); 2];
-            run_time.transfers(workspace, form, given, &mut transfers);
-            transfers[1]
-        };
-        let angle = transfers(TransferForm::Angle(1));
-        check("WK_paper", angle.kinetic, &terms.angle_kinetic);
-        check("WP_paper", angle.potential, &terms.angle_potential);
-        let amplitude = transfers(TransferForm::Amplitude(2)).total();
-        check("W_eps2", amplitude, &terms.amplitude);
-        check("W", transfers(TransferForm::Exact).total(), &terms.exact);
+        at_run_time.note(&mut worst, point, &terms, [&q, &p]);
     }
     worst.assert_below(1e-12, "phase points");
 }

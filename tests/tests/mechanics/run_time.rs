@@ -1,7 +1,9 @@
 //! Trees that are described at run time, against the interpreted program that the compiler
 //! derives for each, and against bodies with Cartesian velocities.
 
+mod driven_tree;
 mod growth;
+mod observables;
 mod transfer;
 
 use std::collections::BTreeSet;
