@@ -1,5 +1,6 @@
 //! What the command does, a module for each subcommand.
 
+pub mod analyse;
 pub mod describe;
 pub mod growth;
 pub mod identify;
@@ -46,6 +47,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("growth", growth::run),
         subcommand("map", map::run),
         subcommand("transfer", transfer::run),
+        subcommand("analyse", analyse::run),
         subcommand("identify", identify::run),
         subcommand("methods", methods::run),
     ]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 mod identify;
+mod measured;
 
 /// Runs the command with these words to its end.
 fn run(words: &[&str]) -> Output {
