@@ -5,7 +5,6 @@
 //! its own.
 
 pub mod advise;
-pub mod analyse;
 pub mod branched_double;
 pub mod cascade;
 pub mod critical_angle;

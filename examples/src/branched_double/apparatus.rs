@@ -44,12 +44,6 @@ impl Friction {
         self.root == 0.0 && self.children == 0.0
     }
 
-    /// Power of this friction, which may be of any sign, on H_d at a state.
-    pub fn antiphase_power(self, coordinates: &[f64; 3], rates: &[f64; 3]) -> f64 {
-        let damped = DampedBranchedDouble::from_parameters_unchecked(self.parameters());
-        damped.antiphase_friction_power_from_rates(coordinates, rates)
-    }
-
     /// As parameters of the scene with friction.
     pub fn parameters(self) -> DampedBranchedDoubleParameters<f64> {
         DampedBranchedDoubleParameters {

@@ -10,7 +10,6 @@ mod cascade;
 mod command_lines;
 mod growth;
 mod integration_speed;
-mod measured;
 #[cfg(unix)]
 mod processes;
 mod solvers;

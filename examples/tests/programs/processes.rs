@@ -23,7 +23,7 @@ struct Program {
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 12] = [
+const PROGRAMS: [Program; 11] = [
     Program {
         path: env!("CARGO_BIN_EXE_branched-double"),
         arguments: &["--angles", "40:43:0.5", "--duration", "4", "--rate", "50"],
@@ -35,10 +35,6 @@ const PROGRAMS: [Program; 12] = [
     Program {
         path: env!("CARGO_BIN_EXE_advise"),
         arguments: &["--horizon", "1", "--right", "angles:1e-3"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_analyse"),
-        arguments: &["--duration", "1", "--draws", "50"],
     },
     Program {
         path: env!("CARGO_BIN_EXE_transfer-orders"),
@@ -214,7 +210,7 @@ fn interrupted(program: &Program, moment: u32, after: Duration) {
 
 /// The programs that end within some seconds: the first ones.
 fn quick() -> impl Iterator<Item = &'static Program> {
-    PROGRAMS.iter().take(4)
+    PROGRAMS.iter().take(3)
 }
 
 /// `| head -1`: the first line is read, then the pipe is closed.
@@ -284,7 +280,6 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
         let name = match program.name() {
             "branched-double" => "samples-40.0deg.csv",
             "advise" => "advice.csv",
-            "analyse" => "estimate.csv",
             _ => "onset.csv",
         };
         fs::create_dir_all(folder.join(name)).unwrap();

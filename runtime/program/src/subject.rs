@@ -65,19 +65,21 @@ const SHIPPED: [Shipped; 8] = [
     Shipped {
         name: "double-pendulum",
         text: include_str!("../trees/double-pendulum.txt"),
+        // Those that the authors of its measurements fitted (K. Kaheman et al., arXiv:2205.06231;
+        // their repository's `ParameterEstimation/DoublePendulum`), whose friction is viscous.
         values: &[
-            ("gravity", 9.80665),
-            ("mass_1", 0.11),
-            ("com_1", 0.10),
-            ("inertia_1", 4e-4),
-            ("joint_1", 0.17),
-            ("viscous_1", 2e-4),
+            ("gravity", 9.80858023),
+            ("mass_1", 0.0938439748),
+            ("com_1", 0.108565215),
+            ("inertia_1", 4.37529430e-4),
+            ("joint_1", 0.172719204),
+            ("viscous_1", 2.37142783e-4),
             ("coulomb_1", 0.0),
             ("quadratic_1", 0.0),
-            ("mass_2", 0.12),
-            ("com_2", 0.13),
-            ("inertia_2", 1.1e-3),
-            ("viscous_2", 2e-5),
+            ("mass_2", 0.137595970),
+            ("com_2", 0.116779018),
+            ("inertia_2", 1.26882939e-3),
+            ("viscous_2", 1.00000019e-5),
             ("coulomb_2", 0.0),
             ("quadratic_2", 0.0),
         ],
@@ -207,11 +209,16 @@ impl Described {
     /// no pendulum can have.
     pub fn subject(&self, values: &[(&str, f64)]) -> Result<Subject, Failure> {
         let tree = self.description.tree(values);
-        Ok(Subject {
+        Ok(self.with_tree(tree.map_err(|source| self.refused(source))?))
+    }
+
+    /// Returns a tree of the description with its name.
+    pub fn with_tree(&self, tree: PendulumTree) -> Subject {
+        Subject {
             name: self.name.clone(),
             text: self.text.clone(),
-            tree: tree.map_err(|source| self.refused(source))?,
-        })
+            tree,
+        }
     }
 
     /// Returns a mistake in what is asked of the tree, with its name.

@@ -1,6 +1,7 @@
 //! What the command does, a module for each subcommand.
 
 pub mod advise;
+pub mod analyse;
 pub mod describe;
 pub mod growth;
 pub mod identify;
@@ -52,6 +53,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("growth", growth::run),
         subcommand("map", map::run),
         subcommand("transfer", transfer::run),
+        subcommand("analyse", analyse::run),
         subcommand("identify", identify::run),
         subcommand("methods", methods::run),
         subcommand("advise", advise::run),

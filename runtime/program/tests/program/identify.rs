@@ -97,7 +97,7 @@ fn parameters_of_a_tree_in_a_text_are_found() {
     }
     let errors = read("errors.csv");
     assert!(
-        errors.starts_with("time,window_upper,window_middle,window_lower"),
+        errors.starts_with("time [s],window_upper [rad],window_middle [rad],window_lower [rad]"),
         "{errors:.99}"
     );
     // The run is repeated from its record.

@@ -2,6 +2,7 @@
 
 mod answers;
 mod identify;
+mod measured;
 mod refusals;
 mod repeated;
 

@@ -178,12 +178,9 @@ impl Unknowns {
     /// # Errors
     /// [`Failure::Tree`] for too few values.
     pub fn subject_as_given(&self, values: &[f64]) -> Result<Subject, Failure> {
-        let tree = self.described.description.tree_as_given(values);
-        Ok(Subject {
-            name: self.described.name.clone(),
-            text: self.described.text.clone(),
-            tree: tree.map_err(|source| self.described.refused(source))?,
-        })
+        let described = &self.described;
+        let tree = described.description.tree_as_given(values);
+        Ok(described.with_tree(tree.map_err(|source| described.refused(source))?))
     }
 
     /// Values of a simulated tree: unknown ones are some 20 % off from their guesses.

@@ -8,8 +8,8 @@ use super::arguments::Arguments;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
 use super::subject::Names;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use crate::Failure;
+use crate::frame::Job;
 
 /// Writes the estimate: a row a time, each quantity with its standard deviation.
 ///
@@ -22,13 +22,15 @@ pub fn write<const N: usize>(
     estimate: &Estimate<N>,
 ) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
-    columns.extend(names.coordinates.map(|name| Column::new(name, "rad")));
+    let coordinates = names.coordinates.iter();
+    columns.extend(coordinates.map(|name| Column::new(name.as_str(), "rad")));
     let rates = names
         .coordinates
+        .each_ref()
         .map(|name| name.replacen("theta", "omega", 1));
     let rates = rates.iter().map(|name| (name.as_str(), "rad/s"));
     let energies = [
-        (names.energy, "J"),
+        (names.energy.as_str(), "J"),
         (names.power, "W"),
         ("flowed", "J"),
         ("closure", "J"),
@@ -114,9 +116,9 @@ pub fn report<const N: usize>(
     match &arguments.measured.file {
         Some(file) => line(format!("{}: {} times", file.display(), source.times.len())),
         None => line(format!(
-            "Simulated camera: {} pictures of a release from {}°, θ_d(0) = {} rad",
+            "Simulated camera: {} pictures of a release from {} (degrees), differences {} rad more",
             source.times.len(),
-            arguments.angle,
+            arguments.release.start,
             arguments.difference
         )),
     }
@@ -124,7 +126,7 @@ pub fn report<const N: usize>(
         line(format!("  {finding}"));
     }
     let trust = Trust::of(estimate);
-    let (energy, power) = (names.energy, names.power);
+    let (energy, power) = (&names.energy, names.power);
     line(
         match (arguments.model, arguments.polynomials) {
             (true, _) => {
@@ -197,16 +199,17 @@ pub fn power_error<const N: usize>(source: &Source<N>, estimate: &Estimate<N>) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Arguments, Draws, Measured, Source};
+    use super::super::tests::{paper, tree};
+    use super::super::{Draws, Measured, Source};
     use super::Trust;
-    use crate::branched_double::Apparatus;
 
     /// The closure by the equations of motion, in its deviations.
-    fn closure(arguments: &Arguments) -> f64 {
-        let apparatus = Apparatus::new(arguments.friction).unwrap();
-        let source = Source::simulate(arguments).unwrap();
+    fn closure(options: &str) -> f64 {
+        let arguments = paper(options);
+        let (described, subject) = tree::<3, 6>(&arguments);
+        let source = Source::simulate::<6>(&arguments, &described).unwrap();
         let measured = Measured {
-            subject: &apparatus,
+            subject: &subject,
             record: source.record(),
         };
         let draws = Draws { count: 30, seed: 1 };
@@ -219,15 +222,8 @@ mod tests {
     /// angles is white.
     #[test]
     fn turned_dots_are_told_by_the_closure() {
-        let right = Arguments {
-            rate: 60.0,
-            ..Arguments::default()
-        };
-        let turned = Arguments {
-            turned: 0.5,
-            ..right.clone()
-        };
-        let (right, turned) = (closure(&right), closure(&turned));
+        let right = closure("--rate 60");
+        let turned = closure("--rate 60 --turned 0.5");
         assert!(right < 3.0 && turned > 5.0, "{right} {turned}");
     }
 }

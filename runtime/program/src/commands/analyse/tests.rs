@@ -2,20 +2,32 @@
 
 mod causes;
 
-use branched_pendulum::Parametric;
 use branched_pendulum::prelude::Ensemble;
 use branched_pendulum_data::{Table, TableOptions};
-use clap::Parser;
 
 use super::arguments::Arguments;
+use super::constants;
 use super::estimate::{Draws, Estimate, Measured, quantity};
-use super::parameters::fitted;
 use super::report::{Trust, power_error};
-use super::scenes::Chain;
 use super::source::Source;
 use super::spectrogram::Spectrogram;
-use super::subject::{Subject, TwoLinks};
-use crate::branched_double::{Apparatus, Friction};
+use super::subject::{MeasuredTree, Subject};
+use crate::frame::command_line::parse_line;
+use crate::subject::Subject as Described;
+
+/// A camera before the paper's pendulum with these options.
+pub(super) fn paper(options: &str) -> Arguments {
+    parse_line(&format!("--start parent=47.8 {options}")).unwrap()
+}
+
+/// The real tree of a camera, and the tree that is assumed.
+pub(super) fn tree<const N: usize, const D: usize>(
+    arguments: &Arguments,
+) -> (Described, MeasuredTree<N, D>) {
+    let (assumed, _) = constants::assumed(arguments).unwrap();
+    let subject = MeasuredTree::new(&assumed, arguments.sector.as_deref()).unwrap();
+    (constants::real(arguments).unwrap(), subject)
+}
 
 const DRAWS: Draws = Draws { count: 50, seed: 7 };
 
@@ -30,10 +42,10 @@ enum Way {
 /// Looks with the simulated camera at an apparatus, and analyses it with the friction that is
 /// assumed.
 fn estimate(arguments: &Arguments, draws: Draws, ways: &[Way]) -> (Source<3>, Vec<Estimate<3>>) {
-    let apparatus = Apparatus::new(arguments.friction).unwrap();
-    let source = Source::simulate(arguments).unwrap();
+    let (real, subject) = tree::<3, 6>(arguments);
+    let source = Source::simulate::<6>(arguments, &real).unwrap();
     let measured = Measured {
-        subject: &apparatus,
+        subject: &subject,
         record: source.record(),
     };
     let few = Draws { count: 2, ..draws };
@@ -77,7 +89,7 @@ fn transfer_from_smoothness() {
                 difference,
                 rate,
                 seed,
-                ..Arguments::default()
+                ..paper("")
             };
             let (source, all) = estimate(&arguments, DRAWS, &[Way::Smoothness]);
             [
@@ -97,22 +109,18 @@ fn transfer_from_smoothness() {
 /// Polynomials know less, and come near.
 #[test]
 fn polynomials_agree_with_smoothness() {
-    let all = errors(&Arguments::default(), &[Way::Smoothness, Way::Polynomials]);
+    let all = errors(&paper(""), &[Way::Smoothness, Way::Polynomials]);
     assert!(all[1] < 3.0 * all[0] && all[1] < 0.04, "{all:?}");
 }
 
 #[test]
 fn the_right_model_is_worth_a_factor_ten_and_a_wrong_one_is_no_loss() {
-    let arguments = Arguments {
-        rate: 60.0,
-        ..Arguments::default()
-    };
-    let all = errors(&arguments, &[Way::Smoothness, Way::Model]);
+    let all = errors(&paper("--rate 60"), &[Way::Smoothness, Way::Model]);
     assert!(all[1] < 1e-3 && all[1] < 0.1 * all[0], "{all:?}");
     for unmodelled in [1e-5, 3.5e-5, 1e-4] {
         let arguments = Arguments {
-            unmodelled,
-            ..arguments.clone()
+            rate: 60.0,
+            ..with_lacking_friction(unmodelled)
         };
         let all = errors(&arguments, &[Way::Smoothness, Way::Model]);
         assert!(all[1] < all[0] && all[1] < 0.025, "{unmodelled} {all:?}");
@@ -169,13 +177,8 @@ const FRICTION: [f64; 2] = [0.0, 3.5e-5];
 
 /// A pendulum with that friction in its children's pivots, which the equations know.
 fn with_friction(children: f64) -> Arguments {
-    Arguments {
-        friction: Friction {
-            root: 0.0,
-            children,
-        },
-        ..Arguments::default()
-    }
+    let children = format!("--set viscous_1=0,viscous_2={children}");
+    paper(&format!("--tree apparatus {children}"))
 }
 
 /// Asserts that bars hold what they say, once all cases are printed.
@@ -200,7 +203,7 @@ fn bars_of_energy_and_transfer_hold_what_they_say() {
     assert_coverage(&FRICTION.map(with_friction), Way::Smoothness, 6, 60);
 }
 
-/// `cargo test --release -p branched-pendulum-examples --lib 200_cameras -- --ignored --nocapture`
+/// `cargo test --release -p branched-pendulum-program --lib 200_cameras -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
 fn bars_of_energy_and_transfer_hold_what_they_say_200_cameras() {
@@ -215,9 +218,10 @@ fn bars_by_equations_of_motion_200_cameras() {
 
 /// A pendulum with that friction in its children's pivots, which the equations lack.
 fn with_lacking_friction(unmodelled: f64) -> Arguments {
+    let real = [("viscous_2".to_owned(), unmodelled)];
     Arguments {
-        unmodelled,
-        ..Arguments::default()
+        real: vec![real.to_vec()],
+        ..with_friction(0.0)
     }
 }
 
@@ -249,12 +253,13 @@ fn friction_that_equations_lack_is_found() {
 fn a_measured_chain_is_read_and_its_energy_falls() {
     let file = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../runtime/measure/tests/measure/identification/double-pendulum.csv"
+        "/../measure/tests/measure/identification/double-pendulum.csv"
     );
-    let arguments = Arguments::parse_from(["analyse", file, "--pendulum", "chain"]);
-    let chain = TwoLinks::new(&fitted());
+    let line = format!("{file} --tree double-pendulum");
+    let arguments: Arguments = parse_line(&line).unwrap();
+    let (_, chain) = tree::<2, 4>(&arguments);
     let table = Table::read(file, &TableOptions::default()).unwrap();
-    let mut source: Source<2> = Source::read(&table, &arguments).unwrap();
+    let mut source: Source<2> = Source::read(&table, &arguments, chain.parents()).unwrap();
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
     source.angles.truncate(count);
@@ -271,13 +276,13 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let trust = Trust::of(&estimate);
     assert!(estimate.noise < 1e-4 && trust.power < 0.01);
     assert!((0.02..0.1).contains(&trust.closure) && trust.closure > 3.0 * trust.closure_deviation);
-    let spectrogram = Spectrogram::of(&chain.names(), &source, &estimate);
+    let spectrogram = Spectrogram::of(chain.names(), &source, &estimate);
     assert!(spectrogram.unwrap().is_none(), "the record is too short");
     // The model lacks something, and is not trusted beyond that.
     let model = measured.by_model(&estimate, DRAWS).unwrap();
     assert!(model.noise < 2e-4 && model.whiteness > 3.0);
     assert!(Trust::of(&model).closure > 3.0 * Trust::of(&model).closure_deviation);
-    let refused = Source::<3>::read(&table, &arguments).unwrap_err();
+    let refused = Source::<3>::read(&table, &arguments, [None, Some(0), Some(0)]).unwrap_err();
     assert!(
         refused
             .to_string()
@@ -289,20 +294,11 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
 /// (physics §17).
 #[test]
 fn friction_of_the_chain_by_all_laws() {
-    let mut values = fitted();
-    let names = <Chain as Parametric<f64>>::PARAMETERS;
-    let laws = [
-        ("coulomb_1", 3e-4),
-        ("coulomb_2", 1e-4),
-        ("quadratic_1", 2e-5),
-        ("quadratic_2", 4e-5),
-    ];
-    for (name, value) in laws {
-        let place = names.iter().position(|own| *own == name).unwrap();
-        values[place] = value;
-    }
-    let of = |name: &str| values[names.iter().position(|own| *own == name).unwrap()];
-    let chain = TwoLinks::new(&values);
+    let set = "coulomb_1=3e-4,coulomb_2=1e-4,quadratic_1=2e-5,quadratic_2=4e-5";
+    let line = format!("--tree double-pendulum --set {set}");
+    let arguments: Arguments = parse_line(&line).unwrap();
+    let (described, chain) = tree::<2, 4>(&arguments);
+    let of = |name: &str| described.tree.value(name).unwrap();
     let lost = |[viscous, coulomb, quadratic]: [f64; 3], rate: f64| {
         let size = rate.hypot(0.05);
         viscous * rate * rate + (coulomb / size + quadratic * size) * rate * rate
@@ -317,7 +313,7 @@ fn friction_of_the_chain_by_all_laws() {
             - lost([of("viscous_2"), of("coulomb_2"), 0.0], lower - upper)
             - lost([0.0, 0.0, of("quadratic_1")], upper)
             - lost([0.0, 0.0, of("quadratic_2")], lower);
-        let found = chain.powers(&[angles, rates], &[]).whole;
+        let found = chain.powers(0.0, &[angles, rates], &[]).whole;
         assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
     }
 }
@@ -340,30 +336,23 @@ fn median_errors(arguments: &Arguments, ways: &[Way]) -> Vec<f64> {
 }
 
 /// The tables of docs/measured.md:
-/// `cargo test -p branched-pendulum-examples --lib tables_of --config 'profile.dev.package.branched-pendulum-examples.opt-level=2' -- --ignored --nocapture`
+/// `cargo test -p branched-pendulum-program --lib tables_of --config 'profile.dev.package.branched-pendulum-program.opt-level=2' -- --ignored --nocapture`
 #[test]
 #[ignore = "some minutes"]
 fn tables_of_noise_and_geometry() {
     let ways = &[Way::Smoothness, Way::Polynomials, Way::Model];
     for rate in [60.0, 240.0, 1000.0] {
         for noise in [2e-4, 5e-4, 1e-3] {
-            let usual = Arguments {
+            let with = |options: &str| Arguments {
                 rate,
                 noise,
-                ..Arguments::default()
+                ..paper(options)
             };
-            let small = Arguments {
-                difference: 1e-3,
-                ..usual.clone()
-            };
-            let longer = Arguments {
-                longer: 5e-4,
-                ..usual.clone()
-            };
-            let turned = Arguments {
-                turned: 0.5,
-                ..usual.clone()
-            };
+            let usual = with("");
+            let small = with("--difference 1e-3");
+            let longer =
+                with("--tree apparatus --set viscous_1=0,viscous_2=0 --real joint_1=0.2705");
+            let turned = with("--turned 0.5");
             let millimetres = 1e3 * noise;
             println!(
                 "| {rate} | {millimetres} | {:.2?} | small {:.2?} | longer {:.2?} | turned {:.2?} |",
@@ -385,8 +374,7 @@ fn tables_of_friction() {
         for rate in [60.0, 240.0] {
             let arguments = Arguments {
                 rate,
-                unmodelled,
-                ..Arguments::default()
+                ..with_lacking_friction(unmodelled)
             };
             let ways = [Way::Smoothness, Way::Model];
             println!(

@@ -3,25 +3,18 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use branched_pendulum::Parametric;
-use branched_pendulum::integrate::Solution;
-use branched_pendulum::prelude::{AbsoluteAngles, Dop853, Options, State};
 use branched_pendulum_data::{Table, TableOptions};
-use clap::Parser;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::super::arguments::Tree;
-use super::super::camera::{Camera, Real, Release};
-use super::super::parameters::fitted;
-use super::super::subject::{Subject, TwoLinks};
+use super::super::subject::Subject;
 use super::super::verdict::Verdict;
 use super::super::{Arguments, Source};
 use super::super::{judged, run};
-use crate::analyse::scenes::Chain;
-use crate::branched_double::{Apparatus, Friction};
-use branched_pendulum_program::frame::{Job, Progress};
+use super::{paper, tree};
+use crate::frame::command_line::parse_line;
+use crate::frame::{Job, Progress};
 
 /// Angles of links against time.
 struct Record<const N: usize> {
@@ -29,48 +22,46 @@ struct Record<const N: usize> {
     angles: Vec<[f64; N]>,
 }
 
-/// The paper's pendulum before a camera, as it really is.
-fn camera(real: Real, angle_deg: f64, seed: u64) -> Record<3> {
-    let release = Release {
-        angle_deg,
-        difference: 0.05,
-        duration: 3.0,
-    };
-    let truth = real.motion(release, 60.0).unwrap();
-    let camera = Camera {
-        rate: 60.0,
-        noise: 2e-4,
-        distance: 0.25,
-        turned: 0.0,
-        seed,
-    };
-    let seen = camera.angles(&truth);
+/// The paper's pendulum before a camera, with what is real of it.
+fn camera(real: &str, angle_deg: f64, seed: u64) -> Record<3> {
+    let arguments: Arguments = parse_line(&format!(
+        "--tree apparatus --set viscous_1=0,viscous_2=0 {real} --start parent={angle_deg} \
+         --difference 0.05 --duration 3 --rate 60 --seed {seed}"
+    ))
+    .unwrap();
+    let (real, _) = tree::<3, 6>(&arguments);
+    let source: Source<3> = Source::simulate::<6>(&arguments, &real).unwrap();
     Record {
-        times: truth.iter().map(|sample| sample.time).collect(),
-        angles: seen.iter().map(|row| row.map(Option::unwrap)).collect(),
+        angles: source
+            .angles
+            .iter()
+            .map(|row| row.map(Option::unwrap))
+            .collect(),
+        times: source.times,
     }
 }
 
-/// A chain of two links with encoders of 0.5 mrad, with its parameters changed.
-fn chain(change: impl Fn(&str, f64) -> f64, start: [f64; 2], seed: u64) -> Record<2> {
-    let values = <Chain as Parametric<f64>>::PARAMETERS.iter().zip(fitted());
-    let values: Vec<f64> = values.map(|(name, value)| change(name, value)).collect();
-    let model = Chain::<f64>::with_parameters(|index| values[index]);
-    let times: Vec<f64> = (0..250).map(|row| f64::from(row) / 100.0).collect();
+/// A chain of two links with encoders of 0.5 mrad, with a value of a parameter.
+fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
+    let [upper, lower] = start.map(f64::to_degrees);
+    let arguments: Arguments = parse_line(&format!(
+        "--tree double-pendulum {real} --start {upper},{lower} --duration 2.49 --rate 100"
+    ))
+    .unwrap();
+    let (real, _) = tree::<2, 4>(&arguments);
+    let source: Source<2> = Source::simulate::<4>(&arguments, &real).unwrap();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut noise = || {
         let normal: f64 = StandardNormal.sample(&mut random);
         5e-4 * normal
     };
-    let mut angles = Vec::new();
-    let method = Dop853::new(Options::with_tolerance(1e-12));
-    let start = State::at_rest(0.0, &start);
-    let run: Result<Solution<f64>, _> =
-        method.sample(&AbsoluteAngles(&model), &start, &times, |_, state| {
-            angles.push([state[0] + noise(), state[1] + noise()])
-        });
-    run.unwrap();
-    Record { times, angles }
+    let angles = source.truth.iter();
+    Record {
+        angles: angles
+            .map(|truth| truth.links.map(|angle| angle + noise()))
+            .collect(),
+        times: source.times,
+    }
 }
 
 impl<const N: usize> Record<N> {
@@ -89,14 +80,10 @@ impl<const N: usize> Record<N> {
 /// Judges a table as the program does: whether its budget closes, and the options that close it.
 fn judge(text: &str, options: &str) -> (Verdict, Vec<String>) {
     let table = Table::parse("swing.csv", text, &TableOptions::default()).unwrap();
-    let words = format!("analyse swing.csv --draws 20 {options}");
-    let arguments = Arguments::try_parse_from(words.split_whitespace()).unwrap();
-    match arguments.pendulum {
-        Tree::Chain => judge_as(&arguments, &TwoLinks::new(&fitted()), &table),
-        Tree::Branched => {
-            let apparatus = Apparatus::new(arguments.friction).unwrap();
-            judge_as(&arguments, &apparatus, &table)
-        }
+    let arguments: Arguments = parse_line(&format!("swing.csv --draws 20 {options}")).unwrap();
+    match arguments.tree.tree.as_str() {
+        "double-pendulum" => judge_as(&arguments, &tree::<2, 4>(&arguments).1, &table),
+        _ => judge_as(&arguments, &tree::<3, 6>(&arguments).1, &table),
     }
 }
 
@@ -105,7 +92,7 @@ fn judge_as<const N: usize>(
     subject: &dyn Subject<N>,
     table: &Table,
 ) -> (Verdict, Vec<String>) {
-    let source = Source::read(table, arguments).unwrap();
+    let source = Source::read(table, arguments, subject.parents()).unwrap();
     let progress = Progress::default();
     let (_, verdict, search) = judged(arguments, subject, Some(table), &source, &progress).unwrap();
     assert_eq!(verdict.closes(), search.is_none());
@@ -131,18 +118,18 @@ fn assert_cause(text: &str, options: &str, wrong: &str, option: &str) {
 }
 
 const RADIANS: [&str; 2] = ["t [s],a [rad],b [rad]", "t [s],a [rad],b [rad],c [rad]"];
-const CHAIN: &str = "--pendulum chain";
+const CHAIN: &str = "--tree double-pendulum";
 
 /// Three of the chain.
 const STARTS: [[f64; 2]; 3] = [[0.8, -0.5], [1.5, 1.2], [2.5, 0.3]];
 
 /// Three releases of the paper's pendulum.
 fn releases() -> [Record<3>; 3] {
-    [(47.8, 1), (35.0, 2), (75.0, 3)].map(|(angle, seed)| camera(Real::default(), angle, seed))
+    [(47.8, 1), (35.0, 2), (75.0, 3)].map(|(angle, seed)| camera("", angle, seed))
 }
 
 fn starts() -> [Record<2>; 3] {
-    [0, 1, 2].map(|index| chain(|_, value| value, STARTS[index], 1 + index as u64))
+    [0, 1, 2].map(|index| chain("", STARTS[index], 1 + index as u64))
 }
 
 #[test]
@@ -155,7 +142,7 @@ fn right_records_close() {
         (5, "--model"),
     ] {
         let angle = 30.0 + 8.0 * seed as f64;
-        let text = camera(Real::default(), angle, seed).table(RADIANS[1], |_, a| a.to_vec());
+        let text = camera("", angle, seed).table(RADIANS[1], |_, a| a.to_vec());
         let (verdict, _) = judge(&text, options);
         assert!(verdict.closes(), "{angle} {options} {verdict:?}");
     }
@@ -171,7 +158,7 @@ fn columns_that_are_read_wrongly_are_named() {
     let text = one.table("t [s],a [deg],b [deg],c [deg]", |_, a| a.to_vec());
     assert_cause(&text, "", "", "--unit rad");
     // A small swing in degrees passes for one in radians.
-    let small = camera(Real::default(), 2.5, 2);
+    let small = camera("", 2.5, 2);
     let text = small.table("t [s],a,b,c", |_, a| a.map(f64::to_degrees).to_vec());
     assert_cause(&text, "", "--unit rad", "--unit deg");
     let text = two.table(RADIANS[1], |_, a| a.map(|a| a + PI).to_vec());
@@ -188,7 +175,7 @@ fn columns_that_are_read_wrongly_are_named() {
         let text = record.table(RADIANS[0], |_, [a, b]| vec![a, b - a]);
         assert_cause(&text, CHAIN, "", "--relative");
         let text = record.table(RADIANS[0], |_, a| a.to_vec());
-        let (_, closing) = judge(&text, "--pendulum chain --relative");
+        let (_, closing) = judge(&text, "--tree double-pendulum --relative");
         assert_eq!(closing.first().map(String::as_str), Some("no --relative"));
         assert_cause(&text, CHAIN, "--zero up", "--zero down");
         let text = record.table("t [s],a [deg],b [deg]", |_, a| a.to_vec());
@@ -317,24 +304,14 @@ fn wrong_pictures_are_named() {
 /// constants have no cause.
 #[test]
 fn other_pendulums_have_no_cause_among_the_readings() {
-    let friction = |children| Real {
-        friction: Friction {
-            root: 0.0,
-            children,
-        },
-        longer: 0.0,
-    };
-    let longer = Real {
-        longer: 0.02,
-        ..Real::default()
-    };
+    const APPARATUS: &str = "--tree apparatus --set viscous_1=0,viscous_2=0";
     for (real, angle, expected) in [
-        (friction(1e-4), 75.0, Some("--friction-children")),
-        (friction(3e-4), 60.0, Some("--friction-children")),
-        (longer, 75.0, None),
+        ("--real viscous_2=1e-4", 75.0, Some("--set viscous_2")),
+        ("--real viscous_2=3e-4", 60.0, Some("--set viscous_2")),
+        ("--real joint_1=0.29", 75.0, None),
     ] {
         let text = camera(real, angle, 2).table(RADIANS[1], |_, a| a.to_vec());
-        let (verdict, closing) = judge(&text, "");
+        let (verdict, closing) = judge(&text, APPARATUS);
         assert!(!verdict.closes(), "{real:?}");
         assert_eq!(
             closing.first().map(String::as_str),
@@ -342,20 +319,20 @@ fn other_pendulums_have_no_cause_among_the_readings() {
             "{real:?} {closing:?}"
         );
     }
-    for (own, factor, expected) in [
-        ("mass_2", 1.2, None),
-        ("joint_1", 1.05, None),
-        ("viscous_1", 3.0, Some("viscous_1 of --parameters")),
+    for (real, expected) in [
+        // 1.2, 1.05 and 3 times what is assumed.
+        ("--real mass_2=0.165115164", None),
+        ("--real joint_1=0.1813551642", None),
+        ("--real viscous_1=7.11428349e-4", Some("--set viscous_1")),
     ] {
-        let change = |name: &str, value| if name == own { factor * value } else { value };
         for (start, seed) in STARTS.iter().zip(1..) {
-            let text = chain(change, *start, seed).table(RADIANS[0], |_, a| a.to_vec());
+            let text = chain(real, *start, seed).table(RADIANS[0], |_, a| a.to_vec());
             let (verdict, closing) = judge(&text, CHAIN);
-            assert!(!verdict.closes(), "{own}");
+            assert!(!verdict.closes(), "{real}");
             assert_eq!(
                 closing.first().map(String::as_str),
                 expected,
-                "{own} {closing:?}"
+                "{real} {closing:?}"
             );
         }
     }
@@ -368,7 +345,7 @@ fn the_verdict_comes_first() {
         std::env::temp_dir().join(format!("branched-pendulum-verdict-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("swing.csv");
-    let record = camera(Real::default(), 47.8, 1);
+    let record = camera("", 47.8, 1);
     for (header, first, second) in [
         (
             RADIANS[1],
@@ -382,9 +359,9 @@ fn the_verdict_comes_first() {
         ),
     ] {
         std::fs::write(&file, record.table(header, |_, a| a.to_vec())).unwrap();
-        let words = ["analyse", file.to_str().unwrap(), "--draws", "20"];
+        let arguments = paper(&format!("{} --draws 20", file.display()));
         let job = Job::quiet(&folder).unwrap();
-        run(&Arguments::parse_from(words), &job).unwrap();
+        run(&arguments, &job).unwrap();
         let printed = job.printed();
         let lines: Vec<&str> = printed.lines().collect();
         assert!(

@@ -1,7 +1,7 @@
 //! From measured angles of a pendulum to its energy and power, with their errors.
 //!
 //! - [`arguments`]: the command line,
-//! - [`subject`]: the pendulums, [`scenes`] and [`parameters`]: their descriptions,
+//! - [`subject`]: the tree, [`constants`]: the values of its parameters,
 //! - [`source`]: angles out of a file, or of a simulated [`camera`],
 //! - [`estimate`]: what follows from motions that the angles allow,
 //! - [`verdict`]: whether the energy budget closes, [`causes`]: readings of the table by which it
@@ -13,11 +13,10 @@ pub mod arguments;
 pub mod camera;
 pub mod causes;
 pub mod charts;
+pub mod constants;
 pub mod estimate;
 pub mod least;
-pub mod parameters;
 pub mod report;
-pub mod scenes;
 pub mod source;
 pub mod spectrogram;
 pub mod subject;
@@ -29,16 +28,14 @@ pub mod wrong_pictures;
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
-pub use subject::{Subject, TwoLinks};
+pub use subject::{MeasuredTree, Subject};
 
-use branched_pendulum::Parametric;
+use branched_pendulum::system::Model;
 use branched_pendulum_data::{Table, TableOptions};
 
-use crate::analyse::scenes::Chain;
-use crate::branched_double::Apparatus;
-use arguments::Tree;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::{Job, Progress};
+use crate::Failure;
+use crate::frame::{Job, Progress};
+use crate::subject::Subject as Described;
 use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
@@ -52,30 +49,45 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let file = arguments.measured.file.as_deref();
     let table = file.map(|file| Table::read(file, &TableOptions::default()));
     let table = table.transpose()?;
-    match arguments.pendulum {
-        Tree::Branched => {
-            let apparatus = Apparatus::new(arguments.friction)?;
-            let source = match &table {
-                Some(table) => Source::read(table, arguments)?,
-                None => Source::simulate(arguments)?,
-            };
-            analyse(arguments, job, &apparatus, table.as_ref(), &source)
-        }
-        Tree::Chain => {
-            let read = arguments.parameters.as_deref().map(parameters::read);
-            let values = read.transpose()?.unwrap_or_else(parameters::fitted);
-            if let Err(error) = Chain::<f64>::check_parameters(|index| values[index]) {
-                job.print(&format!(
-                    "No pendulum is such, but taken as it is: {error}.\n"
-                ))?;
-            }
-            let chain = TwoLinks::new(&values);
-            // A chain without a file is refused with the options.
-            let Some(table) = &table else { return Ok(()) };
-            let source = Source::read(table, arguments)?;
-            analyse(arguments, job, &chain, Some(table), &source)
-        }
+    let (described, impossible) = constants::assumed(arguments)?;
+    if let Some(error) = impossible {
+        job.print(&format!(
+            "No pendulum is such, but taken as it is: {error}.\n"
+        ))?;
     }
+    match described.tree.links() {
+        1 => of_links::<1, 2>(arguments, job, &described, table.as_ref()),
+        2 => of_links::<2, 4>(arguments, job, &described, table.as_ref()),
+        3 => of_links::<3, 6>(arguments, job, &described, table.as_ref()),
+        4 => of_links::<4, 8>(arguments, job, &described, table.as_ref()),
+        5 => of_links::<5, 10>(arguments, job, &described, table.as_ref()),
+        6 => of_links::<6, 12>(arguments, job, &described, table.as_ref()),
+        links => Err(Failure::Lacking {
+            what: format!(
+                "`{}` has {links} links, and motions of up to {MOST_LINKS} are estimated: describe \
+                 the part that was measured",
+                described.name
+            ),
+        }),
+    }
+}
+
+/// Most links of a tree that is analysed.
+const MOST_LINKS: usize = 6;
+
+/// For a tree of N links and D = 2N.
+fn of_links<const N: usize, const D: usize>(
+    arguments: &Arguments,
+    job: &Job,
+    described: &Described,
+    table: Option<&Table>,
+) -> Result<(), Failure> {
+    let subject = MeasuredTree::<N, D>::new(described, arguments.sector.as_deref())?;
+    let source = match table {
+        Some(table) => Source::read(table, arguments, subject.parents())?,
+        None => Source::simulate::<D>(arguments, &constants::real(arguments)?)?,
+    };
+    analyse(arguments, job, &subject, table, &source)
 }
 
 fn analyse<const N: usize>(
@@ -88,11 +100,11 @@ fn analyse<const N: usize>(
     let progress = job.progress(1 + usize::from(arguments.model));
     let (estimate, verdict, search) = judged(arguments, subject, table, source, &progress)?;
     let names = subject.names();
-    report::write(job, &names, source, &estimate)?;
-    job.print(&verdict.words(arguments, &names, search.as_ref()))?;
-    job.print(&report::report(arguments, &names, source, &estimate))?;
+    report::write(job, names, source, &estimate)?;
+    job.print(&verdict.words(arguments, names, search.as_ref()))?;
+    job.print(&report::report(arguments, names, source, &estimate))?;
     job.chart("estimate", &charts::chart(subject, source, &estimate))?;
-    if let Some(spectrogram) = Spectrogram::of(&names, source, &estimate)? {
+    if let Some(spectrogram) = Spectrogram::of(names, source, &estimate)? {
         spectrogram.write(job)?;
     }
     let findings = source.findings.iter().map(ToString::to_string);

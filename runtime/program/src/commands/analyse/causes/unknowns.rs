@@ -4,7 +4,7 @@ use super::super::estimate::{Estimate, Measured, quantity};
 use super::super::least::{self, Unknown};
 use super::super::verdict::Verdict;
 use super::{Cause, FRICTION, Unclosed};
-use branched_pendulum_program::measured_file::MeasuredFile;
+use crate::measured_file::MeasuredFile;
 
 impl<const N: usize> Unclosed<'_, N> {
     /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.
@@ -66,7 +66,7 @@ impl<const N: usize> Unclosed<'_, N> {
     ) -> Vec<(f64, Cause)> {
         let names = self.subject.names();
         let weights = least::weights(deviations(smooth));
-        let pivots = names.pivots.iter().zip(names.frictions).enumerate();
+        let pivots = names.pivots.iter().zip(&names.frictions).enumerate();
         let causes = pivots.filter_map(|(pivot, (place, option))| {
             let closure = |friction: f64| {
                 let mut all = vec![0.0; names.pivots.len()];
@@ -80,8 +80,8 @@ impl<const N: usize> Unclosed<'_, N> {
             let bars = bars.map(|(closure, deviation)| closure.abs() / deviation);
             let bars = bars.fold(0.0, f64::max);
             let closes = friction > 0.0 && bars <= self.verdict.allowed;
-            let words = format!("{place} have about {friction:.2e} N m s of friction more");
-            closes.then(|| (bars, self.cause(FRICTION, words, *option, |_| {})))
+            let words = format!("friction in {place} is larger by about {friction:.2e} N m s");
+            closes.then(|| (bars, self.cause(FRICTION, words, option, |_| {})))
         });
         causes.collect()
     }

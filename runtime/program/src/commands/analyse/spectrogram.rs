@@ -7,9 +7,9 @@ use branched_pendulum_measure::{LineSearch, Lines, Passage, Passages, Spectrum, 
 use super::estimate::Estimate;
 use super::source::Source;
 use super::subject::Names;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
-use branched_pendulum_program::smoothed::Motion;
+use crate::Failure;
+use crate::frame::Job;
+use crate::smoothed::Motion;
 
 /// Length of a stretch, s: longer than ten swings of the pendulums here.
 const SPAN: f64 = 10.0;
@@ -29,7 +29,7 @@ const SMALLEST: f64 = 0.02;
 
 /// Amplitudes and lines of a coordinate's angle in each stretch.
 pub struct Spectrogram {
-    symbol: &'static str,
+    symbol: String,
     spectra: Vec<Passage<Spectrum>>,
     lines: Vec<Passage<Lines>>,
 }
@@ -79,7 +79,7 @@ impl Spectrogram {
         for passage in &mut lines {
             passage.middle += start;
         }
-        let symbol = names.symbols[names.heard];
+        let symbol = names.symbols[names.heard].clone();
         Ok(Some(Self {
             symbol,
             spectra,
@@ -137,7 +137,7 @@ impl Spectrogram {
                 lines.push(line.frequency_hz);
             }
         }
-        let symbol = self.symbol;
+        let symbol = &self.symbol;
         let title = format!("Amplitudes of sin {symbol} in stretches of {SPAN} s, and its lines");
         let panel = Panel::new(Axis::linear("frequency (Hz)").range(0.0, TOP))
             .heatmap(&x, &y, &values, &LEVELS)

@@ -12,9 +12,9 @@ use super::source::Source;
 use super::subject::Subject;
 use super::verdict::Verdict;
 use super::wrong_pictures;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Progress;
-use branched_pendulum_program::measured_file::{MeasuredFile, Zero};
+use crate::Failure;
+use crate::frame::Progress;
+use crate::measured_file::{MeasuredFile, Zero};
 
 /// Draws from which the closure of another reading follows; so many less where that is hopeless.
 const DRAWS: usize = 40;
@@ -132,7 +132,7 @@ impl<const N: usize> Unclosed<'_, N> {
             measured: reading.clone(),
             ..self.arguments.clone()
         };
-        Source::read(self.table, &arguments).ok()
+        Source::read(self.table, &arguments, self.subject.parents()).ok()
     }
 
     /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,
@@ -242,7 +242,10 @@ impl<const N: usize> Unclosed<'_, N> {
             }));
         }
         let (words, option) = match self.arguments.measured.relative {
-            false => ("later angles are counted from the first link", "--relative"),
+            false => (
+                "later angles are counted from the links above",
+                "--relative",
+            ),
             true => ("all angles are counted from the vertical", "no --relative"),
         };
         let toggle = |file: &mut MeasuredFile| file.relative = !file.relative;

@@ -74,7 +74,7 @@ impl Verdict {
         names: &Names<N>,
         search: Option<&Search>,
     ) -> String {
-        let energy = names.energy;
+        let energy = &names.energy;
         let (bars, allowed) = (self.bars, self.allowed);
         let Some(time) = self.fails_from else {
             return format!(
@@ -113,8 +113,7 @@ impl Verdict {
             };
             let _ = writeln!(
                 text,
-                "  {tried} pendulum is not the assumed one with this friction ({}{few}.",
-                arguments.pendulum.constants()
+                "  {tried} pendulum is not the assumed one with this friction (--set, --parameters{few}."
             );
         }
         text

@@ -9,14 +9,14 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use super::subject::Subject;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::smoothed::{Disturbances, Motion, Record, Smoothed, one_by_one};
+use crate::Failure;
+use crate::smoothed::{Disturbances, Motion, Record, Smoothed, one_by_one};
 
 /// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {
-    /// The energy, J: of a branched pendulum H_d, of a chain H.
+    /// The energy, J: of a difference H_d, of a whole tree H.
     pub const ENERGY: usize = 0;
-    /// The power, W: of a branched pendulum W, of a chain that of friction.
+    /// The power, W: of a difference W, of a whole tree that of friction and drive.
     pub const POWER: usize = 1;
     /// Integral since the first time of all power that changes the energy, J.
     pub const FLOWED: usize = 2;
@@ -180,7 +180,8 @@ impl<const N: usize> Measured<'_, N> {
     /// The quantities of one motion, with the friction that was found.
     fn energies(&self, motion: &[Motion<N>], friction: &[f64]) -> Vec<[f64; quantity::COUNT]> {
         let energies: Vec<f64> = motion.iter().map(|m| self.subject.energy(m)).collect();
-        let powers = motion.iter().map(|m| self.subject.powers(m, friction));
+        let at = self.record.times.iter().zip(motion);
+        let powers = at.map(|(time, motion)| self.subject.powers(*time, motion, friction));
         let powers: Vec<_> = powers.collect();
         let whole: Vec<f64> = powers.iter().map(|powers| powers.whole).collect();
         let flowed = running_integral(self.record.times, &whole);

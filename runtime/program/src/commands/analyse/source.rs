@@ -3,9 +3,11 @@
 use branched_pendulum_data::{Finding, Table};
 
 use super::arguments::Arguments;
-use super::camera::{Camera, Real, Release, Truth};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::smoothed::Record;
+use super::camera::{Camera, Truth, motion};
+use super::subject::MeasuredTree;
+use crate::Failure;
+use crate::smoothed::Record;
+use crate::subject::Subject as Described;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;
@@ -26,13 +28,16 @@ pub struct Source<const N: usize> {
 }
 
 impl<const N: usize> Source<N> {
-    /// Takes the angles out of the table of the arguments' file.
+    /// Takes the angles of links that hang on these `parents` out of the table of the arguments'
+    /// file.
     ///
     /// # Errors
     /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn read(table: &Table, arguments: &Arguments) -> Result<Self, Failure> {
-        // Links of both pendulums hang on the first.
-        let parents: [Option<usize>; N] = std::array::from_fn(|link| (link > 0).then_some(0));
+    pub fn read(
+        table: &Table,
+        arguments: &Arguments,
+        parents: [Option<usize>; N],
+    ) -> Result<Self, Failure> {
         let recording = arguments.measured.angles(table, &parents)?;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
@@ -46,26 +51,24 @@ impl<const N: usize> Source<N> {
         })
     }
 
-    /// The angles with their times.
-    pub fn record(&self) -> Record<'_, N> {
-        Record {
-            times: &self.times,
-            angles: &self.angles,
-        }
-    }
-}
-
-impl Source<3> {
-    /// Simulates a camera before the paper's apparatus.
+    /// Simulates a camera before a tree that may be another one than is assumed.
     ///
     /// # Errors
-    /// [`Failure::Parameter`] or [`Failure::Integration`].
-    pub fn simulate(arguments: &Arguments) -> Result<Self, Failure> {
-        let release = Release {
-            angle_deg: arguments.angle,
-            difference: arguments.difference,
-            duration: arguments.duration,
-        };
+    /// [`Failure::Start`], [`Failure::NoLink`], [`Failure::Motion`], and those of
+    /// [`MeasuredTree::new`].
+    pub fn simulate<const D: usize>(
+        arguments: &Arguments,
+        real: &Described,
+    ) -> Result<Self, Failure> {
+        let subject = MeasuredTree::<N, D>::new(real, arguments.sector.as_deref())?;
+        let mut start = arguments.release.state(real)?;
+        for (angle, weight) in start
+            .values
+            .iter_mut()
+            .zip(subject.difference().iter().flatten())
+        {
+            *angle += weight * arguments.difference;
+        }
         let camera = Camera {
             rate: arguments.rate,
             noise: arguments.noise,
@@ -73,11 +76,8 @@ impl Source<3> {
             turned: arguments.turned.to_radians(),
             seed: arguments.seed,
         };
-        let real = Real {
-            friction: arguments.real_friction(),
-            longer: arguments.longer,
-        };
-        let truth = real.motion(release, camera.rate)?;
+        let span = [arguments.duration, camera.rate];
+        let truth = motion(real, &subject, &arguments.method, &start, span)?;
         Ok(Self {
             times: truth.iter().map(|sample| sample.time).collect(),
             angles: camera.angles(&truth),
@@ -85,5 +85,13 @@ impl Source<3> {
             findings: Vec::new(),
             truth,
         })
+    }
+
+    /// The angles with their times.
+    pub fn record(&self) -> Record<'_, N> {
+        Record {
+            times: &self.times,
+            angles: &self.angles,
+        }
     }
 }

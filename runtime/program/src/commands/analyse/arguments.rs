@@ -1,0 +1,114 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use crate::frame::command_line::number;
+use crate::measured_file::MeasuredFile;
+use crate::motion::MethodArguments;
+use crate::release::{APART, ReleaseArguments};
+use crate::subject::{TreeArguments, assignments};
+
+/// From measured angles of a tree to its energy and power with their errors: of a difference
+/// between copies H_d and W, of a tree without copies H and the power of friction and drive.
+/// The file is a table of angles against time, or of two dots a link as Tracker or DeepLabCut
+/// write them; without one a camera before the tree is simulated, whose truth is known.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(
+    name = "branched-pendulum analyse",
+    version,
+    verbatim_doc_comment,
+    mut_arg("start", |start| start.default_value(APART))
+)]
+pub struct Arguments {
+    /// The file.
+    #[command(flatten)]
+    pub measured: MeasuredFile,
+    /// The tree that was measured.
+    #[command(flatten)]
+    pub tree: TreeArguments,
+    /// constants of the tree, a table of names and values (JSON), as `identify` writes it; `--set`
+    /// wins over it
+    #[arg(verbatim_doc_comment, long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
+    /// sector whose energy is told, by its name, or `whole` for that of the tree; the first
+    /// difference between copies without it, and the whole where there are none
+    #[arg(verbatim_doc_comment, long, value_name = "NAME")]
+    pub sector: Option<String>,
+    /// takes every Nth row of the file
+    #[arg(long, value_name = "N", default_value = "1", value_parser = rows)]
+    pub every: usize,
+    /// use the equations of motion: smaller errors if they hold
+    #[arg(long)]
+    pub model: bool,
+    /// polynomials near each time, a check of what smoothness says
+    #[arg(long, conflicts_with = "model")]
+    pub polynomials: bool,
+    /// draws from the motions that the data allow, 20 to 10000
+    #[arg(long, value_name = "N", default_value = "200", value_parser = clap::value_parser!(u32).range(20..=10_000))]
+    pub draws: u32,
+    /// How a simulated tree starts.
+    #[command(flatten)]
+    pub release: ReleaseArguments,
+    /// How a simulated motion is integrated.
+    #[command(flatten)]
+    pub method: MethodArguments,
+    /// simulated: difference of copies at the start, rad from 0 to 1: the coordinate of the sector
+    /// that is told is larger by so much
+    #[arg(long, value_name = "RAD", default_value = "0.01", value_parser = number(0.0..=1.0, "rad"))]
+    pub difference: f64,
+    /// simulated: length of the record, s from 0.5 to 100
+    #[arg(long, value_name = "S", default_value = "4", value_parser = number(0.5..=1e2, "s"))]
+    pub duration: f64,
+    /// simulated: pictures a second, 10 to 1e4
+    #[arg(long, value_name = "HZ", default_value = "240", value_parser = number(1e1..=1e4, "Hz"))]
+    pub rate: f64,
+    /// simulated: error of a dot's place, m from 1e-6 to 0.01
+    #[arg(long, value_name = "M", default_value = "2e-4", value_parser = number(1e-6..=1e-2, "m"))]
+    pub noise: f64,
+    /// simulated: values of parameters of the real tree where they are others than those of the
+    /// equations
+    #[arg(long, value_name = "NAME=VALUE[,..]", value_parser = assignments)]
+    // By its full path, clap takes each for one value.
+    pub real: Vec<::std::vec::Vec<(String, f64)>>,
+    /// simulated: the second link's dots are turned from its line by so much, degrees
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = number(-10.0..=10.0, "°"), allow_hyphen_values = true)]
+    pub turned: f64,
+    /// seed of all random numbers
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub seed: u64,
+}
+
+impl crate::frame::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("analyse-output");
+
+    fn check(&self) -> Result<(), String> {
+        self.measured.check()
+    }
+}
+
+fn rows(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(rows @ 1..=100_000) => Ok(rows),
+        _ => Err("a whole number from 1 to 100000".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::Arguments;
+    use crate::frame::command_line as program;
+
+    #[test]
+    fn lists_are_one_option() {
+        assert!(Arguments::try_parse_from(["analyse", "swing.csv", "--every", "0"]).is_err());
+        // All of a list stands in the record of a run.
+        let words = ["analyse", "swing.csv", "--columns", "a,b,c"].map(Into::into);
+        let read = program::parse::<Arguments>(words).unwrap();
+        assert_eq!(read.arguments.measured.columns, ["a", "b", "c"]);
+        assert_eq!(read.values["columns"], "a,b,c");
+    }
+}

@@ -1,0 +1,383 @@
+//! The tree that was measured, as the estimate takes it.
+
+use branched_pendulum::Transfer;
+use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::prelude::AbsoluteAngles;
+use branched_pendulum::scalar::{Dual, Scalar};
+use branched_pendulum::sectors::{Normalisation, Sectors};
+use branched_pendulum::system::{Energy, Model, Workspace};
+use branched_pendulum::transfer::{Acting, Given, SymmetricTree};
+use branched_pendulum_measure::{ModelSmoother, SmoothingError};
+use branched_pendulum_trees::PendulumTree;
+
+use crate::Failure;
+use crate::smoothed::{Motion, Record, Smoothed, by_equations};
+use crate::subject::Subject as Described;
+
+/// Names of what is told about a tree.
+#[derive(Clone, Debug)]
+pub struct Names<const N: usize> {
+    /// Coordinates, in columns.
+    pub coordinates: [String; N],
+    /// Coordinates, in charts.
+    pub symbols: [String; N],
+    /// The coordinate that is drawn.
+    pub drawn: usize,
+    /// The coordinate of the spectrogram.
+    pub heard: usize,
+    /// The energy, in words.
+    pub energy_words: String,
+    /// The energy, as a symbol.
+    pub energy: String,
+    /// The power that is told.
+    pub power: &'static str,
+    /// Pivots whose friction the equations may lack.
+    pub pivots: Vec<String>,
+    /// Options that give it.
+    pub frictions: Vec<String>,
+}
+
+/// Power at a state, W.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Powers {
+    /// The one that is told.
+    pub told: f64,
+    /// All that changes the energy.
+    pub whole: f64,
+}
+
+/// A tree of N links that were measured.
+pub trait Subject<const N: usize> {
+    /// Names of what is told.
+    fn names(&self) -> &Names<N>;
+
+    /// The link that each hangs from.
+    fn parents(&self) -> [Option<usize>; N];
+
+    /// Coordinates that are smoothed, from angles of links or from rates.
+    fn coordinates(&self, links: &[f64; N]) -> [f64; N];
+
+    /// Angles or rates of links from coordinates.
+    fn links(&self, coordinates: &[f64; N]) -> [f64; N];
+
+    /// The energy that is told, J.
+    fn energy(&self, motion: &Motion<N>) -> f64;
+
+    /// Change of the energy by a change of the motion, to first order about it.
+    fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64;
+
+    /// Returns the powers at a time (s), with friction in the pivots that is told beside the
+    /// tree's own: a coefficient (N m s) for each, or none.
+    fn powers(&self, time: f64, motion: &Motion<N>, friction: &[f64]) -> Powers;
+
+    /// Smooths by the equations of motion, beginning from a motion of the links.
+    ///
+    /// # Errors
+    /// [`SmoothingError`].
+    fn by_model(
+        &self,
+        record: Record<'_, N>,
+        guess: &[Motion<N>],
+    ) -> Result<Smoothed<N>, SmoothingError>;
+}
+
+/// Name by which the energy of the whole tree is asked for.
+pub const WHOLE: &str = "whole";
+
+/// A tree of N links in a text, D = 2N: its symmetric coordinates where it has copies, else the
+/// angles of its links.
+pub struct MeasuredTree<const N: usize, const D: usize> {
+    tree: PendulumTree,
+    /// The tree in numbers with a derivative.
+    dual: PendulumTree<Dual<f64, 1>>,
+    parents: [Option<usize>; N],
+    /// The sector that is told; none for the whole tree.
+    told: Option<Told>,
+    /// Columns by which links follow from coordinates.
+    columns: [[f64; N]; N],
+    /// Of the links of each node the rates in their pivots, as combinations of those of links.
+    pivots: Vec<Vec<[f64; N]>>,
+    names: Names<N>,
+}
+
+/// A sector whose energy is told.
+struct Told {
+    tree: SymmetricTree<f64>,
+    dual: SymmetricTree<Dual<f64, 1>>,
+    sector: usize,
+}
+
+impl<const N: usize, const D: usize> MeasuredTree<N, D> {
+    /// The tree, with the sector that is asked for: the first difference, or the whole of a tree
+    /// without copies, if none is.
+    ///
+    /// # Errors
+    /// [`Failure::Lacking`] for a sector that there is not, and [`Failure::Tree`] for values that
+    /// no pendulum with copies can have.
+    pub fn new(described: &Described, asked: Option<&str>) -> Result<Self, Failure> {
+        let tree = described.tree.clone();
+        let sectors = tree.sectors();
+        let names: Vec<&str> = sectors.iter().map(|own| own.name()).collect();
+        let sector = match asked {
+            Some(WHOLE) => None,
+            None => (sectors.len() > 1).then_some(1),
+            Some(asked) => Some(names.iter().position(|own| *own == asked).ok_or_else(|| {
+                Failure::Lacking {
+                    what: format!(
+                        "`{}` has no sector `{asked}`: `--sector` is {} or {WHOLE}",
+                        described.name,
+                        names.join(", ")
+                    ),
+                }
+            })?)
+            .filter(|_| sectors.len() > 1),
+        };
+        let told = sector.map(|sector| {
+            let symmetric = tree.symmetric().map_err(|source| Failure::Tree {
+                name: described.name.clone(),
+                source,
+            })?;
+            let dual = symmetric.cast(Dual::constant);
+            Ok::<_, Failure>(Told {
+                tree: symmetric,
+                dual,
+                sector,
+            })
+        });
+        let told = told.transpose()?;
+        let parents = described.parents();
+        let parents = std::array::from_fn(|link| parents.get(link).copied().flatten());
+        let unit = |of: usize| std::array::from_fn(|link| f64::from(u8::from(link == of)));
+        let columns = std::array::from_fn(|of| {
+            let mut links = [0.0; N];
+            tree.absolute_from_symmetric(Normalisation::Plain, &unit(of), &mut links);
+            links
+        });
+        let relative = |&link: &usize| {
+            let mut row: [f64; N] = unit(link);
+            if let Some(parent) = parents.get(link).copied().flatten() {
+                row[parent] = -1.0;
+            }
+            row
+        };
+        let nodes = tree.description().nodes();
+        let rows = nodes
+            .iter()
+            .map(|node| node.links.iter().map(relative).collect());
+        Ok(Self {
+            pivots: rows.collect(),
+            names: names_of(described, sector),
+            dual: tree.cast(Dual::constant),
+            tree,
+            parents,
+            told,
+            columns,
+        })
+    }
+
+    /// The column by which links follow from the first coordinate of the told sector, for a
+    /// difference; none otherwise.
+    pub fn difference(&self) -> Option<[f64; N]> {
+        let sector = self.told.as_ref()?.sector;
+        (sector > 0).then(|| self.columns[self.names.drawn])
+    }
+
+    fn in_links<T: Scalar>(&self, [coordinates, rates]: &[[T; N]; 2]) -> [[T; N]; 2] {
+        let mut links = [[T::from_f64(0.0); N]; 2];
+        for (own, links) in [coordinates, rates].into_iter().zip(&mut links) {
+            self.tree
+                .absolute_from_symmetric(Normalisation::Plain, own, links);
+        }
+        links
+    }
+}
+
+fn names_of<const N: usize>(described: &Described, told: Option<usize>) -> Names<N> {
+    let tree = &described.tree;
+    let sectors = tree.sectors();
+    let all: Vec<&str> = sectors
+        .iter()
+        .flat_map(|sector| sector.coordinates())
+        .map(|own| own.name())
+        .collect();
+    let name = |of: usize| all.get(of).copied().unwrap_or_default();
+    let coordinates = std::array::from_fn(|of| name(of).to_owned());
+    let symbols = std::array::from_fn(|of| name(of).replacen("theta", "θ", 1));
+    let counts: Vec<usize> = sectors.iter().map(|own| own.coordinates().len()).collect();
+    let before = |sector: usize| counts.iter().take(sector).sum::<usize>();
+    // The last of those in phase: means of leaves.
+    let heard = before(1).saturating_sub(1);
+    let sector = told.and_then(|told| Some((told, sectors.get(told)?.name())));
+    let description = tree.description();
+    let nodes = description.nodes();
+    let pivots = nodes.iter().map(|node| match node.links.len() {
+        1 => format!("the pivot of `{}`", node.name),
+        _ => format!("the pivots of `{}`", node.name),
+    });
+    let frictions = nodes.iter().map(|node| match &node.friction[..] {
+        [] => format!("friction of `{}` in the description", node.name),
+        parameters => format!("--set {}", parameters.join(", ")),
+    });
+    Names {
+        coordinates,
+        symbols,
+        drawn: match sector {
+            Some((told, _)) => before(told),
+            None => N.saturating_sub(1),
+        },
+        heard,
+        energy_words: match sector {
+            Some((0, _)) => "Energy of the motion in phase".to_owned(),
+            Some((_, name)) => format!("Energy of the difference {name}"),
+            None => format!("Energy of {}", described.name),
+        },
+        energy: match sector {
+            Some((_, name)) => format!("H_{name}"),
+            None => "H".to_owned(),
+        },
+        power: if sector.is_some() { "W" } else { "P" },
+        pivots: pivots.collect(),
+        frictions: frictions.collect(),
+    }
+}
+
+/// A motion that begins to change.
+fn along<const N: usize>(motion: &Motion<N>, change: &Motion<N>) -> [[Dual<f64, 1>; N]; 2] {
+    let part = |part: usize| {
+        std::array::from_fn(|of| Dual {
+            value: motion[part][of],
+            tangents: [change[part][of]],
+        })
+    };
+    [part(0), part(1)]
+}
+
+/// Energy of a sector at coordinates and rates.
+fn sector_energy<T: Scalar, const N: usize>(
+    tree: &SymmetricTree<T>,
+    sector: usize,
+    [coordinates, rates]: &[[T; N]; 2],
+) -> T {
+    let mut energies = [[T::from_f64(0.0); 2]; N];
+    let given = Given::Rates { coordinates, rates };
+    let count = tree.sectors().len().min(N);
+    let own = &mut energies[..count];
+    tree.energies(&mut Workspace::new(), given, own);
+    let [kinetic, potential] = energies[sector.min(N - 1)];
+    kinetic + potential
+}
+
+impl<const N: usize, const D: usize> Subject<N> for MeasuredTree<N, D> {
+    fn names(&self) -> &Names<N> {
+        &self.names
+    }
+
+    fn parents(&self) -> [Option<usize>; N] {
+        self.parents
+    }
+
+    fn coordinates(&self, links: &[f64; N]) -> [f64; N] {
+        let mut coordinates = [0.0; N];
+        self.tree
+            .symmetric_from_absolute(Normalisation::Plain, links, &mut coordinates);
+        coordinates
+    }
+
+    fn links(&self, coordinates: &[f64; N]) -> [f64; N] {
+        let [links, _] = self.in_links(&[*coordinates, [0.0; N]]);
+        links
+    }
+
+    fn energy(&self, motion: &Motion<N>) -> f64 {
+        match &self.told {
+            Some(told) => sector_energy(&told.tree, told.sector, motion),
+            None => {
+                let [theta, omega] = self.in_links(motion);
+                self.tree.energy_of(&theta, &omega)
+            }
+        }
+    }
+
+    fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64 {
+        let changing = along(motion, change);
+        let energy = match &self.told {
+            Some(told) => sector_energy(&told.dual, told.sector, &changing),
+            None => {
+                let [theta, omega] = self.in_links(&changing);
+                self.dual.energy_of(&theta, &omega)
+            }
+        };
+        let [slope] = energy.tangents;
+        slope
+    }
+
+    fn powers(&self, time: f64, motion: &Motion<N>, friction: &[f64]) -> Powers {
+        let [theta, omega] = self.in_links(motion);
+        // Torques of the friction that is told.
+        let mut torques = [0.0; N];
+        let rows = self.pivots.iter().zip(friction);
+        for (row, coefficient) in rows.flat_map(|(rows, c)| rows.iter().map(move |row| (row, c))) {
+            let rate: f64 = row.iter().zip(&omega).map(|(part, rate)| part * rate).sum();
+            for (torque, part) in torques.iter_mut().zip(row) {
+                *torque -= coefficient * rate * part;
+            }
+        }
+        let Some(Told { tree, sector, .. }) = &self.told else {
+            // All that acts is in the accelerations: the power is the derivative of the energy
+            // along the motion, whatever the law of friction.
+            let alpha = self.tree.accelerations(time, &theta, &omega);
+            let rates = [theta, omega].map(|part| self.coordinates(&part));
+            let mut accelerations = [0.0; N];
+            self.tree
+                .symmetric_from_absolute(Normalisation::Plain, &alpha, &mut accelerations);
+            let own = self.energy_along(motion, &[rates[1], accelerations]);
+            let lost: f64 = torques.iter().zip(&omega).map(|(q, rate)| q * rate).sum();
+            let whole = own + lost;
+            return Powers { told: whole, whole };
+        };
+        let [coordinates, rates] = motion;
+        let given = Given::Rates { coordinates, rates };
+        let (mut workspace, count) = (Workspace::new(), tree.sectors().len().min(N));
+        let mut transfers = [Transfer::default(); N];
+        tree.exact_transfers(&mut workspace, given, &mut transfers[..count]);
+        let told = transfers[*sector].total();
+        let mut whole = told;
+        let drive = self.tree.drive(time).map(Acting::Drive);
+        let acting = [
+            Some(Acting::Friction),
+            drive,
+            Some(Acting::Torques(&torques)),
+        ];
+        for acting in acting.into_iter().flatten() {
+            let mut powers = [0.0; N];
+            tree.powers(&mut workspace, acting, given, &mut powers[..count]);
+            whole += powers[*sector];
+        }
+        Powers { told, whole }
+    }
+
+    /// Forces that the model lacks act on each coordinate: on copies together and against each
+    /// other.
+    fn by_model(
+        &self,
+        record: Record<'_, N>,
+        guess: &[Motion<N>],
+    ) -> Result<Smoothed<N>, SmoothingError> {
+        let smoother = ModelSmoother {
+            disturbances: self.columns.to_vec(),
+            frictions: self.pivots.clone(),
+            ..ModelSmoother::default()
+        };
+        let mass = |theta: &[f64; N]| {
+            let mut matrix = [[0.0; N]; N];
+            for (own, row) in matrix.iter_mut().zip(self.tree.mass_matrix(theta)) {
+                for (own, entry) in own.iter_mut().zip(row) {
+                    *own = entry;
+                }
+            }
+            matrix
+        };
+        let system = linearised(AbsoluteAngles(&self.tree));
+        by_equations::<N, D, _>(&smoother, &system, mass, record, guess)
+    }
+}
