@@ -258,17 +258,17 @@ fn constants(
         add("gravity", gravity);
         add("lateral_gravity", lateral);
         if let Some(passive) = links.get(first).map(|link| link.passive) {
-            let [coulomb, quadratic, width, drag, drag_width] = passive.law_row();
+            let [joint, ground] = &passive.laws;
             for (word, value) in [
                 ("friction", &passive.friction),
                 ("drag", &passive.drag),
                 ("spring", &passive.spring),
                 ("rest", &passive.rest),
-                ("coulomb", coulomb),
-                ("quadratic_friction", quadratic),
-                ("friction_width", width),
-                ("quadratic_drag", drag),
-                ("drag_width", drag_width),
+                ("coulomb", &joint.coulomb),
+                ("quadratic_friction", &joint.quadratic),
+                ("friction_width", &joint.width),
+                ("quadratic_drag", &ground.quadratic),
+                ("drag_width", &ground.width),
             ] {
                 add(word, value.high());
             }
