@@ -13,14 +13,20 @@ mod bias;
 mod eliminated_link;
 mod elimination;
 mod expand;
+mod links;
 mod orders;
 mod reciprocal;
 mod refine;
+mod room;
 mod series;
 mod sums;
 #[cfg(test)]
 mod tests;
+mod torques;
+mod tree;
 
 pub use crate::simd::Quad;
 pub use expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
 pub use sums::{Factors, rows, sums, whole};
+pub use torques::RoughFriction;
+pub use tree::{SeriesForm, SeriesLink, SeriesTree};

@@ -8,9 +8,9 @@
 //!
 //! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
 //! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
-//! variables, drives, every integrator, batches, ensembles in lanes. Momenta, linear modes and, of
-//! trees by rule, budgets by scale are there too. Other energy transfers, symmetric coordinates,
-//! observables and Taylor series are derived for one tree and stay with compiled models, as does
+//! variables, drives, Taylor series, every integrator, batches, ensembles in lanes. Momenta, linear
+//! modes and, of trees by rule, budgets by scale are there too. Other energy transfers, symmetric
+//! coordinates and observables are derived for one tree and stay with compiled models, as does
 //! the speed of code that is written out: `docs/run-time-trees.md`.
 
 mod canonical;
@@ -26,6 +26,8 @@ mod numbers;
 mod prescribed;
 mod rows;
 mod scales;
+mod series;
+mod signal_series;
 mod text;
 mod tree;
 #[cfg(feature = "strips")]

@@ -193,6 +193,42 @@ fn moments(links: &[LinkNumbers], carries: &[bool]) -> Vec<Moments> {
     rows
 }
 
+/// Moments of all that a link carries, about its pivot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Carried {
+    /// The diagonal of the mass matrix.
+    pub(crate) inertia: Double,
+    /// First moment, along the link and across it.
+    pub(crate) moment: [Double; 2],
+    mass: Double,
+}
+
+/// Returns the moments of the links, with all that hangs on them as points at their pivots.
+pub(crate) fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
+    let own = links.iter().map(|link| {
+        let [along, across] = link.com;
+        let moment = link.com.map(|place| link.mass * place);
+        Carried {
+            inertia: link.inertia + moment[0] * along + moment[1] * across,
+            moment,
+            mass: link.mass,
+        }
+    });
+    let mut all: Vec<Carried> = own.collect();
+    for (index, link) in links.iter().enumerate().rev() {
+        let mass = all.get(index).map(|own| own.mass);
+        let parent = link.parent.and_then(|parent| all.get_mut(parent));
+        if let (Some(mass), Some(parent)) = (mass, parent) {
+            let [along, across] = link.pivot;
+            let first = [mass * along, mass * across];
+            parent.inertia = parent.inertia + first[0] * along + first[1] * across;
+            parent.moment = [parent.moment[0] + first[0], parent.moment[1] + first[1]];
+            parent.mass += mass;
+        }
+    }
+    all
+}
+
 /// Numbers of a row of [`Form::Rough`].
 #[cfg(feature = "strips")]
 const ROUGH: usize = 19;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Pendulum, Workspace};
+use branched_pendulum::taylor::SeriesTree;
 use branched_pendulum::tree::{Bodies, PropertyTable, Shape};
 
 use crate::description::TreeDescription;
@@ -17,6 +18,7 @@ use crate::numbers::{self, LinkNumbers};
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
 use crate::scales::ByRule;
+use crate::series::series_of;
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
 ///
@@ -67,6 +69,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) properties: PropertyTable<T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) rule: Option<ByRule<T>>,
+    pub(crate) series: SeriesTree<T>,
     #[cfg(feature = "strips")]
     pub(crate) held: Option<HeldLinks<T>>,
 }
@@ -121,6 +124,7 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(&links, drive.is_some());
         let rows = in_numbers(&form.rows(&links, &carries));
         let rule = ByRule::of(&links, &carries, gravity);
+        let series = series_of(&links, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(&links, &carries))
@@ -148,8 +152,9 @@ impl<T: Scalar> PendulumTree<T> {
             bodies: bodies(&links, gravity, &shape),
             properties: PropertyTable::new(shape, in_numbers(&rows::properties(&links)))
                 .standing(stands),
-            drive: drive.map(|drive| Courses::of(drive, stands, &parameters)),
+            drive: drive.map(|drive| Courses::of(drive, stands, gravity, &parameters)),
             rule,
+            series,
             #[cfg(feature = "strips")]
             held,
         })
@@ -195,6 +200,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: self.properties.cast(&convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
             rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
+            series: self.series.cast(&convert),
             #[cfg(feature = "strips")]
             held: self.held.as_ref().map(|held| held.cast(&convert)),
         }
@@ -245,7 +251,7 @@ fn bodies<T: Scalar>(links: &[LinkNumbers], gravity: Double, shape: &Shape) -> B
 }
 
 /// A constant in the numbers of a tree.
-fn constant<T: Scalar>(value: Double) -> T {
+pub(crate) fn constant<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }
 

@@ -1,6 +1,8 @@
 //! Trees that are described at run time, against the interpreted program that the compiler
 //! derives for each, and against bodies with Cartesian velocities.
 
+mod series;
+
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 

@@ -6,4 +6,5 @@ mod magnitudes;
 mod mechanics;
 mod prescribed;
 mod scales;
+mod series;
 mod text;

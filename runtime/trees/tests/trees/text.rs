@@ -37,7 +37,6 @@ fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
         ("emit(energies, transfer(exact))", "transfer"),
         ("emit(symmetric)", "symmetric"),
         ("emit(budget(parseval))", "budget"),
-        ("emit(taylor)", "taylor"),
         ("observe(f = theta_a^2)", "f"),
     ] {
         let text = format!("{tree}{more}");
@@ -46,7 +45,7 @@ fn what_is_derived_for_one_tree_is_refused_where_it_stands() {
         let column = text.find(&format!("{name} =")).or(text.find(name)).unwrap() + 1;
         assert!(found.contains(&format!("--> 1:{column}\n")), "{found}");
     }
-    let always = format!("{tree}emit(energies, momenta, modes, positions, forces)");
+    let always = format!("{tree}emit(energies, momenta, modes, positions, forces, taylor)");
     assert!(PendulumTree::parse(&always).is_ok());
     assert!(message(&format!("{tree}emit(energy)")).contains("did you mean `energies`?"));
 }
