@@ -62,10 +62,13 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
         let (zero, one) = (P::from_f64(0.0), P::from_f64(1.0));
         let (factors, _) = factors.split_at_mut(links.count());
         let mut eliminated = room.rest().of_links::<P, ELIMINATED>();
-        let turn = |link: usize| [origin.cosines.of(link), origin.sines.of(link)].map(P::splat);
         for i in 0..links.count() {
             let inertia = P::splat(constants.inertias[i]);
-            let moment = turned::<T, P>(constants.moments[i], turn(i), links.lateral());
+            let moment = turned::<T, P>(
+                constants.moments[i],
+                turn::<T, P, S>(origin, i),
+                links.lateral(),
+            );
             eliminated.put(i, EliminatedLink::alone(inertia, moment).numbers());
         }
         for i in (0..links.count()).rev() {
@@ -85,7 +88,11 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
             ];
             if i > 0 {
                 let parent = links.parent(i);
-                let r = turned::<T, P>(constants.attachments[i], turn(parent), links.lateral());
+                let r = turned::<T, P>(
+                    constants.attachments[i],
+                    turn::<T, P, S>(origin, parent),
+                    links.lateral(),
+                );
                 let ([r_n, rxn], [r_p, rxp]) = (products(r, n), products(r, p));
                 *up = [
                     quad([-r_n, -rxn, n[0], n[1]]),
@@ -135,9 +142,7 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
         // links one sum less to wait for.
         let (mut sums, mut answers) = (room.link_quads(), room.link_quads());
         let (sums, answers) = (sums.as_mut(), answers.as_mut());
-        for i in 0..count {
-            sums[i] = Quad::splat(T::from_f64(-0.0));
-        }
+        sums.fill(Quad::splat(T::from_f64(-0.0)));
         for &i in links.leaves() {
             let [of_up, _, of_own, _, _] = &factors[i];
             let (x, c) = (V::splat(forces.of(i)), V::splat(cosines.of(i)));
@@ -188,10 +193,17 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
                 .store_quad(answers, i);
         }
         for m in 0..packs {
+            if P::LANES == 1 {
+                let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
+                s.put(m, [P::splat(own_s)]);
+                y.put(m, [P::splat(own_y) + P::splat(along)]);
+                continue;
+            }
             let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
-                if first + l < count {
+                // Room may be for more links, with zeros.
+                if first + l < answers.len() {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
                     along[0].0[l] = sums[first + l].0[1];
@@ -205,6 +217,15 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
             );
         }
     }
+}
+
+/// cos θ, sin θ of a link at the start.
+#[inline(always)]
+fn turn<T: Scalar, P: Simd<T>, S: Given<T>>(origin: &Origin<'_, T, S>, link: usize) -> [P; 2] {
+    [
+        P::splat(origin.cosines.of(link)),
+        P::splat(origin.sines.of(link)),
+    ]
 }
 
 #[inline(always)]

@@ -5,7 +5,9 @@
 //! the time and torques of friction and springs, emitted code computes order by
 //! order, with [`sums`] for its products of series.
 //!
-//! [`integrate::Taylor`] is the method that uses it.
+//! [`SeriesTree`] has the same for trees whose number of links no type tells.
+//!
+//! [`integrate::Taylor`] is the method that uses both.
 //!
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
@@ -13,6 +15,7 @@ mod bias;
 mod eliminated_link;
 mod elimination;
 mod expand;
+mod lent;
 mod links;
 mod orders;
 mod reciprocal;

@@ -373,7 +373,14 @@ pub(super) fn spread<T: Scalar>(numbers: impl OfLinks<T>, links: usize, quads: &
 /// Writes the numbers of all links that stand in quads.
 #[inline(always)]
 pub(super) fn collect<T: Scalar>(quads: &[Quad<T>], numbers: &mut [T]) {
-    for (i, number) in numbers.iter_mut().enumerate() {
-        *number = quads[i / 4].0[i % 4];
+    let (fours, few) = numbers.as_chunks_mut::<4>();
+    let last = quads.get(fours.len());
+    for (four, quad) in fours.iter_mut().zip(quads) {
+        *four = quad.0;
+    }
+    if let Some(last) = last {
+        for (number, own) in few.iter_mut().zip(last.0) {
+            *number = own;
+        }
     }
 }

@@ -4,9 +4,10 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use super::expand::{Expansion, workspace};
+use super::lent::{LentRooms, lent};
 use super::links::Links;
 use super::orders::{Constants, Origin};
-use super::room::{LentRooms, RoomsOfFew, lent};
+use super::room::RoomsOfFew;
 use super::torques::{RoughFriction, TreeTorques, law_room};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
