@@ -219,7 +219,7 @@ impl<T: Scalar> Pendulum<T> for Oscillator<T> {
 }
 
 impl<T: Scalar> TaylorPendulum<T> for Oscillator<T> {
-    fn taylor_workspace(_order: usize) -> usize {
+    fn taylor_workspace(&self, _order: usize) -> usize {
         0
     }
 

@@ -247,7 +247,7 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
             }
 
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
-                fn taylor_workspace(_: usize) -> usize { 0 }
+                fn taylor_workspace(&self, _: usize) -> usize { 0 }
                 fn taylor_coefficients_of<#other: #runtime::Scalar>(
                     _: &#name<#other>, _: #other, _: &[#other], _: &[#other], _: &mut [#other],
                     _: &mut [#runtime::emitted::taylor::Quad<#other>],

@@ -180,7 +180,7 @@ impl Emission<'_> {
         let (time, other) = (self.time_name(), super::other_scalar(name));
         quote! {
             impl<T: #runtime::Scalar> #runtime::TaylorPendulum<T> for #name<T> {
-                fn taylor_workspace(order: usize) -> usize {
+                fn taylor_workspace(&self, order: usize) -> usize {
                     #runtime::emitted::taylor::workspace(#links, order) #rows
                 }
 

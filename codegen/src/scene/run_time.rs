@@ -7,10 +7,17 @@ use crate::description::Description;
 use crate::report::{Faults, OutputMessage, SizeMessage};
 
 /// Outputs that hold for every tree, so that they need not be asked for.
-const ALWAYS: [&str; 5] = ["energies", "momenta", "modes", "positions", "forces"];
+const ALWAYS: [&str; 6] = [
+    "energies",
+    "momenta",
+    "modes",
+    "positions",
+    "forces",
+    "taylor",
+];
 
 /// Outputs that are derived for one tree.
-const DERIVED: [&str; 2] = ["taylor", "transverse"];
+const DERIVED: [&str; 1] = ["transverse"];
 
 /// Most links.
 const MOST: usize = 1 << 16;

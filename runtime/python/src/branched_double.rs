@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use branched_pendulum::system::AbsoluteAngles;
+use branched_pendulum::system::{AbsoluteAngles, RatesOnly};
 use branched_pendulum::{Transfer, TransferForms};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -37,6 +37,12 @@ pub(crate) struct BranchedDouble {
 }
 
 impl MeasuredModel for Paper {
+    type Series<'a> = RatesOnly<&'a AbsoluteAngles<Self>>;
+
+    fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_> {
+        RatesOnly(system)
+    }
+
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         let rows = |theta: &[f64; LINKS]| self.mass_matrix(theta).map(Vec::from).to_vec();
         theta.try_into().map(rows).unwrap_or_default()

@@ -12,13 +12,19 @@ use branched_pendulum::integrate::{
     AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
     Report, Rk4, RunError, Solution, Trajectory,
 };
-use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, RatesOnly, State};
+use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, State, TaylorOde};
 
 use crate::growth::GrowthTask;
 use crate::smoothing::{Coordinates, Estimate};
 
 /// A model with what its measured motions are smoothed by.
 pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
+    /// The equations, with Taylor coefficients where the model has them.
+    type Series<'a>: TaylorOde<f64>;
+
+    /// Returns the equations for methods that may ask for Taylor coefficients.
+    fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_>;
+
     /// The mass matrix (kg m²) at angles, a row for each link.
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>>;
 
@@ -212,7 +218,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
     ) -> Result<(Vec<f64>, Report<f64>), IntegrationError<f64>> {
         let mut values = Vec::with_capacity(times.len() * start.values.len());
         let visit = |_: f64, state: &[f64]| values.extend_from_slice(state);
-        let solution = method.sample(&RatesOnly(self), start, times, visit)?;
+        let solution = method.sample(&M::series(self), start, times, visit)?;
         Ok((values, solution.report))
     }
 
@@ -223,7 +229,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         end: f64,
     ) -> Result<(Trajectory<f64>, Report<f64>), RunError<f64, DenseError<f64>>> {
         let mut trajectory = Trajectory::new(start.clone());
-        let run = method.try_integrate(&RatesOnly(self), start, end, |step| {
+        let run = method.try_integrate(&M::series(self), start, end, |step| {
             trajectory.push(step)?;
             Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
         });
@@ -238,7 +244,7 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         events: &[Event<'_, f64>],
         visit: &mut dyn FnMut(Occurrence<'_, f64>) -> ControlFlow<()>,
     ) -> Result<Solution<f64>, IntegrationError<f64>> {
-        method.integrate_with_events(&RatesOnly(self), start, end, events, visit)
+        method.integrate_with_events(&M::series(self), start, end, events, visit)
     }
 
     fn ensemble(

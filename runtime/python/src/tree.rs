@@ -29,6 +29,12 @@ pub(crate) struct Tree {
 }
 
 impl MeasuredModel for PendulumTree {
+    type Series<'a> = &'a AbsoluteAngles<Self>;
+
+    fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_> {
+        system
+    }
+
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         self.mass_matrix(theta)
     }

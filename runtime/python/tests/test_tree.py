@@ -249,7 +249,7 @@ def test_mistakes():
     with pytest.raises(bp.IntegrationError):
         tree.integrate(START * np.nan, np.linspace(0, 1, 3))
     with pytest.raises(bp.IntegrationError, match="Taylor"):
-        tree.integrate(START, np.linspace(0, 1, 3), method="taylor")
+        bp.models.BranchedDouble().integrate(START, np.linspace(0, 1, 3), method="taylor")
     with pytest.raises(ValueError, match="ensembles go by"):
         tree.ensemble([START], [0, 1], method="taylor")
     for dense_output in [False, True]:
@@ -257,6 +257,14 @@ def test_mistakes():
             tree.integrate(START, [0, 5, 3], dense_output=dense_output)
     failed = tree.ensemble([START, START * np.nan], [0, 1])
     assert np.isnan(failed[1]).all() and not np.isnan(failed[0]).any()
+
+
+def test_taylor_series_meet_other_methods(tree):
+    times = np.linspace(0, 3, 7)
+    series = tree.integrate(START, times, method="taylor", rtol=1e-12)
+    other = tree.integrate(START, times, method="dop853", rtol=1e-12)
+    assert np.abs(series.y - other.y).max() < 1e-8
+    assert series.steps < other.steps
 
 
 def test_other_threads_run(tree):

@@ -6,7 +6,6 @@
 macro_rules! by_reference {
     (impl<T $(: $bound:ident)?> $trait:ident<T> for &P $(where P: ?$sized:ident)? {
         $(const $constant:ident: $kind:ty;)*
-        $(static fn $of_type:ident($index:ident: $number:ty) -> $answer:ty;)*
         $(for fn $of_scalar:ident<$scalar:ident: $kind_of_scalar:ident>(
             $($own:ident: $own_type:ty),*
         );)*
@@ -14,13 +13,6 @@ macro_rules! by_reference {
     }) => {
         impl<T $(: $bound)?, P: $trait<T> $(+ ?$sized)?> $trait<T> for &P {
             $(const $constant: $kind = P::$constant;)*
-
-            $(
-                #[inline]
-                fn $of_type($index: $number) -> $answer {
-                    P::$of_type($index)
-                }
-            )*
 
             $(
                 #[inline(always)]

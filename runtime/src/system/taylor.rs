@@ -6,14 +6,14 @@ use crate::scalar::Scalar;
 use crate::simd::Quad;
 
 /// A pendulum whose motion is expanded in powers of the time. Emitted code
-/// implements it where `emit(taylor)` asks for it.
+/// implements it where `emit(taylor)` asks for it; trees that are read at run time have it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not know the Taylor coefficients of its motion",
     note = "a model knows them with `emit(taylor)` in its attribute"
 )]
 pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
     /// Groups of four numbers that an expansion to order `order` works in.
-    fn taylor_workspace(order: usize) -> usize;
+    fn taylor_workspace(&self, order: usize) -> usize;
 
     /// Writes the Taylor coefficients of the motion that passes through the
     /// angles `theta` (rad) and angular velocities `omega` (rad/s) at `time`
@@ -52,11 +52,11 @@ pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
 
 by_reference! {
     impl<T: Scalar> TaylorPendulum<T> for &P {
-        static fn taylor_workspace(order: usize) -> usize;
         for fn taylor_coefficients_of<S: Scalar>(
             pendulum: &Self::Of<S>, time: S, theta: &[S], omega: &[S], coefficients: &mut [S],
             work: &mut [Quad<S>]
         );
+        fn taylor_workspace(&self, order: usize) -> usize;
         fn taylor_coefficients_into(
             &self, time: T, theta: &[T], omega: &[T], coefficients: &mut [T],
             work: &mut [Quad<T>]
@@ -142,7 +142,7 @@ by_reference! {
 
 impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
     fn workspace(&self, order: usize) -> usize {
-        P::taylor_workspace(order)
+        self.0.taylor_workspace(order)
     }
 
     #[inline]

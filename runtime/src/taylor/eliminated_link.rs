@@ -20,11 +20,48 @@ pub(super) struct EliminatedLink<P> {
     pub(super) deficit: [P; 3],
 }
 
+/// Numbers of an [`EliminatedLink`].
+pub(super) const ELIMINATED: usize = 10;
+
 impl<P: Scalar> EliminatedLink<P> {
+    /// Takes the link from the numbers that [`numbers`](Self::numbers) returns.
     #[inline(always)]
-    pub(super) fn none() -> Self {
-        let zero = P::from_f64(0.0);
-        Self::alone(zero, [zero; 2])
+    pub(super) fn of(numbers: [P; ELIMINATED]) -> Self {
+        let [inertia, inertia_along, product, numbers @ ..] = numbers;
+        let [b_x, b_y, g_x, g_y, xx, xy, yy] = numbers;
+        Self {
+            inertia,
+            inertia_along,
+            product,
+            moment: [b_x, b_y],
+            moment_along: [g_x, g_y],
+            deficit: [xx, xy, yy],
+        }
+    }
+
+    /// Returns all its numbers, side by side.
+    #[inline(always)]
+    pub(super) fn numbers(self) -> [P; ELIMINATED] {
+        let Self {
+            inertia,
+            inertia_along,
+            product,
+            moment: [b_x, b_y],
+            moment_along: [g_x, g_y],
+            deficit: [xx, xy, yy],
+        } = self;
+        [
+            inertia,
+            inertia_along,
+            product,
+            b_x,
+            b_y,
+            g_x,
+            g_y,
+            xx,
+            xy,
+            yy,
+        ]
     }
 
     /// A link without children.

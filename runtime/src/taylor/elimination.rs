@@ -28,13 +28,12 @@
 // One index into all arrays at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::eliminated_link::EliminatedLink;
-use super::expand::{Connectivity, LinkConstants, Start};
+use super::eliminated_link::{ELIMINATED, EliminatedLink};
+use super::links::Links;
+use super::orders::{Constants, Origin};
+use super::room::{Column, Given, Numbers, OfLinks, Room};
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
-
-/// A number of each link.
-pub(super) type LinkColumn<T, const Q: usize> = [Quad<T>; Q];
 
 /// The factors of a link at a start, in quads: of X + T and of C in what goes up; of F
 /// there; of X + T and of C in the link's own share of S and Y; of the parent's S and C,
@@ -45,26 +44,35 @@ pub(super) type LinkFactors<T> = [[Quad<T>; 2]; 5];
 pub(super) const FACTORS: usize = 10;
 
 /// The factors at a start, of each link.
-pub(super) struct TaylorElimination<'a, T, const N: usize>(&'a mut [LinkFactors<T>; N]);
+pub(super) struct TaylorElimination<'a, T, L> {
+    links: L,
+    factors: &'a [LinkFactors<T>],
+}
 
-impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
+impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
-    pub(super) fn new<C: Connectivity<N>, P: Simd<T>>(
-        start: &Start<'_, T, N>,
-        constants: &LinkConstants<T, N>,
-        factors: &'a mut [LinkFactors<T>; N],
+    pub(super) fn new<P: Simd<T>, S: Given<T>>(
+        links: L,
+        room: &mut impl Room<T>,
+        origin: &Origin<'_, T, S>,
+        constants: &Constants<'_, T>,
+        factors: &'a mut [LinkFactors<T>],
     ) -> Self {
         let (zero, one) = (P::from_f64(0.0), P::from_f64(1.0));
-        let mut links = [EliminatedLink::<P>::none(); N];
-        for i in 0..N {
+        let (factors, _) = factors.split_at_mut(links.count());
+        let mut eliminated = room.rest().of_links::<P, ELIMINATED>();
+        for i in 0..links.count() {
             let inertia = P::splat(constants.inertias[i]);
-            let turn = [start.cosines[i], start.sines[i]].map(P::splat);
-            let moment = turned::<T, P>(constants.moments[i], turn, C::LATERAL);
-            links[i] = EliminatedLink::alone(inertia, moment);
+            let moment = turned::<T, P>(
+                constants.moments[i],
+                turn::<T, P, S>(origin, i),
+                links.lateral(),
+            );
+            eliminated.put(i, EliminatedLink::alone(inertia, moment).numbers());
         }
-        for i in (0..N).rev() {
-            let mut link = links[i];
+        for i in (0..links.count()).rev() {
+            let mut link = EliminatedLink::of(eliminated.at(i));
             let inverse = one / link.inertia;
             let n = link.moment.map(|b| b * inverse);
             let mut p = link.moment_along;
@@ -79,9 +87,12 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
                 quad([-share, along, zero, zero]),
             ];
             if i > 0 {
-                let parent = C::PARENTS[i];
-                let turn = [start.cosines[parent], start.sines[parent]].map(P::splat);
-                let r = turned::<T, P>(constants.attachments[i], turn, C::LATERAL);
+                let parent = links.parent(i);
+                let r = turned::<T, P>(
+                    constants.attachments[i],
+                    turn::<T, P, S>(origin, parent),
+                    links.lateral(),
+                );
                 let ([r_n, rxn], [r_p, rxp]) = (products(r, n), products(r, p));
                 *up = [
                     quad([-r_n, -rxn, n[0], n[1]]),
@@ -100,58 +111,59 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
                     quad([-n[1], -p[1], zero, one]),
                 ];
                 link.relieve(n);
-                links[parent].carry(link.deficit, r);
+                let mut above = EliminatedLink::of(eliminated.at(parent));
+                above.carry(link.deficit, r);
+                eliminated.put(parent, above.numbers());
             }
         }
-        Self(factors)
+        Self { links, factors }
     }
 
-    /// Returns S and Y where X = `force` and C = `cosine`, in packs `P`. Quads are in `V`.
+    /// Writes S and Y where X = `force` and C = `cosine`, in packs `P`. Quads are in `V`.
     /// No closure takes part: what is not inlined is compiled without the registers.
     #[inline(always)]
-    pub(super) fn solution<
-        C: Connectivity<N>,
-        P: Simd<T>,
-        V: Simd<T>,
-        const Q: usize,
-        const M: usize,
-    >(
+    pub(super) fn solve<P: Simd<T>, V: Simd<T>>(
         &self,
-        force: &[P; M],
-        cosine: &[P; M],
-    ) -> [[P; M]; 2] {
-        let [mut forces, mut cosines] = [[[T::from_f64(0.0); 4]; Q]; 2];
-        let (forces, cosines) = (forces.as_flattened_mut(), cosines.as_flattened_mut());
-        for m in 0..M {
-            force[m].store(&mut forces[m * P::LANES..]);
-            cosine[m].store(&mut cosines[m * P::LANES..]);
+        mut room: impl Room<T>,
+        force: &impl Column<P, 1>,
+        cosine: &impl Column<P, 1>,
+        [s, y]: [&mut impl Column<P, 1>; 2],
+    ) {
+        let (links, count) = (self.links, self.links.count());
+        let factors = &self.factors[..count];
+        let (mut forces, mut cosines) = (room.numbers(), room.numbers());
+        let packs = room.packs();
+        for m in 0..packs {
+            let ([force], [cosine]) = (force.at(m), cosine.at(m));
+            forces.write(m, force);
+            cosines.write(m, cosine);
         }
         // T, E, F, then S, Y, a. What is added to −0 is known to stay as it is: of few
         // links one sum less to wait for.
-        let [mut sums, mut answers] = [[Quad::splat(T::from_f64(-0.0)); N]; 2];
-        let (leaves, count) = const { &C::LEAVES };
-        for &i in &leaves[..*count] {
-            let [of_up, _, of_own, _, _] = &self.0[i];
-            let (x, c) = (V::splat(forces[i]), V::splat(cosines[i]));
+        let (mut sums, mut answers) = (room.link_quads(), room.link_quads());
+        let (sums, answers) = (sums.as_mut(), answers.as_mut());
+        sums.fill(Quad::splat(T::from_f64(-0.0)));
+        for &i in links.leaves() {
+            let [of_up, _, of_own, _, _] = &factors[i];
+            let (x, c) = (V::splat(forces.of(i)), V::splat(cosines.of(i)));
             let [of_torque, of_cosine] = load::<T, V>(of_own);
             (of_cosine * c)
                 .plus_product(of_torque, x)
-                .store_quad(&mut answers, i);
+                .store_quad(answers, i);
             let [of_torque, of_cosine] = load::<T, V>(of_up);
             let up = (of_cosine * c).plus_product(of_torque, x);
-            let parent = C::PARENTS[i];
-            (V::load_quad(&sums, parent) + up).store_quad(&mut sums, parent);
+            let parent = links.parent(i);
+            (V::load_quad(sums, parent) + up).store_quad(sums, parent);
         }
-        let (carriers, count) = const { &C::CARRIERS };
-        for &i in &carriers[..*count] {
-            let [of_up, of_pull, of_own, _, _] = &self.0[i];
-            let (x, c) = (V::splat(forces[i]), V::splat(cosines[i]));
+        for &i in links.carriers() {
+            let [of_up, of_pull, of_own, _, _] = &factors[i];
+            let (x, c) = (V::splat(forces.of(i)), V::splat(cosines.of(i)));
             let torque = V::splat(sums[i].0[0]);
             let [of_torque, of_cosine] = load::<T, V>(of_own);
             (of_cosine * c)
                 .plus_product(of_torque, x)
                 .plus_product(of_torque, torque)
-                .store_quad(&mut answers, i);
+                .store_quad(answers, i);
             if i > 0 {
                 let [of_torque, of_cosine] = load::<T, V>(of_up);
                 let [of_x, of_y] = load::<T, V>(of_pull);
@@ -160,16 +172,16 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
                     .plus_product(of_torque, torque)
                     .plus_product(of_x, V::splat(sums[i].0[2]))
                     .plus_product(of_y, V::splat(sums[i].0[3]));
-                let parent = C::PARENTS[i];
-                (V::load_quad(&sums, parent) + up).store_quad(&mut sums, parent);
+                let parent = links.parent(i);
+                (V::load_quad(sums, parent) + up).store_quad(sums, parent);
             }
         }
-        for i in 1..N {
-            let [_, _, _, of_parent, of_fall] = &self.0[i];
-            let parent = C::PARENTS[i];
+        for i in 1..count {
+            let [_, _, _, of_parent, of_fall] = &factors[i];
+            let parent = links.parent(i);
             let [of_sine, of_cosine] = load::<T, V>(of_parent);
             let mut sum =
-                V::load_quad(&answers, i).plus_product(of_cosine, V::splat(cosines[parent]));
+                V::load_quad(answers, i).plus_product(of_cosine, V::splat(cosines.of(parent)));
             // The root's pivot does not move.
             if parent > 0 {
                 let [of_x, of_y] = load::<T, V>(of_fall);
@@ -178,25 +190,42 @@ impl<'a, T: Scalar, const N: usize> TaylorElimination<'a, T, N> {
                     .plus_product(of_y, V::splat(answers[parent].0[3]));
             }
             sum.plus_product(of_sine, V::splat(answers[parent].0[0]))
-                .store_quad(&mut answers, i);
+                .store_quad(answers, i);
         }
-        let (mut s, mut y) = (*force, *force);
-        for m in 0..M {
+        for m in 0..packs {
+            if P::LANES == 1 {
+                let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
+                s.put(m, [P::splat(own_s)]);
+                y.put(m, [P::splat(own_y) + P::splat(along)]);
+                continue;
+            }
             let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
-                if first + l < N {
+                // Room may be for more links, with zeros.
+                if first + l < answers.len() {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
                     along[0].0[l] = sums[first + l].0[1];
                 }
             }
-            s[m] = P::load_quad(&of_s, place);
+            s.put(m, [P::load_quad(&of_s, place)]);
             // E last, for which no link waits.
-            y[m] = P::load_quad(&of_y, place) + P::load_quad(&along, place);
+            y.put(
+                m,
+                [P::load_quad(&of_y, place) + P::load_quad(&along, place)],
+            );
         }
-        [s, y]
     }
+}
+
+/// cos θ, sin θ of a link at the start.
+#[inline(always)]
+fn turn<T: Scalar, P: Simd<T>, S: Given<T>>(origin: &Origin<'_, T, S>, link: usize) -> [P; 2] {
+    [
+        P::splat(origin.cosines.of(link)),
+        P::splat(origin.sines.of(link)),
+    ]
 }
 
 #[inline(always)]

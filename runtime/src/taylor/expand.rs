@@ -16,14 +16,15 @@
 //! tolerances near rounding, the S of order 0 is refined once more.
 
 use super::bias::{Bias, ConstantBias, MovingBias};
-use super::elimination::{FACTORS, LinkFactors};
-use super::orders::Orders;
-use super::series::{SERIES, SeriesRow};
+use super::elimination::FACTORS;
+use super::links::{KnownLinks, Links};
+use super::orders::{Constants, Orders, Origin};
+use super::room::{Given, Rooms, StackRooms};
+use super::series::SERIES;
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lanes, Scalar};
 use crate::simd::dispatch::in_fours;
 use crate::simd::{Quad, Simd};
-use core::marker::PhantomData;
 
 /// Says which link of a tree hangs on which.
 pub trait Connectivity<const N: usize> {
@@ -172,89 +173,115 @@ pub fn expand<T: Scalar, C: Connectivity<N>, const N: usize, const Q: usize, F>(
         // Velocities of order 1 follow.
         *row = [*angles, *start.omega];
     }
+    let expansion = Expansion {
+        links: KnownLinks::<C, N>::new(),
+        origin: Origin {
+            omega: start.omega,
+            sines: start.sines.as_slice(),
+            cosines: start.cosines.as_slice(),
+            bias: start.bias.as_slice(),
+        },
+        constants: Constants {
+            inertias: &constants.inertias,
+            moments: &constants.moments,
+            attachments: &constants.attachments,
+            weights: &constants.weights,
+            lateral_weights: &constants.lateral_weights,
+        },
+        count: coefficients.len(),
+        coefficients: coefficients.as_flattened_mut().as_flattened_mut(),
+    };
+    let rooms = StackRooms::<N, Q>;
     match bias {
-        Some(bias) => run::<T, C, _, N, Q>(start, constants, coefficients, work, MovingBias(bias)),
-        None => run::<T, C, _, N, Q>(start, constants, coefficients, work, ConstantBias),
+        Some(bias) => expansion.run(rooms, work, MovingBias::<_, N>(bias)),
+        None => expansion.run(rooms, work, ConstantBias),
     }
 }
 
-/// Runs the orders in packs of links, or link by link where a number stands for several
-/// states already.
-#[inline(always)]
-fn run<T: Scalar, C: Connectivity<N>, B: Bias<T, N>, const N: usize, const Q: usize>(
-    start: &Start<'_, T, N>,
-    constants: &LinkConstants<T, N>,
-    coefficients: &mut [[[T; N]; 2]],
-    work: &mut [Quad<T>],
-    bias: B,
-) {
-    let (factors, rows) = work.split_at_mut(N * FACTORS);
-    let (factors, _) = factors.as_chunks_mut::<2>();
-    let (factors, _) = factors.as_chunks_mut::<5>();
-    let Some(factors) = factors.first_chunk_mut::<N>() else {
-        return;
-    };
-    let (rows, _) = rows.as_chunks_mut::<SERIES>();
-    T::by_kind(OrdersOf::<'_, '_, T, C, B, N, Q> {
-        start,
-        constants,
-        coefficients,
-        rows,
-        factors,
-        bias,
-        connectivity: PhantomData,
-    });
+/// Request for the orders of an expansion, the first of which are known.
+pub(super) struct Expansion<'a, T, L, S> {
+    pub(super) links: L,
+    pub(super) origin: Origin<'a, T, S>,
+    pub(super) constants: Constants<'a, T>,
+    /// Angles of all links, then angular velocities, order by order.
+    pub(super) coefficients: &'a mut [T],
+    /// Number of orders in them.
+    pub(super) count: usize,
+}
+
+impl<T: Scalar, L: Links, S: Given<T>> Expansion<'_, T, L, S> {
+    /// Runs the orders in packs of links, or link by link where a number stands for several
+    /// states already.
+    #[inline(always)]
+    pub(super) fn run(self, rooms: impl Rooms<T>, work: &mut [Quad<T>], bias: impl Bias<T>) {
+        T::by_kind(OrdersOf {
+            expansion: self,
+            rooms,
+            work,
+            bias,
+        });
+    }
+
+    /// Returns the orders in this room.
+    #[inline(always)]
+    fn orders<'o, R, B>(
+        self,
+        room: R,
+        work: &'o mut [Quad<T>],
+        bias: B,
+    ) -> Orders<'o, T, L, S, R, B>
+    where
+        Self: 'o,
+    {
+        let (factors, rows) = work.split_at_mut(self.links.count() * FACTORS);
+        let (factors, _) = factors.as_chunks_mut::<2>();
+        let (factors, _) = factors.as_chunks_mut::<5>();
+        let (rows, _) = rows.as_chunks_mut::<SERIES>();
+        Orders {
+            links: self.links,
+            room,
+            origin: self.origin,
+            constants: self.constants,
+            coefficients: self.coefficients,
+            count: self.count,
+            rows,
+            factors,
+            bias,
+        }
+    }
 }
 
 /// Asks for the orders.
-struct OrdersOf<'a, 's, T, C, B, const N: usize, const Q: usize> {
-    start: &'a Start<'s, T, N>,
-    constants: &'a LinkConstants<T, N>,
-    coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T>],
-    factors: &'a mut [LinkFactors<T>; N],
+struct OrdersOf<'a, 'w, T, L, S, R, B> {
+    expansion: Expansion<'a, T, L, S>,
+    rooms: R,
+    work: &'w mut [Quad<T>],
     bias: B,
-    connectivity: PhantomData<C>,
 }
 
-impl<'a, T, C, B, const N: usize, const Q: usize> OrdersOf<'a, '_, T, C, B, N, Q>
+impl<T, L, S, R, B> ByKind<T> for OrdersOf<'_, '_, T, L, S, R, B>
 where
     T: Scalar,
-    C: Connectivity<N>,
-    B: Bias<T, N>,
-{
-    /// In `M` packs.
-    #[inline(always)]
-    fn in_packs<const M: usize>(self) -> Orders<'a, T, C, B, N, Q, M> {
-        Orders::new(
-            self.start,
-            self.constants,
-            self.coefficients,
-            self.rows,
-            self.factors,
-            self.bias,
-        )
-    }
-}
-
-impl<T, C, B, const N: usize, const Q: usize> ByKind<T> for OrdersOf<'_, '_, T, C, B, N, Q>
-where
-    T: Scalar,
-    C: Connectivity<N>,
-    B: Bias<T, N>,
+    L: Links,
+    S: Given<T>,
+    R: Rooms<T>,
+    B: Bias<T>,
 {
     type Output = ();
 
     #[inline(always)]
     fn of_any(self) {
-        in_fours::<T, _>(self.in_packs::<Q>());
+        let room = self.rooms.in_fours();
+        in_fours::<T, _>(self.expansion.orders(room, self.work, self.bias));
     }
 
     #[inline(always)]
-    fn of_wide<L: Scalar>(self)
+    fn of_wide<W: Scalar>(self)
     where
-        T: Simd<L>,
+        T: Simd<W>,
     {
-        self.in_packs::<N>().form::<T, Lanes<T, 4>, true>();
+        let room = self.rooms.one_by_one();
+        let orders = self.expansion.orders(room, self.work, self.bias);
+        orders.form::<T, Lanes<T, 4>, true>();
     }
 }

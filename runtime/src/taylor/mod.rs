@@ -5,7 +5,9 @@
 //! the time and torques of friction and springs, emitted code computes order by
 //! order, with [`sums`] for its products of series.
 //!
-//! [`integrate::Taylor`] is the method that uses it.
+//! [`SeriesTree`] has the same for trees whose number of links no type tells.
+//!
+//! [`integrate::Taylor`] is the method that uses both.
 //!
 //! [`integrate::Taylor`]: crate::integrate::Taylor
 
@@ -13,14 +15,21 @@ mod bias;
 mod eliminated_link;
 mod elimination;
 mod expand;
+mod lent;
+mod links;
 mod orders;
 mod reciprocal;
 mod refine;
+mod room;
 mod series;
 mod sums;
 #[cfg(test)]
 mod tests;
+mod torques;
+mod tree;
 
 pub use crate::simd::Quad;
 pub use expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
 pub use sums::{Factors, rows, sums, whole};
+pub use torques::RoughFriction;
+pub use tree::{SeriesForm, SeriesLink, SeriesTree};

@@ -11,15 +11,15 @@
 //! on the right is of lower orders. What order k − 1 has to do with it is written
 //! apart, so that the sums are ready when that is.
 
-use super::bias::Bias;
-use super::elimination::{LinkColumn, LinkFactors, TaylorElimination};
-use super::expand::{Connectivity, KnownOrder, LinkConstants, Start};
+use super::bias::{Bias, KnownState};
+use super::elimination::{LinkFactors, TaylorElimination};
+use super::links::Links;
 use super::reciprocal::Reciprocal;
-use super::refine::residual;
-use super::series::{SeriesRow, SeriesSums, store, turned};
+use super::refine::Balance;
+use super::room::{Column, Given, OfLinks, Room};
+use super::series::{SUMS, SeriesRow, SeriesSums, store, turned};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Quad, Simd};
-use core::marker::PhantomData;
 
 /// From this order on the accelerations at the start are refined: the order for
 /// tolerances of 1e-13, below which rounding is most of the error.
@@ -29,23 +29,74 @@ const REFINED: usize = 28;
 /// two orders at a time: for more links the machine computes more than it waits.
 const IN_TURN: usize = 15;
 
-/// The orders of an expansion from 1 on, of N links in Q quads of memory and M packs.
-pub(super) struct Orders<'a, T, C, B, const N: usize, const Q: usize, const M: usize> {
-    start: &'a Start<'a, T, N>,
-    constants: &'a LinkConstants<T, N>,
-    coefficients: &'a mut [[[T; N]; 2]],
-    rows: &'a mut [SeriesRow<T>],
-    factors: &'a mut [LinkFactors<T>; N],
-    bias: B,
-    connectivity: PhantomData<C>,
+/// State at which an expansion starts, of all links: [`Start`](super::expand::Start).
+#[derive(Clone, Copy)]
+pub(super) struct Origin<'a, T, S> {
+    pub(super) omega: &'a [T],
+    pub(super) sines: S,
+    pub(super) cosines: S,
+    pub(super) bias: S,
 }
 
-impl<T, C, B, const N: usize, const Q: usize, const M: usize> Kernel<T>
-    for Orders<'_, T, C, B, N, Q, M>
+/// Constants of all links: [`LinkConstants`](super::expand::LinkConstants).
+#[derive(Clone, Copy)]
+pub(super) struct Constants<'a, T> {
+    pub(super) inertias: &'a [T],
+    pub(super) moments: &'a [[T; 2]],
+    pub(super) attachments: &'a [[T; 2]],
+    pub(super) weights: &'a [T],
+    pub(super) lateral_weights: &'a [T],
+}
+
+impl<T: Copy, S: Given<T>> Origin<'_, T, S> {
+    /// Returns the first links' numbers, as many as the compiler may know them to be.
+    #[inline(always)]
+    fn first_links(self, links: usize) -> Self {
+        Self {
+            omega: self.omega.first_links(links),
+            sines: self.sines.first_links(links),
+            cosines: self.cosines.first_links(links),
+            bias: self.bias.first_links(links),
+        }
+    }
+}
+
+impl<T> Constants<'_, T> {
+    /// Returns the first links' numbers, as many as the compiler may know them to be.
+    #[inline(always)]
+    fn first_links(self, links: usize) -> Self {
+        Self {
+            inertias: &self.inertias[..links],
+            moments: &self.moments[..links],
+            attachments: &self.attachments[..links],
+            weights: &self.weights[..links],
+            lateral_weights: &self.lateral_weights[..links],
+        }
+    }
+}
+
+/// The orders of an expansion from 1 on.
+pub(super) struct Orders<'a, T, L, S, R, B> {
+    pub(super) links: L,
+    pub(super) room: R,
+    pub(super) origin: Origin<'a, T, S>,
+    pub(super) constants: Constants<'a, T>,
+    /// Angles of all links, then angular velocities, order by order.
+    pub(super) coefficients: &'a mut [T],
+    /// Number of orders in them.
+    pub(super) count: usize,
+    pub(super) rows: &'a mut [SeriesRow<T>],
+    pub(super) factors: &'a mut [LinkFactors<T>],
+    pub(super) bias: B,
+}
+
+impl<T, L, S, R, B> Kernel<T> for Orders<'_, T, L, S, R, B>
 where
     T: Scalar,
-    C: Connectivity<N>,
-    B: Bias<T, N>,
+    L: Links,
+    S: Given<T>,
+    R: Room<T>,
+    B: Bias<T>,
 {
     type Output = ();
 
@@ -55,89 +106,112 @@ where
     }
 }
 
-impl<'a, T, C, B, const N: usize, const Q: usize, const M: usize> Orders<'a, T, C, B, N, Q, M>
+impl<T, L, S, R, B> Orders<'_, T, L, S, R, B>
 where
     T: Scalar,
-    C: Connectivity<N>,
-    B: Bias<T, N>,
+    L: Links,
+    S: Given<T>,
+    R: Room<T>,
+    B: Bias<T>,
 {
-    #[inline(always)]
-    pub(super) fn new(
-        start: &'a Start<'a, T, N>,
-        constants: &'a LinkConstants<T, N>,
-        coefficients: &'a mut [[[T; N]; 2]],
-        rows: &'a mut [SeriesRow<T>],
-        factors: &'a mut [LinkFactors<T>; N],
-        bias: B,
-    ) -> Self {
-        Self {
-            start,
-            constants,
-            coefficients,
-            rows,
-            factors,
-            bias,
-            connectivity: PhantomData,
-        }
-    }
-
-    /// Forms them, in M packs, of numbers that are `SEVERAL` states or one. No closure
+    /// Forms them, in packs of numbers that are `SEVERAL` states or one. No closure
     /// takes part but the caller's: what is not inlined is compiled without the
     /// registers. For the same reason the bias is asked for in one place.
-    // One index into all vectors at once.
-    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     pub(super) fn form<P: Simd<T>, V: Simd<T>, const SEVERAL: bool>(self) {
         let Self {
-            start,
+            links,
+            mut room,
+            origin,
             constants,
             coefficients,
+            count: orders,
             rows,
             factors,
             mut bias,
-            connectivity: _,
         } = self;
-        let orders = coefficients.len();
+        let (packs, n) = (room.packs(), links.count());
+        let (origin, constants) = (origin.first_links(n), constants.first_links(n));
         let last = orders.saturating_sub(1);
         // Packs of a quad.
         let packs_of_four = 4 / P::LANES;
-        let system = TaylorElimination::new::<C, P::One>(start, constants, factors);
+        let system =
+            TaylorElimination::new::<P::One, S>(links, &mut room, &origin, &constants, factors);
 
         // Order 0, and 1 of ω, γ, σ.
         let zero = P::splat(T::from_f64(0.0));
-        let omega: [P; M] = packs::<T, P, N, Q, M>(start.omega);
-        let first_bias: [P; M] = packs::<T, P, N, Q, M>(&start.bias);
-        let weight = Weight::<P, M>::new::<T, N, Q>(start, constants);
-        let (mut x, mut c, mut s_rest) = ([zero; M], [zero; M], [zero; M]);
-        let mut force = [zero; M];
-        for m in 0..M {
+        let mut quads = room.quads();
+        let mut omega = room.of_packs::<P, 1>();
+        let mut turn = room.of_packs::<P, 2>();
+        let mut weight = room.of_packs::<P, 2>();
+        let (mut x, mut c) = (room.of_packs::<P, 1>(), room.of_packs::<P, 1>());
+        let (mut s, mut y) = (room.of_packs::<P, 1>(), room.of_packs::<P, 1>());
+        let (mut s_rest, mut force) = (room.of_packs::<P, 1>(), room.of_packs::<P, 1>());
+        let size = [packs, n];
+        read(origin.omega, quads.as_mut(), size, 0, &mut omega);
+        read(origin.cosines, quads.as_mut(), size, 0, &mut turn);
+        read(origin.sines, quads.as_mut(), size, 1, &mut turn);
+        read(constants.weights, quads.as_mut(), size, 0, &mut weight);
+        read(
+            constants.lateral_weights,
+            quads.as_mut(),
+            size,
+            1,
+            &mut weight,
+        );
+        read(origin.bias, quads.as_mut(), size, 0, &mut x);
+        for m in 0..packs {
+            let ([velocity], [first_bias]) = (omega.at(m), x.at(m));
             // X with the weight in it.
-            x[m] = zero - first_bias[m];
-            force[m] = x[m] - weight.across[m];
-            c[m] = zero.minus_product(omega[m], omega[m]);
+            let own = zero - first_bias;
+            let [across, _] = pull(bias.fall(0), weight.at(m), turn.at(m));
+            x.put(m, [own]);
+            force.put(m, [own - across]);
+            c.put(m, [zero.minus_product(velocity, velocity)]);
+            s_rest.put(m, [zero]);
             let (row, place) = (m / packs_of_four * orders, m % packs_of_four);
             store(
-                [omega[m], zero, omega[m], zero, zero],
+                [velocity, zero, velocity, zero, zero],
                 &mut rows[row],
                 place,
             );
         }
-        let [mut s, mut y] = system.solution::<C, P, V, Q, M>(&force, &c);
-        for m in 0..M {
-            y[m] = y[m] + weight.along[m];
+        system.solve::<P, V>(room.rest(), &force, &c, [&mut s, &mut y]);
+        for m in 0..packs {
+            let ([of_links], [_, along]) = (y.at(m), pull(bias.fall(0), weight.at(m), turn.at(m)));
+            y.put(m, [of_links + along]);
         }
         if last >= REFINED {
-            let rest = residual::<T, C, P, N, Q, M>(start, constants, &s);
-            let [more_s, more_y] = system.solution::<C, P, V, Q, M>(&rest, &[zero; M]);
-            for m in 0..M {
-                (s[m], y[m]) = (s[m] + more_s[m], y[m] + more_y[m]);
+            let balance = Balance {
+                links,
+                origin,
+                constants,
+                turn: &turn,
+                weight: &weight,
+                fall: bias.fall(0),
+            };
+            balance.residual::<P, _>(&mut room.rest(), quads.as_mut(), &s, &mut force);
+            let mut room = room.rest();
+            let mut none = room.of_packs::<P, 1>();
+            let (mut more_s, mut more_y) = (room.of_packs::<P, 1>(), room.of_packs::<P, 1>());
+            for m in 0..packs {
+                none.put(m, [zero]);
+            }
+            system.solve::<P, V>(room.rest(), &force, &none, [&mut more_s, &mut more_y]);
+            for m in 0..packs {
+                let ([of_s], [of_y]) = (s.at(m), y.at(m));
+                let ([more_s], [more_y]) = (more_s.at(m), more_y.at(m));
+                s.put(m, [of_s + more_s]);
+                y.put(m, [of_y + more_y]);
             }
         }
 
         let one = P::from_f64(1.0);
         let mut number = one;
         let mut over_next = Reciprocal::of(one);
-        let [mut sums, mut next_sums] = [[SeriesSums::<P>::none(); M]; 2];
+        let (mut sums, mut next_sums) = (room.of_packs::<P, SUMS>(), room.of_packs::<P, SUMS>());
+        let (mut theta, mut velocity) = (room.quads(), room.quads());
+        let (mut sines, mut cosines) = (room.quads(), room.quads());
         for k in 1..last {
             let over_k = over_next;
             let over_both = Reciprocal::of(number * (number + one));
@@ -146,142 +220,167 @@ where
 
             // X and C as far as they do not depend on S[k−1] and α[k−1]: there
             // was time for them while these were formed.
-            for m in 0..M {
+            for m in 0..packs {
                 let lower = &rows[m / packs_of_four * orders..][..k];
                 let place = m % packs_of_four;
-                if !SEVERAL && N <= IN_TURN {
-                    sums[m] = SeriesSums::of(&lower[1..], place);
+                if !SEVERAL && n <= IN_TURN {
+                    sums.put(m, SeriesSums::of(&lower[1..], place).numbers());
                 } else if k % 2 == 1 {
-                    [sums[m], next_sums[m]] = SeriesSums::pair(lower, place);
+                    let [now, next] = SeriesSums::pair(lower, place);
+                    sums.put(m, now.numbers());
+                    next_sums.put(m, next.numbers());
                 } else {
-                    sums[m] = next_sums[m];
-                    sums[m].complete(lower, place);
+                    let mut now = SeriesSums::from_numbers(next_sums.at(m));
+                    now.complete(lower, place);
+                    sums.put(m, now.numbers());
                 }
             }
-            let [mut theta, mut velocity] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
-            for m in 0..M {
-                let alpha = s[m] - s_rest[m];
-                let (cos, sin) = (over_both.times(c[m]), over_both.times(s[m]));
+            for m in 0..packs {
+                let ([velocity_0], [of_s], [of_y]) = (omega.at(m), s.at(m), y.at(m));
+                let ([of_c], [rest], [of_x]) = (c.at(m), s_rest.at(m), x.at(m));
+                let sums = SeriesSums::from_numbers(sums.at(m));
+                let alpha = of_s - rest;
+                let (cos, sin) = (over_both.times(of_c), over_both.times(of_s));
                 let rise = over_k.times(alpha);
                 let (row, place) = (m / packs_of_four * orders + k, m % packs_of_four);
-                store([rise, cos, sin, x[m], y[m]], &mut rows[row], place);
-                rise.store_quad(&mut velocity, m);
-                over_both.times(alpha).store_quad(&mut theta, m);
+                store([rise, cos, sin, of_x, of_y], &mut rows[row], place);
+                rise.store_quad(velocity.as_mut(), m);
+                over_both.times(alpha).store_quad(theta.as_mut(), m);
 
                 // ω/k, ω (k+1)/k, ω (k+2)/k
-                let rate = over_k.times(omega[m]);
-                let rate_1 = omega[m] + rate;
+                let rate = over_k.times(velocity_0);
+                let rate_1 = velocity_0 + rate;
                 let slowing = rate_1 + rate;
-                x[m] = sums[m].force().plus_product(omega[m], y[m]);
-                let s_rest_next = (number * sums[m].omega_cos).plus_product(rate, c[m]);
-                c[m] = (rate_1 * s_rest[m])
-                    .minus_product(number, sums[m].omega_sin)
-                    .minus_product(slowing, s[m]);
-                s_rest[m] = s_rest_next;
+                x.put(m, [sums.force().plus_product(velocity_0, of_y)]);
+                let s_rest_next = (number * sums.omega_cos).plus_product(rate, of_c);
+                let c_next = (rate_1 * rest)
+                    .minus_product(number, sums.omega_sin)
+                    .minus_product(slowing, of_s);
+                c.put(m, [c_next]);
+                s_rest.put(m, [s_rest_next]);
             }
-            numbers(&velocity, &mut coefficients[k][1]);
-            numbers(&theta, &mut coefficients[k + 1][0]);
-            if B::MOVES {
-                let known = known::<T, P, N, Q, M>(k, start, &coefficients[k], rows, orders);
-                let others: [P; M] = packs::<T, P, N, Q, M>(&bias.at(&known));
-                for m in 0..M {
-                    x[m] = x[m] - others[m];
+            let (lower, higher) = coefficients.split_at_mut((k + 1) * 2 * n);
+            let (angles, velocities) = lower[k * 2 * n..].split_at_mut(n);
+            collect(velocity.as_mut(), velocities);
+            collect(theta.as_mut(), &mut higher[..n]);
+            if bias.moves() {
+                if B::TURNS {
+                    for m in 0..packs {
+                        let row = &rows[m / packs_of_four * orders + k - 1];
+                        let [cos, sin] = turned::<T, P>(row, m % packs_of_four);
+                        let [c0, s0] = turn.at(m);
+                        let (upright, level) = (c0 * cos, c0 * sin);
+                        level.plus_product(s0, cos).store_quad(sines.as_mut(), m);
+                        upright
+                            .minus_product(s0, sin)
+                            .store_quad(cosines.as_mut(), m);
+                    }
+                }
+                let known = KnownState {
+                    order: k,
+                    theta: angles,
+                    omega: velocities,
+                    sines: sines.as_mut(),
+                    cosines: cosines.as_mut(),
+                };
+                bias.write(known, quads.as_mut());
+                for m in 0..packs {
+                    let [of_x] = x.at(m);
+                    x.put(m, [of_x - P::load_quad(quads.as_mut(), m)]);
                 }
             }
-            [s, y] = system.solution::<C, P, V, Q, M>(&x, &c);
+            let Some(fall) = bias.fall(k) else {
+                system.solve::<P, V>(room.rest(), &x, &c, [&mut s, &mut y]);
+                continue;
+            };
+            for m in 0..packs {
+                let ([of_x], [across, _]) = (x.at(m), pull(Some(fall), weight.at(m), turn.at(m)));
+                force.put(m, [of_x - across]);
+            }
+            system.solve::<P, V>(room.rest(), &force, &c, [&mut s, &mut y]);
+            for m in 0..packs {
+                let ([of_links], [_, along]) =
+                    (y.at(m), pull(Some(fall), weight.at(m), turn.at(m)));
+                y.put(m, [of_links + along]);
+            }
         }
         if last > 0 {
-            let mut omega = [Quad::splat(T::from_f64(0.0)); Q];
-            for m in 0..M {
-                let alpha = s[m] - s_rest[m];
-                over_next.times(alpha).store_quad(&mut omega, m);
+            for m in 0..packs {
+                let ([of_s], [rest]) = (s.at(m), s_rest.at(m));
+                over_next
+                    .times(of_s - rest)
+                    .store_quad(velocity.as_mut(), m);
             }
-            numbers(&omega, &mut coefficients[last][1]);
+            collect(
+                velocity.as_mut(),
+                &mut coefficients[(2 * last + 1) * n..][..n],
+            );
         }
     }
+}
+
+/// Torques G sin θ + F cos θ, with G and F the weights (w, l) at the acceleration (x, y) of an
+/// order, w y − l x and w x + l y: at (0, 1) where there is none.
+#[inline(always)]
+pub(super) fn weights<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2]) -> [P; 2] {
+    let Some(fall) = fall else { return weight };
+    let ([x, y], [w, l]) = (fall.map(P::splat), weight);
+    [(w * y).minus_product(l, x), (w * x).plus_product(l, y)]
 }
 
 /// Gravity is a constant force: its torque (G s₀ + F c₀) γ + (G c₀ − F s₀) σ, with
-/// s₀, c₀ of the angle at the start, is that of an X and of a Y of order 0.
-struct Weight<P, const M: usize> {
-    across: [P; M],
-    along: [P; M],
-}
-
-impl<P, const M: usize> Weight<P, M> {
-    #[inline(always)]
-    fn new<T: Scalar, const N: usize, const Q: usize>(
-        start: &Start<'_, T, N>,
-        constants: &LinkConstants<T, N>,
-    ) -> Self
-    where
-        P: Simd<T>,
-    {
-        let cosines: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
-        let sines: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
-        let weights: [P; M] = packs::<T, P, N, Q, M>(&constants.weights);
-        let lateral: [P; M] = packs::<T, P, N, Q, M>(&constants.lateral_weights);
-        let (mut across, mut along) = (cosines, sines);
-        for m in 0..M {
-            across[m] = (weights[m] * sines[m]).plus_product(lateral[m], cosines[m]);
-            along[m] = (lateral[m] * sines[m]).minus_product(weights[m], cosines[m]);
-        }
-        Self { across, along }
-    }
-}
-
-/// State that a torque may depend on, in order k.
+/// s₀, c₀ of the angle at the start, is that of an X and of a Y of order 0. So is the
+/// acceleration of the root's pivot, of any order.
 #[inline(always)]
-fn known<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
+fn pull<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2], [cos, sin]: [P; 2]) -> [P; 2] {
+    let [of_sine, of_cosine] = weights(fall, weight);
+    [
+        (of_sine * sin).plus_product(of_cosine, cos),
+        (of_cosine * sin).minus_product(of_sine, cos),
+    ]
+}
+
+/// Reads numbers of all links into number `k` of each pack, by way of `quads`.
+#[inline(always)]
+pub(super) fn read<T: Scalar, P: Simd<T>, const K: usize>(
+    numbers: impl OfLinks<T>,
+    quads: &mut [Quad<T>],
+    [packs, links]: [usize; 2],
     k: usize,
-    start: &Start<'_, T, N>,
-    [theta, omega]: &[[T; N]; 2],
-    rows: &[SeriesRow<T>],
-    orders: usize,
-) -> KnownOrder<T, N> {
-    let c0: [P; M] = packs::<T, P, N, Q, M>(&start.cosines);
-    let s0: [P; M] = packs::<T, P, N, Q, M>(&start.sines);
-    let [mut sine, mut cosine] = [[Quad::splat(T::from_f64(0.0)); Q]; 2];
-    for m in 0..M {
-        let packs_of_four = 4 / P::LANES;
-        let row = &rows[m / packs_of_four * orders + k - 1];
-        let [cos, sin] = turned::<T, P>(row, m % packs_of_four);
-        let (upright, level) = (c0[m] * cos, c0[m] * sin);
-        level.plus_product(s0[m], cos).store_quad(&mut sine, m);
-        upright.minus_product(s0[m], sin).store_quad(&mut cosine, m);
-    }
-    let (mut sines, mut cosines) = (*theta, *theta);
-    numbers(&sine, &mut sines);
-    numbers(&cosine, &mut cosines);
-    KnownOrder {
-        order: k,
-        theta: *theta,
-        omega: *omega,
-        sines,
-        cosines,
+    column: &mut impl Column<P, K>,
+) {
+    spread(numbers, links, quads);
+    for m in 0..packs {
+        let mut own = column.at(m);
+        own[k] = P::load_quad(quads, m);
+        column.put(m, own);
     }
 }
 
-/// Numbers of all links as packs, zero where there is no link.
+/// Writes numbers of all links as quads, zero where there is no link.
 #[inline(always)]
-pub(super) fn packs<T: Scalar, P: Simd<T>, const N: usize, const Q: usize, const M: usize>(
-    numbers: &[T; N],
-) -> [P; M] {
-    let mut column = [Quad::splat(T::from_f64(0.0)); Q];
-    for (i, number) in numbers.iter().enumerate() {
-        column[i / 4].0[i % 4] = *number;
+pub(super) fn spread<T: Scalar>(numbers: impl OfLinks<T>, links: usize, quads: &mut [Quad<T>]) {
+    for (q, quad) in quads.iter_mut().enumerate() {
+        for (l, number) in quad.0.iter_mut().enumerate() {
+            *number = match 4 * q + l < links {
+                true => numbers.of(4 * q + l),
+                false => T::from_f64(0.0),
+            };
+        }
     }
-    let mut packs = [P::splat(T::from_f64(0.0)); M];
-    for (m, pack) in packs.iter_mut().enumerate() {
-        *pack = P::load_quad(&column, m);
-    }
-    packs
 }
 
-/// The numbers of all links.
+/// Writes the numbers of all links that stand in quads.
 #[inline(always)]
-fn numbers<T: Scalar, const N: usize, const Q: usize>(column: &LinkColumn<T, Q>, out: &mut [T; N]) {
-    for (i, out) in out.iter_mut().enumerate() {
-        *out = column[i / 4].0[i % 4];
+pub(super) fn collect<T: Scalar>(quads: &[Quad<T>], numbers: &mut [T]) {
+    let (fours, few) = numbers.as_chunks_mut::<4>();
+    let last = quads.get(fours.len());
+    for (four, quad) in fours.iter_mut().zip(quads) {
+        *four = quad.0;
+    }
+    if let Some(last) = last {
+        for (number, own) in few.iter_mut().zip(last.0) {
+            *number = own;
+        }
     }
 }

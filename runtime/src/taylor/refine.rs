@@ -13,108 +13,127 @@
 //!
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
-use super::elimination::LinkColumn;
-use super::expand::{Connectivity, LinkConstants, Start};
-use super::orders::packs;
+use super::links::Links;
+use super::orders::{Constants, Origin, read, weights};
+use super::room::{Column, Given, Room};
 use crate::scalar::{Scalar, two_sum};
 use crate::simd::{Quad, Simd};
 
-/// Returns what accelerations leave of the equation of motion, in the units of the
-/// tree's constants.
-#[inline(always)]
-pub(super) fn residual<T, C, P, const N: usize, const Q: usize, const M: usize>(
-    start: &Start<'_, T, N>,
-    constants: &LinkConstants<T, N>,
-    accelerations: &[P; M],
-) -> [P; M]
-where
-    T: Scalar,
-    C: Connectivity<N>,
-    P: Simd<T>,
-{
-    let zero = P::splat(T::from_f64(0.0));
-    let [sines, cosines] = [&start.sines, &start.cosines].map(packs::<T, P, N, Q, M>);
-    let omega = packs::<T, P, N, Q, M>(start.omega);
-    // U + iV
-    let mut turning = empty::<T, Q>();
-    for m in 0..M {
-        let (sin, cos, alpha) = (sines[m], cosines[m], accelerations[m]);
-        let square = Parts::product(omega[m], omega[m]);
-        let u = Parts::product(cos, alpha).plus_product(zero - sin, square);
-        let v = Parts::product(sin, alpha).plus_product(cos, square);
-        u.store::<T, Q>(&mut turning[0], m);
-        v.store::<T, Q>(&mut turning[1], m);
-    }
-    let lever = levers::<T, C, P::One, N, Q>(constants, &turning);
-    let bias = packs::<T, P, N, Q, M>(&start.bias);
-    let inertias = packs::<T, P, N, Q, M>(&constants.inertias);
-    let weights = packs::<T, P, N, Q, M>(&constants.weights);
-    let lateral = packs::<T, P, N, Q, M>(&constants.lateral_weights);
-    let mut rest = *accelerations;
-    for m in 0..M {
-        let aside = Parts::load::<T, Q>(&lever[0], m).plus(Parts::whole(lateral[m]));
-        let down = Parts::load::<T, Q>(&lever[1], m).plus(Parts::whole(weights[m]));
-        let sum = Parts::whole(bias[m])
-            .plus_product(inertias[m], Parts::whole(accelerations[m]))
-            .plus_product(sines[m], down)
-            .plus_product(cosines[m], aside);
-        rest[m] = zero - sum.high - sum.low;
-    }
-    rest
+/// The equation of motion at the start of an expansion.
+pub(super) struct Balance<'a, T, L, S, C> {
+    pub(super) links: L,
+    pub(super) origin: Origin<'a, T, S>,
+    pub(super) constants: Constants<'a, T>,
+    /// cos θ, sin θ of each pack.
+    pub(super) turn: &'a C,
+    /// Weights of each pack, and the acceleration that they are multiplied by.
+    pub(super) weight: &'a C,
+    pub(super) fall: Option<[T; 2]>,
 }
 
-/// D + iE of all links, along the tree.
-#[inline(always)]
-fn levers<T: Scalar, C: Connectivity<N>, P: Simd<T>, const N: usize, const Q: usize>(
-    constants: &LinkConstants<T, N>,
-    turning: &[PartsColumn<T, Q>; 2],
-) -> [PartsColumn<T, Q>; 2] {
-    let zero = Parts::whole(P::splat(T::from_f64(0.0)));
-    // a, Σ F_c and D + iE.
-    let [mut fall, mut pull, mut lever] = [[[zero; 2]; N]; 3];
-    for i in 1..N {
-        let parent = C::PARENTS[i];
-        let turning = [0, 1].map(|x| Parts::load::<T, Q>(&turning[x], parent));
-        fall[i] = plus_turned::<T, C, P, N>(fall[parent], constants.attachments[i], turning);
-    }
-    for i in (1..N).rev() {
-        let parent = C::PARENTS[i];
-        let ([h, e], [l, w]) = (constants.moments[i], constants.attachments[i]);
-        lever[i] = plus_turned::<T, C, P, N>(lever[i], [h, -e], fall[i]);
-        let turning = [0, 1].map(|x| Parts::load::<T, Q>(&turning[x], i));
-        let force = plus_turned::<T, C, P, N>(pull[i], [h, e], turning);
-        lever[parent] = plus_turned::<T, C, P, N>(lever[parent], [l, -w], force);
-        for x in 0..2 {
-            pull[parent][x] = pull[parent][x].plus(force[x]);
+impl<T: Scalar, L: Links, S: Given<T>, C> Balance<'_, T, L, S, C> {
+    /// Writes what accelerations leave of the equation of motion, in the units of the
+    /// tree's constants. `quads` are worked in.
+    #[inline(always)]
+    pub(super) fn residual<P: Simd<T>, R: Room<T>>(
+        &self,
+        room: &mut R,
+        quads: &mut [Quad<T>],
+        accelerations: &impl Column<P, 1>,
+        rest: &mut impl Column<P, 1>,
+    ) where
+        C: Column<P, 2>,
+    {
+        let (zero, packs) = (P::splat(T::from_f64(0.0)), room.packs());
+        // ω, bias and M
+        let mut own = room.of_packs::<P, 3>();
+        let size = [packs, self.links.count()];
+        read(self.origin.omega, quads, size, 0, &mut own);
+        read(self.origin.bias, quads, size, 1, &mut own);
+        read(self.constants.inertias, quads, size, 2, &mut own);
+        // U + iV
+        let (mut u_column, mut v_column) =
+            ([room.quads(), room.quads()], [room.quads(), room.quads()]);
+        for m in 0..packs {
+            let ([cos, sin], [omega, ..], [alpha]) =
+                (self.turn.at(m), own.at(m), accelerations.at(m));
+            let square = Parts::product(omega, omega);
+            let u = Parts::product(cos, alpha).plus_product(zero - sin, square);
+            let v = Parts::product(sin, alpha).plus_product(cos, square);
+            u.store(&mut u_column, m);
+            v.store(&mut v_column, m);
+        }
+        self.levers::<P::One, R>(room, [&mut u_column, &mut v_column]);
+        for m in 0..packs {
+            let ([cos, sin], [_, bias, inertia], [alpha]) =
+                (self.turn.at(m), own.at(m), accelerations.at(m));
+            let [down, aside] = weights(self.fall, self.weight.at(m));
+            let aside = Parts::load(&mut u_column, m).plus(Parts::whole(aside));
+            let down = Parts::load(&mut v_column, m).plus(Parts::whole(down));
+            let sum = Parts::whole(bias)
+                .plus_product(inertia, Parts::whole(alpha))
+                .plus_product(sin, down)
+                .plus_product(cos, aside);
+            rest.put(m, [zero - sum.high - sum.low]);
         }
     }
-    let mut columns = empty::<T, Q>();
-    for (i, lever) in lever.iter().enumerate() {
-        for x in 0..2 {
-            lever[x].store::<T, Q>(&mut columns[x], i);
+
+    /// Writes D + iE of all links in place of U + iV, along the tree.
+    #[inline(always)]
+    fn levers<P: Simd<T>, R: Room<T>>(
+        &self,
+        room: &mut R,
+        [u_column, v_column]: [&mut [R::Quads; 2]; 2],
+    ) {
+        let (zero, links) = ([P::splat(T::from_f64(0.0)); COMPLEX], self.links);
+        let (moments, attachments) = (self.constants.moments, self.constants.attachments);
+        let lateral = links.lateral();
+        let mut fall = room.of_links::<P, COMPLEX>();
+        // Σ F_c
+        let mut pull = room.of_links::<P, COMPLEX>();
+        let mut lever = room.of_links::<P, COMPLEX>();
+        for i in 0..links.count() {
+            fall.put(i, zero);
+            pull.put(i, zero);
+            lever.put(i, zero);
+        }
+        for i in 1..links.count() {
+            let parent = links.parent(i);
+            let turning = [Parts::load(u_column, parent), Parts::load(v_column, parent)];
+            let own = plus_turned(parts(fall.at(parent)), attachments[i], turning, lateral);
+            fall.put(i, numbers(own));
+        }
+        for i in (1..links.count()).rev() {
+            let parent = links.parent(i);
+            let ([h, e], [l, w]) = (moments[i], attachments[i]);
+            let own = plus_turned(parts(lever.at(i)), [h, -e], parts(fall.at(i)), lateral);
+            lever.put(i, numbers(own));
+            let turning = [Parts::load(u_column, i), Parts::load(v_column, i)];
+            let force = plus_turned(parts(pull.at(i)), [h, e], turning, lateral);
+            let above = plus_turned(parts(lever.at(parent)), [l, -w], force, lateral);
+            lever.put(parent, numbers(above));
+            let [x, y] = parts(pull.at(parent));
+            pull.put(parent, numbers([x.plus(force[0]), y.plus(force[1])]));
+        }
+        for i in 0..links.count() {
+            let [x, y] = parts::<P>(lever.at(i));
+            x.store(u_column, i);
+            y.store(v_column, i);
         }
     }
-    columns
-}
-
-/// First and second parts of a number of each link.
-type PartsColumn<T, const Q: usize> = [LinkColumn<T, Q>; 2];
-
-#[inline(always)]
-fn empty<T: Scalar, const Q: usize>() -> [PartsColumn<T, Q>; 2] {
-    [[[Quad::splat(T::from_f64(0.0)); Q]; 2]; 2]
 }
 
 /// `base` + (p + i q) x
 #[inline(always)]
-fn plus_turned<T: Scalar, C: Connectivity<N>, P: Simd<T>, const N: usize>(
+fn plus_turned<T: Scalar, P: Simd<T>>(
     base: [Parts<P>; 2],
     [p, q]: [T; 2],
     x: [Parts<P>; 2],
+    lateral: bool,
 ) -> [Parts<P>; 2] {
     let p = P::splat(p);
     let sum = [base[0].plus_product(p, x[0]), base[1].plus_product(p, x[1])];
-    if !C::LATERAL {
+    if !lateral {
         return sum;
     }
     [
@@ -132,6 +151,27 @@ struct Parts<P> {
     low: P,
 }
 
+/// Numbers of a complex number in two parts.
+const COMPLEX: usize = 4;
+
+#[inline(always)]
+fn numbers<P>([x, y]: [Parts<P>; 2]) -> [P; COMPLEX] {
+    [x.high, x.low, y.high, y.low]
+}
+
+#[inline(always)]
+fn parts<P>([x_high, x_low, y_high, y_low]: [P; COMPLEX]) -> [Parts<P>; 2] {
+    let x = Parts {
+        high: x_high,
+        low: x_low,
+    };
+    let y = Parts {
+        high: y_high,
+        low: y_low,
+    };
+    [x, y]
+}
+
 impl<P: Scalar> Parts<P> {
     #[inline(always)]
     fn whole(high: P) -> Self {
@@ -140,25 +180,23 @@ impl<P: Scalar> Parts<P> {
     }
 
     #[inline(always)]
-    fn load<T: Scalar, const Q: usize>(column: &PartsColumn<T, Q>, i: usize) -> Self
+    fn load<T: Scalar, Q: AsMut<[Quad<T>]>>([high, low]: &mut [Q; 2], i: usize) -> Self
     where
         P: Simd<T>,
     {
-        let [high, low] = column;
         Self {
-            high: P::load_quad(high, i),
-            low: P::load_quad(low, i),
+            high: P::load_quad(high.as_mut(), i),
+            low: P::load_quad(low.as_mut(), i),
         }
     }
 
     #[inline(always)]
-    fn store<T: Scalar, const Q: usize>(self, column: &mut PartsColumn<T, Q>, i: usize)
+    fn store<T: Scalar, Q: AsMut<[Quad<T>]>>(self, [high, low]: &mut [Q; 2], i: usize)
     where
         P: Simd<T>,
     {
-        let [high, low] = column;
-        self.high.store_quad(high, i);
-        self.low.store_quad(low, i);
+        self.high.store_quad(high.as_mut(), i);
+        self.low.store_quad(low.as_mut(), i);
     }
 
     #[inline(always)]

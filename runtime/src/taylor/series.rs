@@ -25,6 +25,9 @@ pub(super) fn store<T: Scalar, P: Simd<T>>(
     }
 }
 
+/// Number of [`SeriesSums`].
+pub(super) const SUMS: usize = 4;
+
 /// Sums of products in one order, over 0 < j < k.
 #[derive(Clone, Copy)]
 pub(super) struct SeriesSums<P> {
@@ -48,6 +51,23 @@ impl<P: Scalar> SeriesSums<P> {
             cos_x: zero,
             sin_y: zero,
         }
+    }
+
+    /// Takes the sums from the numbers that [`numbers`](Self::numbers) returns.
+    #[inline(always)]
+    pub(super) fn from_numbers([omega_cos, omega_sin, cos_x, sin_y]: [P; SUMS]) -> Self {
+        Self {
+            omega_cos,
+            omega_sin,
+            cos_x,
+            sin_y,
+        }
+    }
+
+    /// Returns all of them, side by side.
+    #[inline(always)]
+    pub(super) fn numbers(self) -> [P; SUMS] {
+        [self.omega_cos, self.omega_sin, self.cos_x, self.sin_y]
     }
 
     /// Σ σ Y − γ X

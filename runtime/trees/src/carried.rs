@@ -29,6 +29,8 @@ impl Form {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Carried {
     mass: Double,
+    /// Moment of inertia about the pivot: the diagonal of the mass matrix.
+    pub(crate) inertia: Double,
     /// First moment about the pivot, along the link and across it.
     pub(crate) moment: [Double; 2],
 }
@@ -96,9 +98,14 @@ impl Carried {
 
 /// Returns what each link carries.
 pub(crate) fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
-    let own = links.iter().map(|link| Carried {
-        mass: link.mass,
-        moment: link.com.map(|place| link.mass * place),
+    let own = links.iter().map(|link| {
+        let [along, across] = link.com;
+        let moment = link.com.map(|place| link.mass * place);
+        Carried {
+            mass: link.mass,
+            inertia: link.inertia + moment[0] * along + moment[1] * across,
+            moment,
+        }
     });
     let mut all: Vec<Carried> = own.collect();
     // Parents stand before their children.
@@ -106,9 +113,11 @@ pub(crate) fn carried(links: &[LinkNumbers]) -> Vec<Carried> {
         let mass = all.get(number).map(|own| own.mass);
         let parent = link.parent.and_then(|parent| all.get_mut(parent));
         if let (Some(mass), Some(parent)) = (mass, parent) {
+            let first = link.pivot.map(|place| mass * place);
             parent.mass += mass;
-            for (moment, place) in parent.moment.iter_mut().zip(link.pivot) {
-                *moment += mass * place;
+            parent.inertia = parent.inertia + first[0] * link.pivot[0] + first[1] * link.pivot[1];
+            for (moment, first) in parent.moment.iter_mut().zip(first) {
+                *moment += first;
             }
         }
     }

@@ -1,10 +1,12 @@
 //! The drive: torque and motion from outside as functions of time.
 
 use branched_pendulum::scalar::{Dual, Scalar};
+use branched_pendulum::taylor::Quad;
 use branched_pendulum::tree::RootDrive;
 use branched_pendulum_codegen::scene::{Drive, Quantity, Scene, Signal, SignalAtom, TimeFunction};
 
 use crate::numbers::evaluate;
+use crate::signal_series::{quads, series, series_beside};
 
 /// The drive in numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +14,8 @@ pub(crate) struct Courses<T> {
     drive: Drive<T>,
     /// True if angles are those from the upward vertical.
     stands: bool,
+    /// Acceleration of gravity, in the directions of the equations.
+    gravity: T,
 }
 
 /// Returns the value of a function of time in any numbers that constants can be taken to.
@@ -40,15 +44,62 @@ impl<T: Scalar> Courses<T> {
     /// Returns the drive of a scene, whose quantities `constant` takes to numbers.
     pub(crate) fn of(scene: &Scene, constant: &impl Fn(&Quantity) -> T) -> Option<Self> {
         let drive = scene.drive.as_ref()?.map(constant);
-        let stands = scene.stands();
-        Some(Self { drive, stands })
+        Some(Self {
+            drive,
+            stands: scene.stands(),
+            gravity: constant(&scene.gravity),
+        })
     }
 
     pub(crate) fn cast<S>(&self, convert: &impl Fn(T) -> S) -> Courses<S> {
         Courses {
             drive: self.drive.map(&|value| convert(*value)),
             stands: self.stands,
+            gravity: convert(self.gravity),
         }
+    }
+
+    /// Returns the number of quads that [`series`](Self::series) takes.
+    pub(crate) fn room(&self, order: usize) -> usize {
+        let Drive { torque, x, y } = &self.drive;
+        let signals = [torque, x, y].into_iter().flatten();
+        let beside = signals.map(series_beside).max().unwrap_or(0);
+        order + 1 + (1 + beside) * quads(order + 3)
+    }
+
+    /// Returns for each order up to `order` the coefficients of the acceleration of the root's
+    /// pivot, that of gravity included, and of the torque, in the directions of the equations.
+    pub(crate) fn series<'a>(
+        &self,
+        time: T,
+        order: usize,
+        room: &'a mut [Quad<T>],
+    ) -> &'a [Quad<T>] {
+        let zero = T::from_f64(0.0);
+        let count = order + 3;
+        let (orders, room) = room.split_at_mut((order + 1).min(room.len()));
+        let (result, beside) = room.split_at_mut(quads(count).min(room.len()));
+        orders.fill(Quad::splat(zero));
+        let Drive { torque, x, y } = &self.drive;
+        for (lane, signal) in [x, y, torque].into_iter().enumerate() {
+            let Some(signal) = signal else { continue };
+            series(signal, time, count, result, beside);
+            let upwards = lane == 1 && self.stands;
+            for (k, own) in orders.iter_mut().enumerate() {
+                let at = |order: usize| match result.get(order / 4) {
+                    Some(quad) => quad.0[order % 4],
+                    None => zero,
+                };
+                // The second derivative of a position.
+                let factor = T::from_f64(((k + 1) * (k + 2)) as f64);
+                let value = if lane == 2 { at(k) } else { factor * at(k + 2) };
+                own.0[lane] = if upwards { -value } else { value };
+            }
+        }
+        if let Some(first) = orders.first_mut() {
+            first.0[1] = first.0[1] + self.gravity;
+        }
+        orders
     }
 
     /// Returns the drive at a time: acceleration x, y of the root's pivot, torque.

@@ -8,11 +8,10 @@
 //!
 //! A tree is a [`Model`](branched_pendulum::Model), and has the traits that compiled models have:
 //! accelerations, energies, positions, forces, torques from outside, links that are held, canonical
-//! variables, drives, every integrator, batches, ensembles in lanes. Momenta, linear modes,
-//! observables and, of trees by rule, budgets by scale are there too; of trees with copies symmetric
-//! coordinates and the energy transfer W in all its forms ([`PendulumTree::symmetric`]). Taylor series are
-//! derived for one tree and stay with compiled models, as does the speed of code that is written
-//! out: `docs/run-time-trees.md`.
+//! variables, drives, Taylor series, every integrator, batches, ensembles in lanes. Momenta, linear
+//! modes, observables and, of trees by rule, budgets by scale are there too; of trees with copies
+//! symmetric coordinates and the energy transfer W in all its forms ([`PendulumTree::symmetric`]).
+//! The speed of code that is written out stays with compiled models: `docs/run-time-trees.md`.
 
 mod bodies;
 mod canonical;
@@ -31,6 +30,8 @@ mod parametric;
 mod prescribed;
 mod rows;
 mod scales;
+mod series;
+mod signal_series;
 mod symmetric;
 mod text;
 mod tree;

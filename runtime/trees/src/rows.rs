@@ -53,7 +53,7 @@ impl Form {
 }
 
 /// Returns true if some friction is not viscous.
-fn are_rough(links: &[LinkNumbers]) -> bool {
+pub(crate) fn are_rough(links: &[LinkNumbers]) -> bool {
     let zero = Double::from_f64(0.0);
     let laws = links.iter().flat_map(|link| &link.passive.laws);
     laws.into_iter()

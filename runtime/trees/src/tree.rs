@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Pendulum, Workspace};
+use branched_pendulum::taylor::SeriesTree;
 use branched_pendulum::tree::{PropertyTable, Shape};
 
 use crate::bodies::FormBodies;
@@ -19,6 +20,7 @@ use crate::numbers::{self, LinkNumbers};
 use crate::prescribed::HeldLinks;
 use crate::rows::{self, Form};
 use crate::scales::ByRule;
+use crate::series::series_of;
 use crate::symmetric::Symmetry;
 
 /// A pendulum tree of any shape, as a description in text states it, in numbers `T`.
@@ -70,6 +72,7 @@ pub struct PendulumTree<T = f64> {
     pub(crate) properties: PropertyTable<GeneralEquations, T>,
     pub(crate) drive: Option<Courses<T>>,
     pub(crate) rule: Option<ByRule<T>>,
+    pub(crate) series: SeriesTree<T>,
     #[cfg(feature = "strips")]
     pub(crate) held: Option<HeldLinks<T>>,
 }
@@ -149,6 +152,7 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(links, drive.is_some());
         let rows = in_numbers(&form.rows(links, &carries));
         let rule = ByRule::of(links, &carries, gravity);
+        let series = series_of(links, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
@@ -185,6 +189,7 @@ impl<T: Scalar> PendulumTree<T> {
                 constant(numbers::value(quantity, &parameters))
             }),
             rule,
+            series,
             #[cfg(feature = "strips")]
             held,
         }
@@ -230,6 +235,7 @@ impl<T: Scalar> PendulumTree<T> {
             properties: self.properties.cast(&convert),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
             rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
+            series: self.series.cast(&convert),
             #[cfg(feature = "strips")]
             held: self.held.as_ref().map(|held| held.cast(&convert)),
         }
@@ -267,7 +273,7 @@ impl<T: Scalar> PendulumTree<T> {
 }
 
 /// A constant in the numbers of a tree.
-fn constant<T: Scalar>(value: Double) -> T {
+pub(crate) fn constant<T: Scalar>(value: Double) -> T {
     T::from_parts(value.high(), value.low())
 }
 

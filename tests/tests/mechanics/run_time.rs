@@ -4,6 +4,7 @@
 mod driven_tree;
 mod growth;
 mod observables;
+mod series;
 mod transfer;
 
 use std::collections::BTreeSet;

@@ -19,7 +19,8 @@ struct Expansion<T> {
 }
 
 impl<T: Scalar> Expansion<T> {
-    fn new<P: TaylorPendulum<T>>(
+    fn new(
+        model: &impl TaylorPendulum<T>,
         order: u32,
         expand: impl FnOnce(&mut [[[T; 3]; 2]], &mut [Quad<T>]),
     ) -> Self {
@@ -27,7 +28,7 @@ impl<T: Scalar> Expansion<T> {
         let mut coefficients = vec![[[zero; 3]; 2]; order + 1];
         // Numbers that stand in the workspace before do not count.
         let nan = T::from_f64(f64::NAN);
-        let mut work = vec![Quad([nan; 4]); P::taylor_workspace(order)];
+        let mut work = vec![Quad([nan; 4]); model.taylor_workspace(order)];
         expand(&mut coefficients, &mut work);
         Self { coefficients }
     }
@@ -136,7 +137,7 @@ fn polynomials_of_the_free_tree_solve_its_equation() {
     solves_the_equation(
         1.0,
         |order, theta, omega| {
-            Expansion::new::<FreeSeries<Double>>(order, |coefficients, work| {
+            Expansion::new(&model, order, |coefficients, work| {
                 model.taylor_coefficients(theta, omega, coefficients, work);
             })
         },
@@ -183,7 +184,7 @@ fn polynomials_of_the_driven_tree_solve_its_equation() {
     solves_the_equation(
         2.5,
         |order, theta, omega| {
-            Expansion::new::<DrivenSeries<Double>>(order, |coefficients, work| {
+            Expansion::new(&model, order, |coefficients, work| {
                 let time = Double::from_f64(start);
                 model.taylor_coefficients(time, theta, omega, coefficients, work);
             })
@@ -202,7 +203,7 @@ fn low_orders_are_the_accelerations() {
         let (theta, omega): ([f64; 3], [f64; 3]) =
             (random.array(-3.0, 3.0), random.array(-9.0, 9.0));
         let mut coefficients = [[[0.0; 3]; 2]; 4];
-        let mut work = vec![Quad([0.0; 4]); Series::<f64>::taylor_workspace(3)];
+        let mut work = vec![Quad([0.0; 4]); model.taylor_workspace(3)];
         model.taylor_coefficients(&theta, &omega, &mut coefficients, &mut work);
         let alpha = model.accelerations(&theta, &omega);
         assert_eq!(coefficients[0], [theta, omega]);

@@ -52,7 +52,7 @@ impl<P: TaylorPendulum<T>, T: Lane> LaneMethod<AbsoluteAngles<P>, T> for Taylor<
             start_residue: vec![zero; n],
             end_residue: vec![zero; n],
             coefficients: vec![zero; (order + 1) * n],
-            work: vec![Quad([zero; 4]); P::taylor_workspace(order)],
+            work: vec![Quad([zero; 4]); system.0.taylor_workspace(order)],
             step: zero,
             finite: [T::ZERO; WIDEST],
         }

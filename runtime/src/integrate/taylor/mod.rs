@@ -16,7 +16,8 @@ use crate::system::{State, TaylorOde};
 /// solution about its start. For all tolerances, down to rounding.
 ///
 /// Works on systems that give their Taylor coefficients, [`TaylorOde`]: models
-/// whose description says `emit(taylor)`, in [`AbsoluteAngles`].
+/// whose description says `emit(taylor)` and trees that are read at run time, in
+/// [`AbsoluteAngles`].
 ///
 /// *Order*: p = ⌈8 − 0.65 ln ε⌉ for the smallest tolerance ε, unless
 /// [`with_order`](Self::with_order) sets one. The step is ρ ε^(1/p) at a radius

@@ -6,5 +6,6 @@ mod magnitudes;
 mod mechanics;
 mod prescribed;
 mod scales;
+mod series;
 mod text;
 mod transfer;

@@ -111,7 +111,7 @@ impl<T: Scalar> Pendulum<T> for Lopsided<T> {
 }
 
 impl<T: Scalar> TaylorPendulum<T> for Lopsided<T> {
-    fn taylor_workspace(order: usize) -> usize {
+    fn taylor_workspace(&self, order: usize) -> usize {
         taylor::workspace(2, order)
     }
 
