@@ -31,7 +31,10 @@ impl fmt::Display for Program {
             }
         }
         if let Some(strips) = &self.strips {
-            let tables = [("strips", &strips.columns), ("bodies", &strips.body_columns)];
+            let tables = [
+                ("strips", &strips.columns),
+                ("bodies", &strips.body_columns),
+            ];
             for (number, (table, columns)) in tables.into_iter().enumerate() {
                 if number > 0 && columns.is_empty() {
                     continue;
