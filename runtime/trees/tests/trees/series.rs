@@ -42,8 +42,9 @@ const TREES: [&str; 9] = [
      a: rod(mass = 0.4, length = 0.5, friction = 1e-3) [
          b: rod(mass = 0.2, length = 0.35, spring = 0.1) [c: rod(mass = 0.1, length = 0.2) * 3] * 2
      ]",
-    "gravity = 9.81, each(friction = 1e-4),
-     generations(4, branching = 2, mass = 0.4, com = 0.2, inertia = 1e-3, joint = 0.3, ratio = 0.7)",
+    "gravity = 9.81,
+     arm: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+         mass_ratio = 0.5, length_ratio = 0.7, friction = 1e-3)",
 ];
 
 fn trees() -> impl Iterator<Item = PendulumTree> {
