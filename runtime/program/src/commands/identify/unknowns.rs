@@ -286,3 +286,102 @@ impl Family for TreeFamily {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use branched_pendulum::prelude::AbsoluteAngles;
+    use branched_pendulum::scalar::Dual;
+    use branched_pendulum::system::Ode;
+    use branched_pendulum_measure::identification::Family;
+
+    use super::super::arguments::{Arguments, Law};
+    use super::{Knowledge, Unknowns};
+    use crate::frame::command_line::parse_line;
+
+    fn unknowns(line: &str) -> Unknowns {
+        let arguments: Arguments = parse_line(line).unwrap();
+        Unknowns::new(&arguments).unwrap()
+    }
+
+    /// The equations of a family are those of its trees, and their derivatives with respect to a
+    /// parameter those by differences.
+    #[test]
+    fn a_family_is_its_trees() {
+        for tree in ["paper", "apparatus", "double-pendulum", "chain", "cascade"] {
+            let unknowns = unknowns(&format!("--tree {tree}"));
+            let family = unknowns.family();
+            let values = unknowns.simulated();
+            let count = 2 * family.links().len();
+            let state: Vec<f64> = (0..count).map(|i| (1.7 * i as f64).sin()).collect();
+            let rates = |values: &[f64]| {
+                let tree = unknowns.subject(values).unwrap().tree;
+                let mut rates = vec![0.0; count];
+                AbsoluteAngles(&tree).rates(0.0, &state, &mut rates);
+                rates
+            };
+            let (expected, mut found) = (rates(&values), vec![0.0; count]);
+            family.equations(&values).rates(0.0, &state, &mut found);
+            let size = expected
+                .iter()
+                .fold(1.0, |size: f64, rate| size.max(rate.abs()));
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-12 * size, "{tree}");
+            }
+            for place in 0..values.len() {
+                let step = 1e-5 * values[place].max(1e-4);
+                let beside = |side: f64| {
+                    let mut values = values.clone();
+                    values[place] += side * step;
+                    rates(&values)
+                };
+                let (above, below) = (beside(1.0), beside(-1.0));
+                let lifted = values
+                    .iter()
+                    .enumerate()
+                    .map(|(own, value)| match own == place {
+                        true => Dual::<f64, 1>::variable(*value, 0),
+                        false => Dual::constant(*value),
+                    });
+                let lifted: Vec<_> = lifted.collect();
+                let given: Vec<_> = state.iter().copied().map(Dual::constant).collect();
+                let mut found = given.clone();
+                family
+                    .equations(&lifted)
+                    .rates(Dual::constant(0.0), &given, &mut found);
+                for (found, (above, below)) in found.iter().zip(above.iter().zip(&below)) {
+                    let [slope] = found.tangents;
+                    let by_differences = (above - below) / (2.0 * step);
+                    let error = (slope - by_differences).abs();
+                    let near = 1e-6 * (slope.abs() + size / values[place].max(1e-4));
+                    assert!(error < near, "{tree} {place}: {slope} {by_differences}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn parameters_are_known_by_their_uses() {
+        let all = unknowns("--tree double-pendulum --set mass_1=0.2");
+        let known = |name: &str| all.parameter(name).unwrap().knowledge;
+        assert_eq!(known("mass_1"), Knowledge::Known(0.2));
+        assert_eq!(known("gravity"), Knowledge::Known(9.80858023));
+        assert_eq!(known("com_2"), Knowledge::Guess(0.116779018));
+        assert_eq!(known("coulomb_1"), Knowledge::Size(1e-4));
+        assert_eq!(known("quadratic_2"), Knowledge::Size(1e-5));
+        let law = |name: &str| all.parameter(name).unwrap().law();
+        assert_eq!(law("viscous_1"), Law::Viscous);
+        assert_eq!(law("coulomb_1"), Law::Coulomb);
+        assert_eq!(law("quadratic_1"), Law::All);
+        let is_measurable = |name: &str| all.parameter(name).unwrap().is_measurable();
+        assert!(is_measurable("joint_1") && is_measurable("mass_2") && is_measurable("com_1"));
+        assert!(!is_measurable("inertia_1") && !is_measurable("viscous_1"));
+        let every = [Law::Viscous, Law::Coulomb, Law::All];
+        assert_eq!(all.laws(&every), every);
+        let one = unknowns("--tree double-pendulum --unknown com_1=0.1,coulomb_1");
+        assert_eq!(one.laws(&every), [Law::Viscous, Law::Coulomb]);
+        let names = one.parameters.iter();
+        let found = names.filter(|own| !matches!(own.knowledge, Knowledge::Known(_)));
+        let found: Vec<&str> = found.map(|own| own.name.as_str()).collect();
+        assert_eq!(found, ["com_1", "coulomb_1"]);
+    }
+}
