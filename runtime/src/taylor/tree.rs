@@ -10,7 +10,8 @@ use super::orders::{Constants, Origin};
 use super::room::RoomsOfFew;
 use super::torques::{RoughFriction, TreeTorques, law_room};
 use crate::scalar::Scalar;
-use crate::simd::Quad;
+use crate::scalar::kind::ByKind;
+use crate::simd::{Quad, Simd};
 
 /// A link of a tree as the recurrences of Taylor coefficients take it, in any units of mass
 /// and length that go together.
@@ -241,12 +242,64 @@ impl<T: Scalar> SeriesTree<T> {
             coefficients,
             count,
         };
-        // Few links lie in registers.
-        match links {
-            1..=4 => expansion.run(RoomsOfFew::<4, 1> { links }, work, torques),
-            5..=8 => expansion.run(RoomsOfFew::<8, 2> { links }, work, torques),
-            _ => expansion.run(LentRooms { free, links }, work, torques),
+        T::by_kind(InRooms {
+            expansion,
+            free,
+            work,
+            torques,
+        });
+    }
+}
+
+/// Runs an expansion in the room that serves its numbers.
+struct InRooms<'a, 'w, T> {
+    expansion: Expansion<'w, T, &'a Hanging, &'w [Quad<T>]>,
+    free: &'w mut [Quad<T>],
+    work: &'w mut [Quad<T>],
+    torques: TreeTorques<'w, T>,
+}
+
+impl<T: Scalar> ByKind<T> for InRooms<'_, '_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn of_any(self) {
+        let links = self.expansion.links.count();
+        // Few plain numbers lie in registers. Others are too many for these, and compiling room
+        // for few of them apart would take twice the time.
+        if const { size_of::<T>() <= size_of::<f64>() } {
+            match links {
+                1..=4 => {
+                    let rooms = RoomsOfFew::<4, 1> { links };
+                    self.expansion.run(rooms, self.work, self.torques);
+                }
+                5..=8 => {
+                    let rooms = RoomsOfFew::<8, 2> { links };
+                    self.expansion.run(rooms, self.work, self.torques);
+                }
+                _ => self.in_lent_room(),
+            }
+        } else {
+            self.in_lent_room();
         }
+    }
+
+    #[inline(always)]
+    fn of_wide<W: Scalar>(self)
+    where
+        T: Simd<W>,
+    {
+        self.in_lent_room();
+    }
+}
+
+impl<T: Scalar> InRooms<'_, '_, T> {
+    #[inline(always)]
+    fn in_lent_room(self) {
+        let links = self.expansion.links.count();
+        let free = self.free;
+        let rooms = LentRooms { free, links };
+        self.expansion.run(rooms, self.work, self.torques);
     }
 }
 

@@ -1,7 +1,6 @@
 //! Taylor coefficients of trees that are described at run time, against those of models that
 //! are compiled from the same text.
 
-use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum::taylor::Quad;
 use branched_pendulum_compiler_tests::random::Random;
