@@ -10,7 +10,7 @@ from branched_pendulum import analysis
 import camera
 from test_tree import PAPER
 
-MEASURED = Path(__file__).parents[2] / "tests/identification/double-pendulum.csv"
+MEASURED = Path(__file__).parents[2] / "measure/tests/measure/identification/double-pendulum.csv"
 
 
 @pytest.fixture(scope="module")

@@ -137,6 +137,7 @@ impl<T: Scalar, const N: usize> Div for PowerSeries<T, N> {
     type Output = Self;
 
     // From quotient · divisor = self, order by order.
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn div(self, other: Self) -> Self {
         let (a, b) = (self.coefficients, other.coefficients);

@@ -97,10 +97,10 @@ impl<T: Scalar, L: Links, S: Given<T>, C> Balance<'_, T, L, S, C> {
             pull.put(i, zero);
             lever.put(i, zero);
         }
-        for i in 1..links.count() {
+        for (i, attachment) in attachments.iter().enumerate().take(links.count()).skip(1) {
             let parent = links.parent(i);
             let turning = [Parts::load(u_column, parent), Parts::load(v_column, parent)];
-            let own = plus_turned(parts(fall.at(parent)), attachments[i], turning, lateral);
+            let own = plus_turned(parts(fall.at(parent)), *attachment, turning, lateral);
             fall.put(i, numbers(own));
         }
         for i in (1..links.count()).rev() {

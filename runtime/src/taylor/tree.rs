@@ -120,6 +120,10 @@ impl<T: Scalar> SeriesTree<T> {
             .map(|(link, own)| if own.parent < link { own.parent } else { 0 })
             .collect();
         let mut carries = alloc::vec![false; links.len()];
+        // The root hands nothing on, as one that carries the others.
+        if let Some(root) = carries.first_mut() {
+            *root = true;
+        }
         for &parent in parents.iter().skip(1) {
             carries[parent] = true;
         }

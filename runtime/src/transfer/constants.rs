@@ -97,7 +97,7 @@ pub(super) fn moments(links: &[RigidLink<Double>]) -> Vec<[Double; 2]> {
     for (link, carried) in links.iter().zip(carried(links)) {
         if let Some(parent) = link.parent {
             for axis in [0, 1] {
-                moments[parent][axis] = moments[parent][axis] + carried * link.pivot[axis];
+                moments[parent][axis] += carried * link.pivot[axis];
             }
         }
     }
@@ -129,7 +129,7 @@ impl Constants<Double> {
             if let Some(parent) = link.parent {
                 let [along, across] = link.pivot;
                 let far = along * along + across * across;
-                inertia[parent] = inertia[parent] + carried * far;
+                inertia[parent] += carried * far;
             }
         }
         let (mut coupling, mut lateral) = (Vec::new(), Vec::new());

@@ -323,7 +323,7 @@ fn smooth_motion_has_no_outliers() {
 fn the_measured_double_pendulum() {
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/../tests/identification/double-pendulum.csv"
+        "/../measure/tests/measure/identification/double-pendulum.csv"
     );
     let table = Table::read(path, &TableOptions::default()).unwrap();
     let recording = AngleColumns::default().read(&table).unwrap();

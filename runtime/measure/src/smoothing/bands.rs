@@ -19,7 +19,7 @@ pub struct Bands<const N: usize> {
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::analysis::{KinematicSmoother, bands};
+/// use branched_pendulum_measure::{KinematicSmoother, bands};
 ///
 /// let times: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
 /// let data: Vec<_> = times.iter().map(|t| Some((5.0 * t).sin())).collect();
@@ -43,7 +43,7 @@ pub struct Bands<const N: usize> {
 /// assert_eq!(count, 100);
 /// let exact = (5.0 * (5.0 * times[50]).cos()).powi(2);
 /// assert!((energy.means[50][0] - exact).abs() < 4.0 * energy.deviations[50][0]);
-/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// # Ok::<(), branched_pendulum_measure::SmoothingError>(())
 /// ```
 pub fn bands<const N: usize>(
     draws: usize,

@@ -12,7 +12,7 @@ use super::series::SmoothedMotion;
 /// angles:
 ///
 /// ```
-/// use branched_pendulum::analysis::{KinematicSmoother, SmoothedCoordinates};
+/// use branched_pendulum_measure::{KinematicSmoother, SmoothedCoordinates};
 ///
 /// let times: Vec<f64> = (0..200).map(|i| 0.01 * f64::from(i)).collect();
 /// // Rounded to milliradians.
@@ -27,7 +27,7 @@ use super::series::SmoothedMotion;
 /// let [_, difference, _, rate] = motion.mean(100)[..] else { unreachable!() };
 /// assert!((difference - 0.01 * (8.0 * times[100]).cos()).abs() < 1e-3);
 /// assert!((rate + 0.08 * (8.0 * times[100]).sin()).abs() < 1e-2);
-/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// # Ok::<(), branched_pendulum_measure::SmoothingError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothedCoordinates {

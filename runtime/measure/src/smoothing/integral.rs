@@ -12,7 +12,7 @@ const NODES: usize = 6;
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::analysis::running_integral;
+/// use branched_pendulum_measure::running_integral;
 ///
 /// let times = [0.0, 0.1, 0.25, 0.3, 0.5];
 /// let integral = running_integral(&times, &times.map(|t| 4.0 * t * t * t));

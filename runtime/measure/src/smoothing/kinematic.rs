@@ -18,7 +18,7 @@ use super::series::{Scale, SmoothedMotion};
 /// The velocity of an oscillation, 240 noisy pictures a second:
 ///
 /// ```
-/// use branched_pendulum::analysis::KinematicSmoother;
+/// use branched_pendulum_measure::KinematicSmoother;
 ///
 /// // Noise of 1 mrad, from a generator of your choice.
 /// let mut state = 1_u32;
@@ -40,7 +40,7 @@ use super::series::{Scale, SmoothedMotion};
 /// let [_, deviation, _] = smoothed.deviation(240);
 /// assert!((velocity - 6.0 * (6.0 * times[240]).cos()).abs() < 3.0 * deviation);
 /// assert!(deviation < 0.02);
-/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// # Ok::<(), branched_pendulum_measure::SmoothingError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct KinematicSmoother {

@@ -34,7 +34,7 @@ use branched_pendulum::integrate::Integrator;
 /// A parent with two identical children, and friction in all pivots, equal in the children's:
 ///
 /// ```
-/// use branched_pendulum::analysis::ModelSmoother;
+/// use branched_pendulum_measure::ModelSmoother;
 ///
 /// let smoother = ModelSmoother {
 ///     disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],

@@ -18,7 +18,7 @@ use super::series::{DataWeights, SmoothedMotion};
 /// # Examples
 ///
 /// ```
-/// use branched_pendulum::analysis::LocalPolynomials;
+/// use branched_pendulum_measure::LocalPolynomials;
 ///
 /// let times: Vec<f64> = (0..240).map(|i| f64::from(i) / 120.0).collect();
 /// // Rounded to milliradians: noise of some 0.3 mrad.
@@ -28,7 +28,7 @@ use super::series::{DataWeights, SmoothedMotion};
 /// assert!((smoothed.noise() / 0.29e-3 - 1.0).abs() < 0.2);
 /// let [_, velocity, _] = smoothed.mean(120);
 /// assert!((velocity - 6.0 * 6.0_f64.cos()).abs() < 0.02);
-/// # Ok::<(), branched_pendulum::analysis::SmoothingError>(())
+/// # Ok::<(), branched_pendulum_measure::SmoothingError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalPolynomials {

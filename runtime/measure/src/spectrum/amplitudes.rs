@@ -76,7 +76,7 @@ impl Spectrum {
     /// ```
     /// use std::f64::consts::TAU;
     ///
-    /// use branched_pendulum::analysis::{Spectrum, SpectrumOptions};
+    /// use branched_pendulum_measure::{Spectrum, SpectrumOptions};
     ///
     /// let samples: Vec<f64> =
     ///     (0..400).map(|i| 0.3 * (TAU * 1.25 * 0.02 * f64::from(i)).sin()).collect();
@@ -87,7 +87,7 @@ impl Spectrum {
     ///     SpectrumOptions::default(),
     /// )?;
     /// assert!((spectrum.amplitudes[1] - 0.3).abs() < 1e-12);
-    /// # Ok::<(), branched_pendulum::analysis::SpectrumError>(())
+    /// # Ok::<(), branched_pendulum_measure::SpectrumError>(())
     /// ```
     pub fn at_frequencies(
         samples: &[f64],

@@ -18,7 +18,7 @@ impl CombinationTone {
     /// # Examples
     ///
     /// ```
-    /// use branched_pendulum::analysis::CombinationTone;
+    /// use branched_pendulum_measure::CombinationTone;
     ///
     /// let fundamentals = [0.8731, 1.5826];
     /// let line = CombinationTone::find(2.0 * 0.8731 - 1.5826, &fundamentals, 5, 1e-6).unwrap();

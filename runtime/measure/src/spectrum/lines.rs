@@ -28,7 +28,7 @@ use super::window::Window;
 /// ```
 /// use std::f64::consts::TAU;
 ///
-/// use branched_pendulum::analysis::LineSearch;
+/// use branched_pendulum_measure::LineSearch;
 ///
 /// let wave = |f: f64, t: f64| (TAU * f * t).cos();
 /// let samples: Vec<f64> = (0..2000)
@@ -41,7 +41,7 @@ use super::window::Window;
 /// assert!((found.lines[1].frequency_hz - 1.5826).abs() < 1e-9);
 /// assert!((found.lines[1].amplitude - 0.2).abs() < 1e-9);
 /// assert!((found.mean - 1.0).abs() < 1e-9);
-/// # Ok::<(), branched_pendulum::analysis::SpectrumError>(())
+/// # Ok::<(), branched_pendulum_measure::SpectrumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSearch {

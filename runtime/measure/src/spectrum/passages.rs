@@ -32,7 +32,7 @@ impl Passages {
     /// # Examples
     ///
     /// ```
-    /// use branched_pendulum::analysis::{LineSearch, Passages};
+    /// use branched_pendulum_measure::{LineSearch, Passages};
     ///
     /// // A frequency that falls by 0.01 Hz a second.
     /// let phase = |t: f64| std::f64::consts::TAU * (2.0 * t - 0.005 * t * t);
@@ -42,7 +42,7 @@ impl Passages {
     /// assert_eq!(found.len(), 3);
     /// let middle = &found[1];
     /// assert!((middle.found.lines[0].frequency_hz - (2.0 - 0.01 * middle.middle)).abs() < 1e-3);
-    /// # Ok::<(), branched_pendulum::analysis::SpectrumError>(())
+    /// # Ok::<(), branched_pendulum_measure::SpectrumError>(())
     /// ```
     pub fn each<T>(
         &self,

@@ -40,7 +40,7 @@ fn mistakes_are_named_with_their_place() {
     let text = refusal(&["describe", "--tree", &chain, "--set", "g=9.8"], 1);
     assert!(text.contains("no value for `l`"), "{text}");
     let text = refusal(&["describe", "--tree", &chain, "--set", "g=9.8,l=-1"], 1);
-    assert!(text.contains("must be positive"), "{text}");
+    assert!(text.contains("must be finite and positive"), "{text}");
     for (words, code, told) in [
         (
             &["describe", "--tree", "nowhere.txt"][..],
