@@ -20,8 +20,8 @@ pub(crate) fn series_of<T: Scalar>(
     let (zero, one) = (Double::from_f64(0.0), Double::from_f64(1.0));
     let carried = carried(links);
     let unit = carried.last().map_or(one, |last| one / last.inertia);
-    let hung = links.iter().rev().take(1).flat_map(|last| last.pivot);
-    let length = hung.filter(|place| place.high() != 0.0).next();
+    let mut hung = links.last().into_iter().flat_map(|last| last.pivot);
+    let length = hung.find(|place| place.high() != 0.0);
     let length = length.filter(|_| links.len() > 1).unwrap_or(one);
     let above = if is_driven { one } else { gravity };
     let constants = links.iter().zip(&carried).enumerate();

@@ -107,6 +107,9 @@ fn differences(samples: &Samples, sectors: &[SectorSeries]) -> String {
     text
 }
 
+/// A number at a time, angles and angular velocities.
+type AtState<'a> = dyn Fn(f64, &[f64], &[f64]) -> f64 + 'a;
+
 /// Energies and powers at every sample.
 struct Energies {
     kinetic: Vec<f64>,
@@ -118,7 +121,7 @@ struct Energies {
 impl Energies {
     fn of(subject: &Subject, samples: &Samples) -> Self {
         let tree = &subject.tree;
-        let each = |of: &dyn Fn(f64, &[f64], &[f64]) -> f64| -> Vec<f64> {
+        let each = |of: &AtState<'_>| -> Vec<f64> {
             let both = samples.times.iter().zip(&samples.states);
             both.map(|(time, state)| {
                 let (theta, omega) = state.split_at(tree.links());

@@ -80,7 +80,7 @@ fn growth_agrees_with_the_transverse_equations() {
             child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
         ]";
     let releases = [0.3, 0.6, 0.9, 1.2].map(|angle| [vec![angle, 0.0], vec![angle, 0.0, 0.0]]);
-    let [worst, largest] = differences(&Paper::new(), paper, &releases);
+    let [worst, largest] = differences(Paper::new(), paper, &releases);
     assert!(worst < 1e-9 && largest > 2.0, "{worst:e} {largest}");
 
     let arms = "gravity = 9.80665,
@@ -94,7 +94,7 @@ fn growth_agrees_with_the_transverse_equations() {
         let whole = vec![angle, arm, hand, arm, hand, arm, hand];
         [vec![angle, arm, hand], whole]
     });
-    let [worst, largest] = differences(&Arms::new(), arms, &releases);
+    let [worst, largest] = differences(Arms::new(), arms, &releases);
     assert!(worst < 1e-9 && largest > 1.0, "{worst:e} {largest}");
 }
 
