@@ -195,7 +195,7 @@ fn growth_and_forcing_are_the_transfer() {
             (forcing[sector], exact_forcing[sector]),
         ] {
             let error = (own.total() - exact.total().high()).abs();
-            assert!(error < 1e-12 * size, "{sector}");
+            assert!(error < 1e-13 * size, "{sector}: {error:e}");
         }
     }
 }
