@@ -125,7 +125,14 @@ fn polynomials_are_the_motion() {
             let right: Vec<f64> = end.values.iter().map(|value| value.high()).collect();
             let own = polynomial(&coefficients, components, ORDER, tau);
             let error = largest(&own, &right);
-            assert!(error < 1e-13, "tree {index}, state {seed}: {error:e}");
+            // Light links turn at tens of radians a second.
+            let whole = right
+                .iter()
+                .fold(1.0_f64, |whole, own| whole.max(own.abs()));
+            assert!(
+                error < 1e-13 * whole,
+                "tree {index}, state {seed}: {error:e}"
+            );
         }
     }
 }
