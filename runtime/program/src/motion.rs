@@ -1,6 +1,6 @@
 //! The motion of a tree, integrated and sampled.
 
-use branched_pendulum::integrate::Report;
+use branched_pendulum::integrate::{AnyIntegrator, Report};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::RatesOnly;
 
@@ -14,10 +14,22 @@ pub struct MethodArguments {
     /// method: dop853, dopri5, verner98, rk4, gauss2, gauss4, gauss6, gauss8 or animation
     #[arg(long, value_name = "METHOD", default_value = "dop853")]
     pub method: Method,
-    /// relative error of one step, 1e-16 to 1e-2; of methods with steps of one length, the
-    /// step in s
-    #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-10", value_parser = number(1e-16..=1e-2, ""))]
-    pub tolerance: f64,
+    /// relative error of one step, 1e-16 to 1e-2, 1e-10 unless it is given; of methods with steps
+    /// of one length the step in s, 1e-3 unless it is given
+    #[arg(verbatim_doc_comment, long, value_name = "TOL", value_parser = number(1e-16..=1e-2, ""))]
+    pub tolerance: Option<f64>,
+}
+
+impl MethodArguments {
+    /// Returns the method with its tolerance or step.
+    pub fn integrator(&self) -> AnyIntegrator<f64> {
+        let usual = if self.method.is_adaptive() {
+            1e-10
+        } else {
+            1e-3
+        };
+        self.method.with(self.tolerance.unwrap_or(usual))
+    }
 }
 
 /// Times, and the state at each of them.
@@ -41,7 +53,7 @@ pub fn sample(
     start: &State<f64>,
     times: Vec<f64>,
 ) -> Result<Samples, Failure> {
-    let method = arguments.method.with(arguments.tolerance);
+    let method = arguments.integrator();
     let system = AbsoluteAngles(&subject.tree);
     let mut states = Vec::with_capacity(times.len());
     let visit = |_: f64, state: &[f64]| states.push(state.to_vec());

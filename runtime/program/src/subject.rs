@@ -7,7 +7,10 @@ use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::Model;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
+use serde_json::{Map, Value};
+
 use crate::Failure;
+use crate::frame::Job;
 use crate::frame::command_line::parts;
 
 /// Options that name a tree.
@@ -175,6 +178,15 @@ impl TreeArguments {
             name: self.tree.clone(),
             source: error.into(),
         })?;
+        let set = self.set.concat();
+        let is_again = |(place, (name, _)): &(usize, &(String, f64))| {
+            set.iter().take(*place).any(|(other, _)| other == name)
+        };
+        if let Some((_, (name, _))) = set.iter().enumerate().find(is_again) {
+            return Err(Failure::Lacking {
+                what: format!("`--set` gives `{name}` twice: name it once"),
+            });
+        }
         let name = match std::path::Path::new(&self.tree).file_name() {
             Some(name) => name.to_string_lossy().into_owned(),
             None => self.tree.clone(),
@@ -183,7 +195,7 @@ impl TreeArguments {
             name,
             text,
             description,
-            set: self.set.concat(),
+            set,
             defaults,
         })
     }
@@ -231,6 +243,15 @@ impl Described {
 }
 
 impl Subject {
+    /// Puts the description and the values of its parameters into the record of a run.
+    pub fn record(&self, job: &Job) {
+        let description = self.tree.description();
+        let value = |name: &str| (name.to_owned(), self.tree.value(name).into());
+        let values: Map<String, Value> = description.parameters().map(value).collect();
+        job.report("description", self.text.as_str());
+        job.report("parameters", values);
+    }
+
     /// Returns the tree with another value of a parameter.
     ///
     /// # Errors

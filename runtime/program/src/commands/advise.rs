@@ -124,6 +124,7 @@ const DEVIATION: f64 = 0.01;
 /// [`Failure`]; [`Failure::Tree`] for the transfer of a tree without copies.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let tree = &subject.tree;
     let start = arguments.release.state(&subject)?;
     let wants_transfer = arguments
@@ -148,8 +149,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         advisor = advisor.start(start);
     }
     let driven = tree.drive(0.0).is_some();
-    let still = vec![1.0; tree.links()];
-    if !driven && tree.friction_power(&still) == 0.0 {
+    // Rates of which no two are equal: friction in every pivot takes power from them.
+    let rates: Vec<f64> = (1..=tree.links()).map(|link| link as f64).collect();
+    if !driven && tree.friction_power(&rates) == 0.0 {
         advisor = advisor.conserved(Wanted::energy(tree, DRIFT));
     }
     for &(output, tolerance) in &arguments.right {

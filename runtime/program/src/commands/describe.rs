@@ -6,12 +6,13 @@ use branched_pendulum::Positions;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Model;
 use branched_pendulum_charts::Film;
+use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
 
 use crate::Failure;
 use crate::film;
 use crate::frame::Job;
-use crate::subject::TreeArguments;
+use crate::subject::{Subject, TreeArguments};
 
 /// What does a description say? Lists links with their masses and places, parameters with
 /// their values, and where the tree rests; draws it at rest where a folder is given.
@@ -32,43 +33,59 @@ impl crate::frame::Arguments for Arguments {
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let tree = &subject.tree;
-    let names = tree.names();
-    let side = if tree.stands() {
-        "stands: angles are from the upward vertical"
-    } else {
-        "hangs: angles are from the downward vertical"
+    let rest = tree.equilibrium(&vec![0.0; tree.links()]);
+    let mut text = links(&subject);
+    text.push_str(&parameters(tree));
+    // Writing to a string cannot fail.
+    let _ = match &rest {
+        Ok(angles) if angles.iter().any(|angle| angle.abs() > 1e-12) => {
+            let places = tree.names().iter().zip(angles);
+            let places = places.map(|(name, angle)| format!("{name} {:.2}°", angle.to_degrees()));
+            writeln!(text, "\nrests at {}", places.collect::<Vec<_>>().join(", "))
+        }
+        Ok(_) => writeln!(text, "\nrests with all angles zero"),
+        Err(error) => writeln!(text, "\nno place of rest was found: {error}"),
     };
-    let mut text = format!(
-        "{}: {} links; the tree {side}\n\n",
-        subject.name,
-        tree.links()
-    );
-    let width = names
-        .iter()
-        .map(|name| name.chars().count())
-        .max()
-        .unwrap_or(0)
-        .max(4);
+    job.print(&text)?;
+    let mut rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
+    fan(&subject.parents(), &mut rest);
+    let angles = film::angles(tree, &rest);
+    let picture = Film::new(subject.name.clone(), 1.0).tree("", &film::links(tree), &[angles])?;
+    job.film("tree", &picture)
+}
+
+/// The links, a line each.
+fn links(subject: &Subject) -> String {
+    let tree = &subject.tree;
+    let side = match tree.stands() {
+        true => "stands: angles are from the upward vertical",
+        false => "hangs: angles are from the downward vertical",
+    };
+    let (name, count) = (&subject.name, tree.links());
+    let mut text = format!("{name}: {count} links; the tree {side}\n\n");
+    let names = tree.names();
+    let longest = names.iter().map(|name| name.chars().count()).max();
+    let width = longest.unwrap_or(0).max(4);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "{:width$}  {:width$}  mass (kg)  centre (m)         inertia (kg m²)  pivot on parent (m)",
         "link", "on"
     );
-    for link in 0..tree.links() {
+    let pair = |[along, across]: [f64; 2]| match across == 0.0 {
+        true => format!("{along:.5}"),
+        false => format!("{along:.5}, {across:.5}"),
+    };
+    for (link, name) in names.iter().enumerate() {
         let Some(own) = tree.properties_of(link) else {
             continue;
         };
         let parent = own.parent.and_then(|parent| names.get(parent));
-        let pair = |[along, across]: [f64; 2]| match across == 0.0 {
-            true => format!("{along:.5}"),
-            false => format!("{along:.5}, {across:.5}"),
-        };
         let _ = writeln!(
             text,
-            "{:width$}  {:width$}  {:<9.5}  {:17}  {:<15.4e}  {}",
-            names[link],
+            "{name:width$}  {:width$}  {:<9.5}  {:17}  {:<15.4e}  {}",
             parent.map_or("", String::as_str),
             own.mass,
             pair(own.centre),
@@ -76,41 +93,27 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             pair(own.pivot),
         );
     }
+    text
+}
+
+/// Parameters with their values, and sectors where there are copies.
+fn parameters(tree: &PendulumTree) -> String {
+    let mut text = String::new();
     let description = tree.description();
-    let parameters: Vec<&str> = description.parameters().collect();
-    if !parameters.is_empty() {
-        text.push_str("\nparameters\n");
-        for name in parameters {
-            let value = tree.value(name).unwrap_or(f64::NAN);
-            let own = description.parameter_use(name).unwrap_or_default();
-            let _ = writeln!(text, "  {name} = {value}: {own}");
+    for (place, name) in description.parameters().enumerate() {
+        if place == 0 {
+            text.push_str("\nparameters\n");
         }
+        let value = tree.value(name).unwrap_or(f64::NAN);
+        let own = description.parameter_use(name).unwrap_or_default();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {name} = {value}: {own}");
     }
     let sectors: Vec<&str> = tree.sectors().iter().map(|sector| sector.name()).collect();
     if sectors.len() > 1 {
         let _ = writeln!(text, "\nsectors: {}", sectors.join(", "));
     }
-    let rest = tree.equilibrium(&vec![0.0; tree.links()]);
-    match &rest {
-        Ok(angles) if angles.iter().any(|angle| angle.abs() > 1e-12) => {
-            let angles: Vec<String> = names
-                .iter()
-                .zip(angles)
-                .map(|(name, angle)| format!("{name} {:.2}°", angle.to_degrees()))
-                .collect();
-            let _ = writeln!(text, "\nrests at {}", angles.join(", "));
-        }
-        Ok(_) => text.push_str("\nrests with all angles zero\n"),
-        Err(error) => {
-            let _ = writeln!(text, "\nno place of rest was found: {error}");
-        }
-    }
-    job.print(&text)?;
-    let mut rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
-    fan(&subject.parents(), &mut rest);
-    let angles = film::angles(tree, &rest);
-    let picture = Film::new(subject.name.clone(), 1.0).tree("", &film::links(tree), &[angles])?;
-    job.film("tree", &picture)
+    text
 }
 
 /// Angle between siblings that the picture draws apart, rad.

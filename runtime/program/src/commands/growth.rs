@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Checked, Grown, Growth, GrowthError};
+use branched_pendulum::analysis::growth::{BetweenCopies, Checked, Grown, Growth};
 use branched_pendulum::analysis::variational::{Copies, linearised};
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series};
@@ -76,6 +76,20 @@ impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("growth-output");
 }
 
+impl Arguments {
+    /// Returns the trees that are scanned, with their labels.
+    fn trees(&self, subject: &Subject) -> Result<Vec<(String, PendulumTree)>, Failure> {
+        let Some(Varied { name, values }) = &self.vary else {
+            return Ok(vec![(subject.name.clone(), subject.tree.clone())]);
+        };
+        let varied = values.iter().map(|value| {
+            let label = format!("{name} = {value}");
+            Ok((label, subject.with(name, *value)?))
+        });
+        varied.collect()
+    }
+}
+
 /// A parameter with the values that it takes one after the other.
 #[derive(Clone, Debug, PartialEq)]
 struct Varied {
@@ -147,16 +161,10 @@ impl PairArguments {
 
 /// Growth of a difference between copies beside the motions in phase of one tree.
 pub(super) struct Differences {
-    system: BetweenCopies<TreeTangents>,
+    tree: PendulumTree,
     copies: Copies,
     growth: Growth,
 }
-
-type TreeTangents = branched_pendulum::analysis::variational::ByTangents<
-    AbsoluteAngles<PendulumTree>,
-    branched_pendulum::scalar::Dual<f64, 1>,
-    AbsoluteAngles<PendulumTree<branched_pendulum::scalar::Dual<f64, 1>>>,
->;
 
 impl Differences {
     /// Returns the differences between `copies` of a tree.
@@ -170,33 +178,40 @@ impl Differences {
         horizons: Vec<f64>,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let system = BetweenCopies::new(linearised(AbsoluteAngles(tree.clone())), copies.clone());
+        let system = BetweenCopies::new(linearised(AbsoluteAngles(tree)), copies.clone());
         let frequency_hz = system.frequency_at_rest().ok_or_else(|| Failure::Lacking {
-            what:
-                "a small difference of the copies does not oscillate about the tree at rest with \
-                   all angles zero: there is no frequency to look at its growth by"
-                    .to_owned(),
+            what: "a small difference of the copies does not oscillate about the tree at rest \
+                       with all angles zero: there is no frequency to look at its growth by"
+                .to_owned(),
         })?;
+        let growth = Growth {
+            frequency_hz,
+            horizons,
+            tolerance,
+        };
         Ok(Self {
-            growth: Growth {
-                frequency_hz,
-                horizons,
-                tolerance,
-            },
+            tree: tree.clone(),
             copies: copies.clone(),
-            system,
+            growth,
         })
     }
 
     /// Returns the growth along the motion from a start.
     ///
     /// # Errors
-    /// [`GrowthError`]; [`GrowthError::Difference`] too where the copies do not start alike.
-    pub(super) fn along(&self, start: &State<f64>) -> Result<Grown, GrowthError> {
-        if !self.copies.are_in_phase(&self.system, start) {
-            return Err(GrowthError::Difference);
+    /// [`Failure::Growth`]; [`Failure::Lacking`] where the copies do not start alike.
+    pub(super) fn along(&self, start: &State<f64>) -> Result<Grown, Failure> {
+        // Memory of derivatives is of one thread: each start has its own.
+        let tangents = linearised(AbsoluteAngles(&self.tree));
+        let system = BetweenCopies::new(tangents, self.copies.clone());
+        if !self.copies.are_in_phase(&system, start) {
+            return Err(Failure::Lacking {
+                what: "the copies do not start alike: give them one angle and one rate by their \
+                       common name, as in `--start child=10`"
+                    .to_owned(),
+            });
         }
-        self.growth.between_copies(&self.system, start)
+        Ok(self.growth.between_copies(&system, start)?)
     }
 
     pub(super) fn frequency_hz(&self) -> f64 {
@@ -207,6 +222,8 @@ impl Differences {
 /// One scan over the angles.
 struct Scan {
     label: String,
+    /// Frequency of a small difference at rest, Hz.
+    frequency_hz: f64,
     angles_deg: Vec<f64>,
     grown: Vec<Grown>,
 }
@@ -217,28 +234,23 @@ struct Scan {
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let copies = arguments.pair.copies(&subject)?;
     let start = arguments.release.state(&subject)?;
     let scanned = match &arguments.link {
         Some(name) => subject.links_named(name)?,
         None => vec![0],
     };
-    let trees: Vec<(String, PendulumTree)> = match &arguments.vary {
-        None => vec![(subject.name.clone(), subject.tree.clone())],
-        Some(Varied { name, values }) => values
-            .iter()
-            .map(|value| Ok((format!("{name} = {value}"), subject.with(name, *value)?)))
-            .collect::<Result<_, Failure>>()?,
-    };
+    let trees = arguments.trees(&subject)?;
     let progress = job.progress(trees.len());
     let mut scans = Vec::new();
-    let mut frequencies = Vec::new();
     for (label, tree) in trees {
         if job.is_interrupted() {
             break;
         }
         progress.begin(&label);
-        let horizons = arguments.horizons.clone();
+        let (horizons, tolerance) = (arguments.horizons.clone(), arguments.tolerance);
+        let differences = Differences::new(&tree, &copies, horizons, tolerance)?;
         let starts = arguments.angles_deg.iter().map(|degrees| {
             let mut start = start.clone();
             for link in &scanned {
@@ -247,16 +259,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             start
         });
         let starts: Vec<State<f64>> = starts.collect();
-        frequencies.push(
-            Differences::new(&tree, &copies, horizons.clone(), arguments.tolerance)?.frequency_hz(),
-        );
-        // Memory of derivatives is of one thread: each looks with its own.
-        let grown = Ensemble::new().map(&starts, |_, start| {
-            let own = Differences::new(&tree, &copies, horizons.clone(), arguments.tolerance)?;
-            Ok::<Grown, Failure>(own.along(start)?)
-        });
+        let grown = Ensemble::new().map(&starts, |_, start| differences.along(start));
         scans.push(Scan {
             label,
+            frequency_hz: differences.frequency_hz(),
             angles_deg: arguments.angles_deg.clone(),
             grown: grown.into_iter().collect::<Result<_, _>>()?,
         });
@@ -267,7 +273,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         return Ok(());
     }
     let link = &subject.tree.names()[scanned[0]];
-    job.print(&report(arguments, &subject, link, &scans, &frequencies))?;
+    job.print(&report(arguments, &subject, link, &scans))?;
     write(job, arguments, &scans)?;
     let open = |scan: &Scan| {
         let is_open = |grown: &&Grown| !grown.factors.iter().all(Checked::is_determined);
@@ -283,25 +289,19 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 /// Most windows that a line tells; the table has all of them.
 const MOST_WINDOWS: usize = 12;
 
-fn report(
-    arguments: &Arguments,
-    subject: &Subject,
-    link: &str,
-    scans: &[Scan],
-    frequencies: &[f64],
-) -> String {
+fn report(arguments: &Arguments, subject: &Subject, link: &str, scans: &[Scan]) -> String {
     let mut text = format!(
         "{}: growth G(T) of a small difference between copies, released from rest at {} angles\n\
          of {link}; between them nothing was looked at\n",
         subject.name,
         arguments.angles_deg.len()
     );
-    for (scan, frequency) in scans.iter().zip(frequencies) {
+    for scan in scans {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "\n{} (a small difference at rest: {frequency:.4} Hz)",
-            scan.label
+            "\n{} (a small difference at rest: {:.4} Hz)",
+            scan.label, scan.frequency_hz
         );
         let angles = &scan.angles_deg;
         let told = |found: Vec<[usize; 2]>| match found.len().checked_sub(MOST_WINDOWS) {

@@ -1,6 +1,7 @@
 //! Growth rate of small differences between copies over a plane of two quantities.
 
-use branched_pendulum::analysis::growth::Grown;
+use branched_pendulum::analysis::growth::{Grown, GrowthError};
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
@@ -57,6 +58,13 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("map-output");
+
+    fn check(&self) -> Result<(), String> {
+        match self.x.name == self.y.name {
+            true => Err(format!("both axes are `{}`: name another one", self.x.name)),
+            false => Ok(()),
+        }
+    }
 }
 
 /// A quantity with the values that it takes along an axis.
@@ -108,15 +116,14 @@ enum Quantity {
 impl Quantity {
     fn of(subject: &Subject, axis: &AxisValues) -> Result<Self, Failure> {
         let description = subject.tree.description();
-        if description
-            .parameters()
-            .any(|parameter| parameter == axis.name)
-        {
-            return Ok(Self::Parameter(axis.name.clone()));
-        }
-        match subject.links_named(&axis.name) {
-            Ok(links) => Ok(Self::Angles(links)),
-            Err(_) => {
+        let is_parameter = description.parameters().any(|own| own == axis.name);
+        match (is_parameter, subject.links_named(&axis.name)) {
+            (true, Err(_)) => Ok(Self::Parameter(axis.name.clone())),
+            (false, Ok(links)) => Ok(Self::Angles(links)),
+            (true, Ok(_)) => Err(Failure::Lacking {
+                what: format!("`{}` is a link and a parameter: rename one", axis.name),
+            }),
+            (false, Err(_)) => {
                 let parameters: Vec<&str> = description.parameters().collect();
                 Err(Failure::Lacking {
                     what: format!(
@@ -148,65 +155,108 @@ const BLOCK: usize = 256;
 /// Growth rates between which colours change, 1/s.
 const RATES: [f64; 2] = [0.01, 5.0];
 
+/// What is asked at every point of the plane.
+struct Question<'a> {
+    arguments: &'a Arguments,
+    subject: &'a Subject,
+    copies: Copies,
+    start: State<f64>,
+    quantities: [Quantity; 2],
+}
+
+/// A point of the plane with the growth there.
+type Point = ([f64; 2], Grown);
+
+impl Question<'_> {
+    /// Returns the growth at a point; none where the motion could not be followed.
+    fn at(&self, point: &[f64; 2]) -> Result<Option<Grown>, Failure> {
+        let (mut tree, mut start) = (self.subject.tree.clone(), self.start.clone());
+        for (quantity, &value) in self.quantities.iter().zip(point) {
+            match quantity {
+                Quantity::Parameter(name) => {
+                    let changed = tree.with(name, value);
+                    tree = changed.map_err(|source| Failure::Tree {
+                        name: self.subject.name.clone(),
+                        source,
+                    })?;
+                }
+                Quantity::Angles(links) => {
+                    for link in links {
+                        start.values[*link] = value.to_radians();
+                    }
+                }
+            }
+        }
+        let (horizons, tolerance) = (vec![self.arguments.duration], self.arguments.tolerance);
+        match Differences::new(&tree, &self.copies, horizons, tolerance)?.along(&start) {
+            Ok(grown) => Ok(Some(grown)),
+            Err(Failure::Growth(GrowthError::Integration(_))) => Ok(None),
+            Err(failure) => Err(failure),
+        }
+    }
+
+    /// Label of an axis in the chart.
+    fn label(&self, axis: usize) -> String {
+        let name = &[&self.arguments.x, &self.arguments.y][axis].name;
+        match self.quantities[axis] {
+            Quantity::Parameter(_) => name.clone(),
+            Quantity::Angles(_) => format!("angle of {name} at the release (°)"),
+        }
+    }
+}
+
 /// Computes the map and writes it; Ctrl-C leaves the points that are done.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
-    let copies = arguments.pair.copies(&subject)?;
-    let start = arguments.release.state(&subject)?;
-    let axes = [&arguments.x, &arguments.y];
+    subject.record(job);
     let quantities = [
         Quantity::of(&subject, &arguments.x)?,
         Quantity::of(&subject, &arguments.y)?,
     ];
+    let question = Question {
+        arguments,
+        subject: &subject,
+        copies: arguments.pair.copies(&subject)?,
+        start: arguments.release.state(&subject)?,
+        quantities,
+    };
     let rows = arguments.y.values.iter();
     let points: Vec<[f64; 2]> = rows
         .flat_map(|&y| arguments.x.values.iter().map(move |&x| [x, y]))
         .collect();
     let progress = job.progress(points.len());
     progress.begin("points of the map");
-    let mut grown: Vec<Option<Grown>> = Vec::new();
+    let (mut all, mut found) = (0, Vec::new());
     for block in points.chunks(BLOCK) {
         if job.is_interrupted() {
             break;
         }
-        let found = Ensemble::new().map(block, |_, point| {
-            let (mut tree, mut start) = (subject.tree.clone(), start.clone());
-            for (quantity, &value) in quantities.iter().zip(point) {
-                match quantity {
-                    Quantity::Parameter(name) => {
-                        tree = tree.with(name, value).map_err(|source| Failure::Tree {
-                            name: subject.name.clone(),
-                            source,
-                        })?;
-                    }
-                    Quantity::Angles(links) => {
-                        for link in links {
-                            start.values[*link] = value.to_radians();
-                        }
-                    }
-                }
-            }
-            let horizons = vec![arguments.duration];
-            let own = Differences::new(&tree, &copies, horizons, arguments.tolerance)?;
-            Ok::<_, Failure>(own.along(&start).ok())
-        });
-        grown.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
+        let grown = Ensemble::new().map(block, |_, point| question.at(point));
+        for (point, grown) in block.iter().zip(grown) {
+            all += 1;
+            found.extend(grown?.map(|grown| (*point, grown)));
+        }
         job.take_interruption();
         progress.advance(block.len() as f64);
     }
-    if grown.is_empty() {
+    if all == 0 {
         return Ok(());
     }
-    let found: Vec<([f64; 2], &Grown)> = points
-        .iter()
-        .zip(&grown)
-        .filter_map(|(point, grown)| Some((*point, grown.as_ref()?)))
-        .collect();
-    job.print(&report(&subject, &found, grown.len()))?;
-    let [x, y] = [0, 1].map(|axis| Column::new(axes[axis].name.as_str(), quantities[axis].unit()));
+    job.print(&report(&subject, &found, all))?;
+    write(job, &question, &found)?;
+    let is_line = [&arguments.x, &arguments.y].map(|axis| axis.values.len() < 2);
+    match found.is_empty() || is_line.contains(&true) {
+        true => Ok(()),
+        false => job.chart("map", &chart(&question, &found)),
+    }
+}
+
+fn write(job: &Job, question: &Question<'_>, found: &[Point]) -> Result<(), Failure> {
+    let names = [&question.arguments.x, &question.arguments.y].map(|axis| axis.name.as_str());
+    let [x, y] = [0, 1].map(|axis| Column::new(names[axis], question.quantities[axis].unit()));
     let columns = [
         x,
         y,
@@ -217,41 +267,29 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     ];
     job.csv("map.csv", &columns, |csv| {
         found.iter().try_for_each(|([x, y], grown)| {
-            let factor = grown
-                .factors
-                .first()
-                .map_or(f64::NAN, |factor| factor.value);
+            let factor = grown.factors.first();
+            let factor = factor.map_or(f64::NAN, |factor| factor.value);
             let (rate, frequency) = (grown.rate, grown.frequency_hz.value);
             csv.row([*x, *y, rate.value, rate.difference, factor, frequency].map(Cell::from))
         })
-    })?;
-    if axes.iter().any(|axis| axis.values.len() < 2) || found.is_empty() {
-        return Ok(());
-    }
-    let label = |axis: usize| match quantities[axis] {
-        Quantity::Parameter(_) => axes[axis].name.clone(),
-        Quantity::Angles(_) => format!("angle of {} at the release (°)", axes[axis].name),
-    };
-    let [x, y] = [0, 1].map(|axis| {
-        found
-            .iter()
-            .map(|(point, _)| point[axis])
-            .collect::<Vec<_>>()
-    });
-    let rates: Vec<f64> = found.iter().map(|(_, grown)| grown.rate.value).collect();
-    let panel = Panel::new(Axis::linear(label(1))).series(Series::shaded(&x, &y, &rates));
-    let title = format!(
-        "{}: growth rate of a difference between copies",
-        subject.name
-    );
-    let colors = Axis::log("growth rate (1/s)").range(RATES[0], RATES[1]);
-    let chart = Chart::new(title, Axis::linear(label(0)))
-        .panel(panel)
-        .colors(colors);
-    job.chart("map", &chart.size(960.0, 720.0))
+    })
 }
 
-fn report(subject: &Subject, found: &[([f64; 2], &Grown)], all: usize) -> String {
+fn chart(question: &Question<'_>, found: &[Point]) -> Chart {
+    let [x, y] = [0, 1].map(|axis| {
+        let places = found.iter().map(|(point, _)| point[axis]);
+        places.collect::<Vec<f64>>()
+    });
+    let rates: Vec<f64> = found.iter().map(|(_, grown)| grown.rate.value).collect();
+    let panel = Panel::new(Axis::linear(question.label(1))).series(Series::shaded(&x, &y, &rates));
+    let name = &question.subject.name;
+    let title = format!("{name}: growth rate of a difference between copies");
+    let colors = Axis::log("growth rate (1/s)").range(RATES[0], RATES[1]);
+    let chart = Chart::new(title, Axis::linear(question.label(0))).panel(panel);
+    chart.colors(colors).size(960.0, 720.0)
+}
+
+fn report(subject: &Subject, found: &[Point], all: usize) -> String {
     let share = |inside: &dyn Fn(f64) -> bool| {
         let some = found.iter().filter(|(_, grown)| inside(grown.rate.value));
         100.0 * some.count() as f64 / found.len().max(1) as f64
@@ -261,7 +299,7 @@ fn report(subject: &Subject, found: &[([f64; 2], &Grown)], all: usize) -> String
         .filter(|(_, grown)| !grown.rate.is_determined());
     let lost = match all - found.len() {
         0 => String::new(),
-        lost => format!("; {lost} could not be followed in phase"),
+        lost => format!("; {lost} could not be followed"),
     };
     format!(
         "{}: {} points, {:.1} % with a growth rate below {} 1/s, {:.1} % with one above 1 1/s.\n\

@@ -63,6 +63,7 @@ struct Measurement {
 /// [`Failure`]; [`Failure::Lacking`] for a chaotic motion of which no digit is left.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let start = arguments.release.state(&subject)?;
     let progress = job.progress(METHODS.len() + 1);
     progress.begin("reference in twice the digits");

@@ -29,6 +29,7 @@ impl crate::frame::Arguments for Arguments {
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let tree = &subject.tree;
     let rest = tree.equilibrium(&vec![0.0; tree.links()])?;
     let modes = tree.modes(&rest)?;

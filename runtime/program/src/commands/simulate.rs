@@ -64,6 +64,7 @@ const PICTURES: f64 = 20.0;
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let start = arguments.release.state(&subject)?;
     let count = (arguments.duration * arguments.rate).round().max(1.0);
     let times = (0..=count as usize).map(|k| k as f64 * arguments.duration / count);

@@ -60,6 +60,7 @@ const FORMS: [(TransferForm, &str); 6] = [
 /// [`Failure`]; [`Failure::Tree`] for a tree without copies.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
+    subject.record(job);
     let refused = |source: TreeError| Failure::Tree {
         name: subject.name.clone(),
         source,
@@ -96,66 +97,90 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
         rows.push(row);
     }
-    let column = |form: usize| {
-        rows.iter()
-            .map(|row| row[form].total())
-            .collect::<Vec<f64>>()
+    let series = Series {
+        title: format!("{}: W into {}", subject.name, names[into]),
+        times: &samples.times,
+        rows: &rows,
     };
-    let largest = column(0).iter().fold(0.0_f64, |most, w| most.max(w.abs()));
-    let mut text = format!(
-        "{}: W into {} over {} s, at most {largest:.4e} W\n\n{:12}{:>24}{:>24}\n",
-        subject.name,
-        names[into],
-        arguments.duration,
-        "form",
-        "largest error (W)",
-        "part of the largest W"
-    );
-    for (number, (_, name)) in FORMS.iter().enumerate().skip(1) {
-        let errors = column(number)
-            .into_iter()
-            .zip(column(0))
-            .map(|(w, exact)| (w - exact).abs());
-        let worst = errors.fold(0.0, f64::max);
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{name:12}{worst:24.4e}{:24.4e}", worst / largest);
+    job.print(&series.report())?;
+    series.write(job)?;
+    job.chart("transfer", &series.chart())
+}
+
+/// W along a motion, by every form.
+struct Series<'a> {
+    title: String,
+    times: &'a [f64],
+    rows: &'a [[Transfer<f64>; FORMS.len()]],
+}
+
+impl Series<'_> {
+    fn column(&self, form: usize) -> Vec<f64> {
+        self.rows.iter().map(|row| row[form].total()).collect()
     }
-    job.print(&text)?;
-    let mut columns = vec![Column::new("time", "s")];
-    for (_, name) in FORMS {
-        columns.push(Column::new(format!("W_K {name}"), "W"));
-        columns.push(Column::new(format!("W_P {name}"), "W"));
+
+    /// Distances of a form from the exact one.
+    fn errors(&self, form: usize) -> Vec<f64> {
+        let both = self.column(form).into_iter().zip(self.column(0));
+        both.map(|(w, exact)| (w - exact).abs()).collect()
     }
-    job.csv("transfer.csv", &columns, |csv| {
-        for (time, row) in samples.times.iter().zip(&rows) {
-            let parts = row.iter().flat_map(|w| [w.kinetic, w.potential]);
-            csv.row(std::iter::once(*time).chain(parts).map(Cell::from))?;
+
+    /// Largest exact W.
+    fn largest(&self) -> f64 {
+        self.column(0).iter().fold(0.0, |most, w| most.max(w.abs()))
+    }
+
+    fn report(&self) -> String {
+        let (largest, end) = (self.largest(), self.times.last().unwrap_or(&0.0));
+        let mut text = format!(
+            "{} over {end} s, at most {largest:.4e} W\n\n{:12}{:>24}{:>24}\n",
+            self.title, "form", "largest error (W)", "part of the largest W"
+        );
+        for (form, (_, name)) in FORMS.iter().enumerate().skip(1) {
+            let worst = self.errors(form).into_iter().fold(0.0, f64::max);
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{name:12}{worst:24.4e}{:24.4e}", worst / largest);
         }
-        Ok(())
-    })?;
-    let times = &samples.times;
-    let exact = FORMS.iter().enumerate().take(3);
-    let panel = exact.fold(
-        Panel::new(Axis::linear("W (W)")).zero_line(),
-        |panel, (number, (_, name))| panel.line(*name, times, &column(number)),
-    );
-    let errors = FORMS.iter().enumerate().skip(1).fold(
-        Panel::new(Axis::log("|W − exact| (W)").range(1e-8 * largest, 10.0 * largest)),
-        |panel, (number, (_, name))| {
-            let both = column(number).into_iter().zip(column(0));
-            let errors: Vec<f64> = both
-                .map(|(w, exact)| (w - exact).abs().max(1e-99))
-                .collect();
-            panel.line(*name, times, &errors)
-        },
-    );
-    let x = Axis::linear("time (s)").range(0.0, arguments.duration);
-    let title = format!("{}: W into {}", subject.name, names[into]);
-    job.chart(
-        "transfer",
-        &Chart::new(title, x)
-            .panel(panel)
-            .panel(errors)
-            .size(900.0, 640.0),
-    )
+        text
+    }
+
+    fn write(&self, job: &Job) -> Result<(), Failure> {
+        let mut columns = vec![Column::new("time", "s")];
+        for (_, name) in FORMS {
+            columns.push(Column::new(format!("W_K {name}"), "W"));
+            columns.push(Column::new(format!("W_P {name}"), "W"));
+        }
+        job.csv("transfer.csv", &columns, |csv| {
+            for (time, row) in self.times.iter().zip(self.rows) {
+                let parts = row.iter().flat_map(|w| [w.kinetic, w.potential]);
+                csv.row(std::iter::once(*time).chain(parts).map(Cell::from))?;
+            }
+            Ok(())
+        })
+    }
+
+    fn chart(&self) -> Chart {
+        let forms = || FORMS.iter().enumerate();
+        let panel = Panel::new(Axis::linear("W (W)")).zero_line();
+        // Beyond order 2 no line is seen beside the exact one.
+        let panel = forms().take(3).fold(panel, |panel, (form, (_, name))| {
+            panel.line(*name, self.times, &self.column(form))
+        });
+        let largest = self.largest().max(f64::MIN_POSITIVE);
+        let axis = Axis::log("|W − exact| (W)").range(1e-8 * largest, 10.0 * largest);
+        let errors = forms()
+            .skip(1)
+            .fold(Panel::new(axis), |panel, (form, (_, name))| {
+                let errors: Vec<f64> = self
+                    .errors(form)
+                    .into_iter()
+                    .map(|e| e.max(1e-99))
+                    .collect();
+                panel.line(*name, self.times, &errors)
+            });
+        let end = self.times.last().copied().unwrap_or(0.0);
+        let x = Axis::linear("time (s)").range(0.0, end);
+        let chart = Chart::new(self.title.clone(), x).panel(panel).panel(errors);
+        chart.size(900.0, 640.0)
+    }
 }
