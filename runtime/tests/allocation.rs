@@ -18,7 +18,7 @@ use branched_pendulum::sectors::{Sector, SectorCoordinate};
 use branched_pendulum::system::{LinkName, OdeFn, TaylorOde, Workspace};
 use branched_pendulum::taylor::Quad;
 use branched_pendulum::transfer::{
-    Acting, EnergyDefinition, Given, Order, RigidLink, SectorBudget, SymmetricTree,
+    EnergyDefinition, Given, NonConservative, Order, RigidLink, SectorBudget, SymmetricTree,
 };
 use counting::allocations;
 
@@ -360,10 +360,21 @@ fn no_transfer_allocates() {
     let mut all = || {
         tree.exact_transfers(&mut workspace, given, &mut w);
         tree.energies(&mut workspace, given, &mut energies);
-        tree.powers(&mut workspace, Acting::Friction, given, &mut powers);
+        tree.powers(
+            &mut workspace,
+            NonConservative::Friction,
+            given,
+            &mut powers,
+        );
         tree.transfer_matrix(&mut workspace, given, &mut matrix);
         let by = EnergyDefinition::Parseval;
-        tree.budget(&mut workspace, by, &[Acting::Friction], given, &mut budget);
+        tree.budget(
+            &mut workspace,
+            by,
+            &[NonConservative::Friction],
+            given,
+            &mut budget,
+        );
         let state = [&[0.4, 0.3, 0.1][..], &[0.02, -0.01, 0.01]];
         expansion.transfers(Order::Amplitude, 4, state, &mut w);
         assert!(w[1].total().is_finite() && matrix[1].is_finite());

@@ -2,7 +2,7 @@
 
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Acting, EnergyDefinition, Given, SectorBudget};
+use branched_pendulum::transfer::{EnergyDefinition, Given, NonConservative, SectorBudget};
 use branched_pendulum_charts::{Axis, Chart, Panel};
 use branched_pendulum_data::{Cell, Column};
 
@@ -63,8 +63,8 @@ pub fn along(subject: &Subject, samples: &Samples) -> Option<Vec<SectorSeries>> 
     let (mut workspace, mut budget) = (Workspace::new(), SectorBudget::new());
     for (time, state) in samples.times.iter().zip(&samples.states) {
         let (theta, omega) = state.split_at_checked(symmetric.links())?;
-        let mut acting = vec![Acting::Friction];
-        acting.extend(tree.drive(*time).map(Acting::Drive));
+        let mut acting = vec![NonConservative::Friction];
+        acting.extend(tree.drive(*time).map(NonConservative::Drive));
         let given = Given::Absolute { theta, omega };
         let definition = EnergyDefinition::Canonical;
         symmetric.budget(&mut workspace, definition, &acting, given, &mut budget);

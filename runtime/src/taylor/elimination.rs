@@ -29,9 +29,9 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::eliminated_link::{ELIMINATED, EliminatedLink};
-use super::links::Links;
+use super::links::TreeLinks;
 use super::orders::{Constants, Origin};
-use super::room::{Column, Given, Numbers, OfLinks, Room};
+use super::room::{OfLinks, PackColumn, PackRoom, SharedNumbers, WritableNumbers};
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
@@ -49,12 +49,12 @@ pub(super) struct TaylorElimination<'a, T, L> {
     factors: &'a [LinkFactors<T>],
 }
 
-impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
+impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
     /// Eliminates from the leaves to the root, link by link.
     #[inline(always)]
-    pub(super) fn new<P: Simd<T>, S: Given<T>>(
+    pub(super) fn new<P: Simd<T>, S: SharedNumbers<T>>(
         links: L,
-        room: &mut impl Room<T>,
+        room: &mut impl PackRoom<T>,
         origin: &Origin<'_, T, S>,
         constants: &Constants<'_, T>,
         factors: &'a mut [LinkFactors<T>],
@@ -124,10 +124,10 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
     #[inline(always)]
     pub(super) fn solve<P: Simd<T>, V: Simd<T>>(
         &self,
-        mut room: impl Room<T>,
-        force: &impl Column<P, 1>,
-        cosine: &impl Column<P, 1>,
-        [s, y]: [&mut impl Column<P, 1>; 2],
+        mut room: impl PackRoom<T>,
+        force: &impl PackColumn<P, 1>,
+        cosine: &impl PackColumn<P, 1>,
+        [s, y]: [&mut impl PackColumn<P, 1>; 2],
     ) {
         let (links, count) = (self.links, self.links.count());
         let factors = &self.factors[..count];
@@ -202,7 +202,7 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
             let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
-                // Room may be for more links, with zeros.
+                // PackRoom may be for more links, with zeros.
                 if first + l < answers.len() {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
@@ -221,7 +221,10 @@ impl<'a, T: Scalar, L: Links> TaylorElimination<'a, T, L> {
 
 /// cos θ, sin θ of a link at the start.
 #[inline(always)]
-fn turn<T: Scalar, P: Simd<T>, S: Given<T>>(origin: &Origin<'_, T, S>, link: usize) -> [P; 2] {
+fn turn<T: Scalar, P: Simd<T>, S: SharedNumbers<T>>(
+    origin: &Origin<'_, T, S>,
+    link: usize,
+) -> [P; 2] {
     [
         P::splat(origin.cosines.of(link)),
         P::splat(origin.sines.of(link)),

@@ -17,9 +17,9 @@
 
 use super::bias::{Bias, ConstantBias, MovingBias};
 use super::elimination::FACTORS;
-use super::links::{KnownLinks, Links};
+use super::links::{KnownLinks, TreeLinks};
 use super::orders::{Constants, Orders, Origin};
-use super::room::{Given, Rooms, StackRooms};
+use super::room::{Rooms, SharedNumbers, StackRooms};
 use super::series::SERIES;
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lanes, Scalar};
@@ -48,11 +48,11 @@ pub trait Connectivity<const N: usize> {
         carries
     };
 
-    /// Links that others hang on, from the last one to the root; and how many they are.
+    /// TreeLinks that others hang on, from the last one to the root; and how many they are.
     #[doc(hidden)]
     const CARRIERS: ([usize; N], usize) = listed(&Self::CARRIES, true);
 
-    /// Links that none hangs on, likewise.
+    /// TreeLinks that none hangs on, likewise.
     #[doc(hidden)]
     const LEAVES: ([usize; N], usize) = listed(&Self::CARRIES, false);
 
@@ -67,7 +67,7 @@ pub trait Connectivity<const N: usize> {
     };
 }
 
-/// Numbers of the links of which this is said, from the last to the first, and how many.
+/// WritableNumbers of the links of which this is said, from the last to the first, and how many.
 const fn listed<const N: usize>(said: &[bool; N], this: bool) -> ([usize; N], usize) {
     let (mut list, mut count) = ([0; N], 0);
     let mut link = N;
@@ -209,7 +209,7 @@ pub(super) struct Expansion<'a, T, L, S> {
     pub(super) count: usize,
 }
 
-impl<T: Scalar, L: Links, S: Given<T>> Expansion<'_, T, L, S> {
+impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>> Expansion<'_, T, L, S> {
     /// Runs the orders in packs of links, or link by link where a number stands for several
     /// states already.
     #[inline(always)]
@@ -262,8 +262,8 @@ struct OrdersOf<'a, 'w, T, L, S, R, B> {
 impl<T, L, S, R, B> ByKind<T> for OrdersOf<'_, '_, T, L, S, R, B>
 where
     T: Scalar,
-    L: Links,
-    S: Given<T>,
+    L: TreeLinks,
+    S: SharedNumbers<T>,
     R: Rooms<T>,
     B: Bias<T>,
 {

@@ -1,8 +1,8 @@
-//! Room for trees whose number of links no type tells: in memory that the caller lends.
+//! PackRoom for trees whose number of links no type tells: in memory that the caller lends.
 
 use core::marker::PhantomData;
 
-use super::room::{Column, Given, Numbers, OfLinks, Room, Rooms};
+use super::room::{OfLinks, PackColumn, PackRoom, Rooms, SharedNumbers, WritableNumbers};
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
@@ -43,20 +43,20 @@ impl<'a, T: Scalar> Rooms<T> for LentRooms<'a, T> {
     }
 }
 
-/// Room that the caller lends. What does not fit into it has no places.
+/// PackRoom that the caller lends. What does not fit into it has no places.
 pub(super) struct Lent<'a, T> {
     free: &'a mut [Quad<T>],
     links: usize,
     packs: usize,
 }
 
-/// Numbers in lent memory, those of one place after those of another.
+/// WritableNumbers in lent memory, those of one place after those of another.
 pub(super) struct LentColumn<'a, T, P> {
     quads: &'a mut [Quad<T>],
     numbers: PhantomData<P>,
 }
 
-impl<T: Scalar, P: Simd<T>, const K: usize> Column<P, K> for LentColumn<'_, T, P> {
+impl<T: Scalar, P: Simd<T>, const K: usize> PackColumn<P, K> for LentColumn<'_, T, P> {
     #[inline(always)]
     fn at(&self, place: usize) -> [P; K] {
         let mut numbers = [P::splat(T::from_f64(0.0)); K];
@@ -81,7 +81,7 @@ impl<T: Copy> OfLinks<T> for &[Quad<T>] {
     }
 }
 
-impl<T: Copy> Given<T> for &[Quad<T>] {
+impl<T: Copy> SharedNumbers<T> for &[Quad<T>] {
     #[inline(always)]
     fn first_links(self, _links: usize) -> Self {
         self
@@ -95,7 +95,7 @@ impl<T: Copy> OfLinks<T> for &mut [Quad<T>] {
     }
 }
 
-impl<T: Scalar> Numbers<T> for &mut [Quad<T>] {
+impl<T: Scalar> WritableNumbers<T> for &mut [Quad<T>] {
     #[inline(always)]
     fn write<P: Simd<T>>(&mut self, pack: usize, numbers: P) {
         numbers.store_quad(self, pack);
@@ -120,10 +120,10 @@ impl<'a, T: Scalar> Lent<'a, T> {
     }
 }
 
-impl<'a, T: Scalar> Room<T> for Lent<'a, T> {
+impl<'a, T: Scalar> PackRoom<T> for Lent<'a, T> {
     type OfPacks<P: Simd<T>, const K: usize> = LentColumn<'a, T, P>;
     type OfLinks<P: Simd<T>, const K: usize> = LentColumn<'a, T, P>;
-    type Numbers = &'a mut [Quad<T>];
+    type WritableNumbers = &'a mut [Quad<T>];
     type Quads = &'a mut [Quad<T>];
     type LinkQuads = &'a mut [Quad<T>];
     type Rest<'r>

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::expand::Connectivity;
 
 /// The links of a tree, parents before children.
-pub(super) trait Links: Copy {
+pub(super) trait TreeLinks: Copy {
     /// Returns how many there are.
     fn count(&self) -> usize;
 
@@ -22,7 +22,7 @@ pub(super) trait Links: Copy {
     fn lateral(&self) -> bool;
 }
 
-/// Links that the compiler knows.
+/// TreeLinks that the compiler knows.
 pub(super) struct KnownLinks<C, const N: usize>(PhantomData<C>);
 
 impl<C, const N: usize> KnownLinks<C, N> {
@@ -40,7 +40,7 @@ impl<C, const N: usize> Clone for KnownLinks<C, N> {
 
 impl<C, const N: usize> Copy for KnownLinks<C, N> {}
 
-impl<C: Connectivity<N>, const N: usize> Links for KnownLinks<C, N> {
+impl<C: Connectivity<N>, const N: usize> TreeLinks for KnownLinks<C, N> {
     #[inline(always)]
     fn count(&self) -> usize {
         N

@@ -13,10 +13,10 @@
 
 use super::bias::{Bias, KnownState};
 use super::elimination::{LinkFactors, TaylorElimination};
-use super::links::Links;
+use super::links::TreeLinks;
 use super::reciprocal::Reciprocal;
 use super::refine::Balance;
-use super::room::{Column, Given, OfLinks, Room};
+use super::room::{OfLinks, PackColumn, PackRoom, SharedNumbers};
 use super::series::{SUMS, SeriesRow, SeriesSums, store, turned};
 use crate::scalar::Scalar;
 use crate::simd::{Kernel, Quad, Simd};
@@ -48,7 +48,7 @@ pub(super) struct Constants<'a, T> {
     pub(super) lateral_weights: &'a [T],
 }
 
-impl<T: Copy, S: Given<T>> Origin<'_, T, S> {
+impl<T: Copy, S: SharedNumbers<T>> Origin<'_, T, S> {
     /// Returns the first links' numbers, as many as the compiler may know them to be.
     #[inline(always)]
     fn first_links(self, links: usize) -> Self {
@@ -93,9 +93,9 @@ pub(super) struct Orders<'a, T, L, S, R, B> {
 impl<T, L, S, R, B> Kernel<T> for Orders<'_, T, L, S, R, B>
 where
     T: Scalar,
-    L: Links,
-    S: Given<T>,
-    R: Room<T>,
+    L: TreeLinks,
+    S: SharedNumbers<T>,
+    R: PackRoom<T>,
     B: Bias<T>,
 {
     type Output = ();
@@ -109,9 +109,9 @@ where
 impl<T, L, S, R, B> Orders<'_, T, L, S, R, B>
 where
     T: Scalar,
-    L: Links,
-    S: Given<T>,
-    R: Room<T>,
+    L: TreeLinks,
+    S: SharedNumbers<T>,
+    R: PackRoom<T>,
     B: Bias<T>,
 {
     /// Forms them, in packs of numbers that are `SEVERAL` states or one. No closure
@@ -347,7 +347,7 @@ pub(super) fn read<T: Scalar, P: Simd<T>, const K: usize>(
     quads: &mut [Quad<T>],
     [packs, links]: [usize; 2],
     k: usize,
-    column: &mut impl Column<P, K>,
+    column: &mut impl PackColumn<P, K>,
 ) {
     spread(numbers, links, quads);
     for m in 0..packs {

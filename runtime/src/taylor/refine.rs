@@ -13,9 +13,9 @@
 //!
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
-use super::links::Links;
+use super::links::TreeLinks;
 use super::orders::{Constants, Origin, read, weights};
-use super::room::{Column, Given, Room};
+use super::room::{PackColumn, PackRoom, SharedNumbers};
 use crate::scalar::{Scalar, two_sum};
 use crate::simd::{Quad, Simd};
 
@@ -31,18 +31,18 @@ pub(super) struct Balance<'a, T, L, S, C> {
     pub(super) fall: Option<[T; 2]>,
 }
 
-impl<T: Scalar, L: Links, S: Given<T>, C> Balance<'_, T, L, S, C> {
+impl<T: Scalar, L: TreeLinks, S: SharedNumbers<T>, C> Balance<'_, T, L, S, C> {
     /// Writes what accelerations leave of the equation of motion, in the units of the
     /// tree's constants. `quads` are worked in.
     #[inline(always)]
-    pub(super) fn residual<P: Simd<T>, R: Room<T>>(
+    pub(super) fn residual<P: Simd<T>, R: PackRoom<T>>(
         &self,
         room: &mut R,
         quads: &mut [Quad<T>],
-        accelerations: &impl Column<P, 1>,
-        rest: &mut impl Column<P, 1>,
+        accelerations: &impl PackColumn<P, 1>,
+        rest: &mut impl PackColumn<P, 1>,
     ) where
-        C: Column<P, 2>,
+        C: PackColumn<P, 2>,
     {
         let (zero, packs) = (P::splat(T::from_f64(0.0)), room.packs());
         // ω, bias and M
@@ -80,7 +80,7 @@ impl<T: Scalar, L: Links, S: Given<T>, C> Balance<'_, T, L, S, C> {
 
     /// Writes D + iE of all links in place of U + iV, along the tree.
     #[inline(always)]
-    fn levers<P: Simd<T>, R: Room<T>>(
+    fn levers<P: Simd<T>, R: PackRoom<T>>(
         &self,
         room: &mut R,
         [u_column, v_column]: [&mut [R::Quads; 2]; 2],
@@ -142,7 +142,7 @@ fn plus_turned<T: Scalar, P: Simd<T>>(
     ]
 }
 
-/// Numbers in two parts. What products and sums lose is of the size of the second
+/// WritableNumbers in two parts. What products and sums lose is of the size of the second
 /// part's last digits where products are fused with the sums they go into; elsewhere
 /// products are rounded as they always are.
 #[derive(Clone, Copy)]
@@ -151,7 +151,7 @@ struct Parts<P> {
     low: P,
 }
 
-/// Numbers of a complex number in two parts.
+/// WritableNumbers of a complex number in two parts.
 const COMPLEX: usize = 4;
 
 #[inline(always)]

@@ -1,11 +1,11 @@
-//! Numbers of all links while an expansion runs: on the stack where the compiler knows how
+//! WritableNumbers of all links while an expansion runs: on the stack where the compiler knows how
 //! many links there are, so that they become registers; else in memory that the caller lends.
 
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
 /// `K` numbers `P` at each of many places.
-pub(super) trait Column<P, const K: usize> {
+pub(super) trait PackColumn<P, const K: usize> {
     /// Returns those at a place.
     fn at(&self, place: usize) -> [P; K];
 
@@ -20,28 +20,28 @@ pub(super) trait OfLinks<T> {
 }
 
 /// A number of each link, that others look at.
-pub(super) trait Given<T>: OfLinks<T> + Copy {
+pub(super) trait SharedNumbers<T>: OfLinks<T> + Copy {
     /// Returns those of the first links, as many as the compiler may know them to be.
     fn first_links(self, links: usize) -> Self;
 }
 
 /// A number of each link, written in packs.
-pub(super) trait Numbers<T: Scalar>: OfLinks<T> {
+pub(super) trait WritableNumbers<T: Scalar>: OfLinks<T> {
     /// Changes those of a pack.
     fn write<P: Simd<T>>(&mut self, pack: usize, numbers: P);
 }
 
 /// Gives out room for numbers, whatever stands there. A *pack* is a wide number of one or
 /// four links.
-pub(super) trait Room<T: Scalar> {
-    /// Numbers of each pack.
-    type OfPacks<P: Simd<T>, const K: usize>: Column<P, K>;
+pub(super) trait PackRoom<T: Scalar> {
+    /// WritableNumbers of each pack.
+    type OfPacks<P: Simd<T>, const K: usize>: PackColumn<P, K>;
 
-    /// Numbers of each link.
-    type OfLinks<P: Simd<T>, const K: usize>: Column<P, K>;
+    /// WritableNumbers of each link.
+    type OfLinks<P: Simd<T>, const K: usize>: PackColumn<P, K>;
 
     /// A number of each link.
-    type Numbers: Numbers<T>;
+    type WritableNumbers: WritableNumbers<T>;
 
     /// Quads that together hold a number of each link.
     type Quads: AsMut<[Quad<T>]>;
@@ -49,8 +49,8 @@ pub(super) trait Room<T: Scalar> {
     /// A quad of each link.
     type LinkQuads: AsMut<[Quad<T>]>;
 
-    /// Room that is free again.
-    type Rest<'r>: Room<T>
+    /// PackRoom that is free again.
+    type Rest<'r>: PackRoom<T>
     where
         Self: 'r;
 
@@ -64,24 +64,24 @@ pub(super) trait Room<T: Scalar> {
 
     fn of_links<P: Simd<T>, const K: usize>(&mut self) -> Self::OfLinks<P, K>;
 
-    fn numbers(&mut self) -> Self::Numbers;
+    fn numbers(&mut self) -> Self::WritableNumbers;
 
     fn quads(&mut self) -> Self::Quads;
 
     fn link_quads(&mut self) -> Self::LinkQuads;
 }
 
-/// Room for packs of four links or of one, as the machine computes.
+/// PackRoom for packs of four links or of one, as the machine computes.
 pub(super) trait Rooms<T: Scalar> {
-    type InFours: Room<T>;
-    type OneByOne: Room<T>;
+    type InFours: PackRoom<T>;
+    type OneByOne: PackRoom<T>;
 
     fn in_fours(self) -> Self::InFours;
 
     fn one_by_one(self) -> Self::OneByOne;
 }
 
-/// Room on the stack for N links in Q quads and M packs, or for the first ones of these.
+/// PackRoom on the stack for N links in Q quads and M packs, or for the first ones of these.
 pub(super) struct OnStack<C, const N: usize, const Q: usize, const M: usize>(C);
 
 /// How many of the packs that there is room for there are: a type, so that the compiler
@@ -112,7 +112,7 @@ impl PackCount for First {
     }
 }
 
-impl<P: Copy, const K: usize, const COUNT: usize> Column<P, K> for [[P; K]; COUNT] {
+impl<P: Copy, const K: usize, const COUNT: usize> PackColumn<P, K> for [[P; K]; COUNT] {
     #[inline(always)]
     fn at(&self, place: usize) -> [P; K] {
         self[place]
@@ -131,7 +131,7 @@ impl<T: Copy> OfLinks<T> for &[T] {
     }
 }
 
-impl<T: Copy> Given<T> for &[T] {
+impl<T: Copy> SharedNumbers<T> for &[T] {
     #[inline(always)]
     fn first_links(self, links: usize) -> Self {
         &self[..links]
@@ -145,21 +145,21 @@ impl<T: Copy, const Q: usize> OfLinks<T> for [[T; 4]; Q] {
     }
 }
 
-impl<T: Scalar, const Q: usize> Numbers<T> for [[T; 4]; Q] {
+impl<T: Scalar, const Q: usize> WritableNumbers<T> for [[T; 4]; Q] {
     #[inline(always)]
     fn write<P: Simd<T>>(&mut self, pack: usize, numbers: P) {
         numbers.store(&mut self.as_flattened_mut()[pack * P::LANES..]);
     }
 }
 
-impl<T, C, const N: usize, const Q: usize, const M: usize> Room<T> for OnStack<C, N, Q, M>
+impl<T, C, const N: usize, const Q: usize, const M: usize> PackRoom<T> for OnStack<C, N, Q, M>
 where
     T: Scalar,
     C: PackCount,
 {
     type OfPacks<P: Simd<T>, const K: usize> = [[P; K]; M];
     type OfLinks<P: Simd<T>, const K: usize> = [[P; K]; N];
-    type Numbers = [[T; 4]; Q];
+    type WritableNumbers = [[T; 4]; Q];
     type Quads = [Quad<T>; Q];
     type LinkQuads = [Quad<T>; N];
     type Rest<'r>
@@ -203,7 +203,7 @@ where
     }
 }
 
-/// Room on the stack for N links in Q quads.
+/// PackRoom on the stack for N links in Q quads.
 pub(super) struct StackRooms<const N: usize, const Q: usize>;
 
 impl<T: Scalar, const N: usize, const Q: usize> Rooms<T> for StackRooms<N, Q> {
@@ -221,7 +221,7 @@ impl<T: Scalar, const N: usize, const Q: usize> Rooms<T> for StackRooms<N, Q> {
     }
 }
 
-/// Room on the stack for up to N links in Q quads, all of which some of them stand in.
+/// PackRoom on the stack for up to N links in Q quads, all of which some of them stand in.
 pub(super) struct RoomsOfFew<const N: usize, const Q: usize> {
     pub(super) links: usize,
 }

@@ -2,7 +2,7 @@
 //! springs of links, and a drive.
 
 use super::bias::{Bias, KnownState};
-use super::links::Links;
+use super::links::TreeLinks;
 use super::sums::{rows, sums};
 use super::tree::SeriesTree;
 use crate::scalar::Scalar;
@@ -88,7 +88,7 @@ pub(super) struct TreeTorques<'a, T> {
     pub(super) tree: &'a SeriesTree<T>,
     /// Of each order the acceleration of the root's pivot and the torque on the root.
     pub(super) drive: Option<&'a [Quad<T>]>,
-    /// Room of the laws of friction, one after the other.
+    /// PackRoom of the laws of friction, one after the other.
     pub(super) laws: &'a mut [Quad<T>],
     /// How many quads each has.
     pub(super) room: usize,

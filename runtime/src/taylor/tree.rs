@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::expand::{Expansion, workspace};
 use super::lent::{LentRooms, lent};
-use super::links::Links;
+use super::links::TreeLinks;
 use super::orders::{Constants, Origin};
 use super::room::RoomsOfFew;
 use super::torques::{RoughFriction, TreeTorques, law_room};
@@ -66,7 +66,7 @@ pub(super) struct Hanging {
     lateral: bool,
 }
 
-impl Links for &Hanging {
+impl TreeLinks for &Hanging {
     #[inline(always)]
     fn count(&self) -> usize {
         self.parents.len()
@@ -106,7 +106,7 @@ impl<T: Scalar> SeriesTree<T> {
     /// Returns the tree of these links, the root first and parents before their children.
     /// `share` is what torques in N m are multiplied by to be in the units of the links.
     ///
-    /// Links of parents that come behind them, and friction of links that there are not, are
+    /// TreeLinks of parents that come behind them, and friction of links that there are not, are
     /// as if they hung on the root, and left out.
     #[must_use]
     pub fn new(

@@ -1,7 +1,7 @@
 //! What one sector is by itself: its block of the mass matrix and its potential energy.
 
-use super::constants::Constants;
-use super::memory::Rest;
+use super::constants::MassConstants;
+use super::memory::FreeMemory;
 use super::pattern::{Entries, Pattern};
 use super::shape::BlockShape;
 use crate::scalar::{Scalar, at};
@@ -38,7 +38,7 @@ impl BlockShape {
         tree: &Pattern,
         [inertia, beside]: [&[T]; 2],
         momenta: &[T],
-        mut memory: Rest<'_, T>,
+        mut memory: FreeMemory<'_, T>,
         velocities: &mut [T],
     ) -> T {
         let rows = self.columns.len();
@@ -64,7 +64,7 @@ impl BlockShape {
     /// (physics (9.3)), and returns V_s.
     pub(super) fn write_fall<T: Scalar>(
         &self,
-        constants: &Constants<T>,
+        constants: &MassConstants<T>,
         parents: &[Option<usize>],
         theta: &[T],
         [sines, cosines]: [&[T]; 2],

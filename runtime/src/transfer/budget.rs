@@ -2,9 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::forces::Acting;
-use super::memory::Rest;
-use super::motion::{Matrix, Motion, factors, room};
+use super::forces::NonConservative;
+use super::memory::FreeMemory;
+use super::motion::{MassEntries, TreeMotion, factors, room};
 use super::parseval::{CENTRES, FORMED, KEPT};
 use super::pattern::write_slopes;
 use super::sector::{self, Surroundings};
@@ -71,7 +71,7 @@ impl<T: Scalar> SymmetricTree<T> {
         &self,
         workspace: &mut Workspace<T>,
         definition: EnergyDefinition,
-        acting: &[Acting<'_, T>],
+        acting: &[NonConservative<'_, T>],
         given: Given<'_, T>,
         budget: &mut SectorBudget<T>,
     ) {
@@ -81,7 +81,7 @@ impl<T: Scalar> SymmetricTree<T> {
         let kept = (5 + CENTRES + KEPT + FORMED) * links;
         let others = 2 * entries + sector::room(shape.largest_block(), links);
         let length = room(links, entries) + kept + others + factors(links, entries);
-        let mut memory = Rest(workspace.numbers(length));
+        let mut memory = FreeMemory(workspace.numbers(length));
         for list in [
             &mut budget.energies,
             &mut budget.transfers,
@@ -179,7 +179,7 @@ impl<T: Scalar> SymmetricTree<T> {
         let all = 2 * sectors * links;
         let kept = (1 + CENTRES + KEPT + FORMED) * links + all;
         let length = room(links, entries) + kept + factors(links, entries);
-        let mut memory = Rest(workspace.numbers(length));
+        let mut memory = FreeMemory(workspace.numbers(length));
         let fits = matrix.len() == sectors * sectors && self.mean.is_none();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -221,7 +221,7 @@ impl<T: Scalar> SymmetricTree<T> {
     /// Writes the torques that turn momenta: ∂L/∂θ − Ṁ ω.
     fn write_accelerations(
         &self,
-        motion: &Motion<'_, T>,
+        motion: &TreeMotion<'_, T>,
         [kinetic, potential]: [&[T]; 2],
         torques: &mut [T],
     ) {
@@ -237,7 +237,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 
     /// Writes the slopes of V_s, and returns V_s.
-    fn write_own_fall(&self, block: &BlockShape, motion: &Motion<'_, T>, fall: &mut [T]) -> T {
+    fn write_own_fall(&self, block: &BlockShape, motion: &TreeMotion<'_, T>, fall: &mut [T]) -> T {
         let turns = [motion.sines, motion.cosines];
         block.write_fall(self.equal(), &self.shape.parents, motion.theta, turns, fall)
     }
@@ -246,10 +246,10 @@ impl<T: Scalar> SymmetricTree<T> {
     fn by_velocities(
         &self,
         block: &BlockShape,
-        matrix: Matrix<'_, T>,
-        motion: &Motion<'_, T>,
+        matrix: MassEntries<'_, T>,
+        motion: &TreeMotion<'_, T>,
         around: &Around<'_, T>,
-        mut memory: Rest<'_, T>,
+        mut memory: FreeMemory<'_, T>,
     ) -> Entry<T> {
         let (pattern, zero) = (&self.shape.pattern, T::from_f64(0.0));
         let links = self.shape.links();

@@ -1,4 +1,4 @@
-//! Constants of the Lagrangian of a tree, in absolute angles (physics (1.6), (1.7)).
+//! MassConstants of the Lagrangian of a tree, in absolute angles (physics (1.6), (1.7)).
 
 use alloc::vec::Vec;
 
@@ -51,7 +51,7 @@ impl<T: Copy> RigidLink<T> {
 
 /// M and U: numbers of each link, and of each pair of a link and one above it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Constants<T> {
+pub(super) struct MassConstants<T> {
     /// M_ii.
     pub(super) inertia: Vec<T>,
     /// μ_ij of M_ij = μ_ij cos (θ_i − θ_j) + ν_ij sin (θ_i − θ_j).
@@ -68,10 +68,10 @@ pub(super) struct Constants<T> {
     pub(super) rest: Vec<T>,
 }
 
-impl<T: Scalar> Constants<T> {
-    fn map<S>(&self, convert: impl Fn(T) -> S) -> Constants<S> {
+impl<T: Scalar> MassConstants<T> {
+    fn map<S>(&self, convert: impl Fn(T) -> S) -> MassConstants<S> {
         let list = |own: &Vec<T>| own.iter().map(|&value| convert(value)).collect();
-        Constants {
+        MassConstants {
             inertia: list(&self.inertia),
             coupling: list(&self.coupling),
             lateral_coupling: list(&self.lateral_coupling),
@@ -83,7 +83,7 @@ impl<T: Scalar> Constants<T> {
     }
 
     /// Returns the constants on other scalars.
-    pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Constants<S> {
+    pub(super) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> MassConstants<S> {
         self.map(convert)
     }
 }
@@ -115,7 +115,7 @@ fn carried(links: &[RigidLink<Double>]) -> Vec<Double> {
     carried
 }
 
-impl Constants<Double> {
+impl MassConstants<Double> {
     /// The constants of a tree.
     pub(super) fn new(pattern: &Pattern, links: &[RigidLink<Double>], gravity: Double) -> Self {
         let zero = Double::from_f64(0.0);
@@ -209,7 +209,7 @@ impl Constants<Double> {
     }
 
     /// The constants, each rounded once.
-    pub(super) fn rounded<T: Scalar>(&self) -> Constants<T> {
+    pub(super) fn rounded<T: Scalar>(&self) -> MassConstants<T> {
         self.map(rounded)
     }
 }

@@ -1,8 +1,8 @@
 //! Energies and transfers of all sectors at a state, from their momenta.
 
-use super::forces::Acting;
-use super::memory::Rest;
-use super::motion::{Matrix, Motion, factors, room, write_kinetic_slopes};
+use super::forces::NonConservative;
+use super::memory::FreeMemory;
+use super::motion::{MassEntries, TreeMotion, factors, room, write_kinetic_slopes};
 use super::pattern::{multiply, write_slopes};
 use super::sector::{self, Alone, Surroundings, TransferTerms};
 use super::shape::BlockShape;
@@ -26,9 +26,9 @@ impl<T: Scalar> SymmetricTree<T> {
     #[inline]
     pub(super) fn energy_matrix<'w>(
         &self,
-        motion: &Motion<'w, T>,
-        memory: &mut Rest<'w, T>,
-    ) -> Matrix<'w, T> {
+        motion: &TreeMotion<'w, T>,
+        memory: &mut FreeMemory<'w, T>,
+    ) -> MassEntries<'w, T> {
         match &self.mean {
             None => motion.matrix,
             Some(mean) => self.matrix(&mean.equal, [motion.sines, motion.cosines], memory),
@@ -39,9 +39,9 @@ impl<T: Scalar> SymmetricTree<T> {
     #[inline]
     fn for_each(
         &self,
-        motion: &Motion<'_, T>,
-        matrix: Matrix<'_, T>,
-        mut memory: Rest<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        matrix: MassEntries<'_, T>,
+        mut memory: FreeMemory<'_, T>,
         mut write: impl FnMut(usize, &BlockShape, &Alone<'_, T>),
     ) {
         for (number, block) in self.shape.blocks.iter().enumerate() {
@@ -59,7 +59,7 @@ impl<T: Scalar> SymmetricTree<T> {
         given: Given<'_, T>,
         mut write: impl FnMut(usize, TransferTerms<T>),
     ) -> Option<()> {
-        let mut memory = Rest(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.room()));
         let motion = self.motion(given, &mut memory)?;
         let around = Surroundings {
             omega: motion.omega,
@@ -82,7 +82,7 @@ impl<T: Scalar> SymmetricTree<T> {
         energies: &mut [[T; 2]],
     ) {
         energies.fill([T::from_f64(f64::NAN); 2]);
-        let mut memory = Rest(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.room()));
         let fits = energies.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -122,7 +122,7 @@ impl<T: Scalar> SymmetricTree<T> {
             return self.exact_transfers(workspace, given, transfers);
         };
         fill(transfers);
-        let mut memory = Rest(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.room()));
         let fits = transfers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -132,7 +132,7 @@ impl<T: Scalar> SymmetricTree<T> {
         let omega = memory.take(self.shape.links());
         self.write_absolute_momenta(&motion, omega);
         self.solve(&mean.equal, matrix, omega, memory.lend());
-        let motion = Motion { omega, ..motion };
+        let motion = TreeMotion { omega, ..motion };
         let around = Surroundings {
             omega,
             slopes: self.slopes(&mean.equal, matrix, &motion, &mut memory),
@@ -153,7 +153,7 @@ impl<T: Scalar> SymmetricTree<T> {
     ) {
         fill(transfers);
         let (zero, half) = (T::from_f64(0.0), T::from_f64(0.5));
-        let mut memory = Rest(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.room()));
         let fits = transfers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;
@@ -209,12 +209,12 @@ impl<T: Scalar> SymmetricTree<T> {
     pub fn powers(
         &self,
         workspace: &mut Workspace<T>,
-        acting: Acting<'_, T>,
+        acting: NonConservative<'_, T>,
         given: Given<'_, T>,
         powers: &mut [T],
     ) {
         powers.fill(T::from_f64(f64::NAN));
-        let mut memory = Rest(workspace.numbers(self.room()));
+        let mut memory = FreeMemory(workspace.numbers(self.room()));
         let fits = powers.len() == self.shape.blocks.len();
         let Some(motion) = self.motion(given, &mut memory).filter(|_| fits) else {
             return;

@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 
 use super::SymmetricTree;
-use super::motion::Motion;
+use super::motion::TreeMotion;
 use crate::scalar::Scalar;
 
 /// What acts on a tree beside its springs and gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Acting<'a, T> {
+pub enum NonConservative<'a, T> {
     /// Friction in the pivots and against the ground.
     Friction,
     /// The drive at one time: the acceleration x, y (m/s²) of the root's pivot, y upwards, and
@@ -18,7 +18,7 @@ pub enum Acting<'a, T> {
     Torques(&'a [T]),
 }
 
-/// Constants of friction and of the drive.
+/// MassConstants of friction and of the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Passive<T> {
     /// Friction in the pivot and drag of each link; empty where there are none.
@@ -44,16 +44,21 @@ impl<T: Scalar> Passive<T> {
 
 impl<T: Scalar> SymmetricTree<T> {
     /// Adds generalized forces Q. NaN for torques of another number than there are links.
-    pub(super) fn add_forces(&self, acting: Acting<'_, T>, motion: &Motion<'_, T>, q: &mut [T]) {
+    pub(super) fn add_forces(
+        &self,
+        acting: NonConservative<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        q: &mut [T],
+    ) {
         match acting {
-            Acting::Friction => self.add_friction(motion.omega, q),
-            Acting::Drive(drive) => self.add_drive(drive, motion, q),
-            Acting::Torques(torques) if torques.len() == q.len() => {
+            NonConservative::Friction => self.add_friction(motion.omega, q),
+            NonConservative::Drive(drive) => self.add_drive(drive, motion, q),
+            NonConservative::Torques(torques) if torques.len() == q.len() => {
                 for (q, &torque) in q.iter_mut().zip(torques) {
                     *q = *q + torque;
                 }
             }
-            Acting::Torques(_) => q.fill(T::from_f64(f64::NAN)),
+            NonConservative::Torques(_) => q.fill(T::from_f64(f64::NAN)),
         }
     }
 
@@ -82,7 +87,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    fn add_drive(&self, [x, y, torque]: [T; 3], motion: &Motion<'_, T>, q: &mut [T]) {
+    fn add_drive(&self, [x, y, torque]: [T; 3], motion: &TreeMotion<'_, T>, q: &mut [T]) {
         let Passive {
             moments, stands, ..
         } = &self.passive;

@@ -3,9 +3,9 @@
 use crate::scalar::Scalar;
 
 /// What is left of a workspace's numbers.
-pub(super) struct Rest<'w, T>(pub(super) &'w mut [T]);
+pub(super) struct FreeMemory<'w, T>(pub(super) &'w mut [T]);
 
-impl<'w, T: Scalar> Rest<'w, T> {
+impl<'w, T: Scalar> FreeMemory<'w, T> {
     /// Takes so many numbers, of any values; fewer where there are no more.
     #[inline(always)]
     pub(super) fn take(&mut self, length: usize) -> &'w mut [T] {
@@ -17,7 +17,7 @@ impl<'w, T: Scalar> Rest<'w, T> {
 
     /// Lends all numbers.
     #[inline(always)]
-    pub(super) fn lend(&mut self) -> Rest<'_, T> {
-        Rest(&mut *self.0)
+    pub(super) fn lend(&mut self) -> FreeMemory<'_, T> {
+        FreeMemory(&mut *self.0)
     }
 }

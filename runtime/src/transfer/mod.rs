@@ -25,13 +25,13 @@ mod states;
 
 pub use budget::{EnergyDefinition, SectorBudget};
 pub use constants::RigidLink;
-pub use forces::Acting;
-pub use orders::{Expansion, Order};
+pub use forces::NonConservative;
+pub use orders::{Order, OrderedTransfers};
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use constants::{Constants, moments, rounded};
+use constants::{MassConstants, moments, rounded};
 use forces::Passive;
 use shape::SymmetricShape;
 
@@ -99,7 +99,7 @@ use crate::sectors::{Sector, Sectors};
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymmetricTree<T> {
     shape: Arc<SymmetricShape>,
-    whole: Constants<T>,
+    whole: MassConstants<T>,
     mean: Option<MeanTree<T>>,
     bodies: Vec<RigidLink<T>>,
     passive: Passive<T>,
@@ -108,9 +108,9 @@ pub struct SymmetricTree<T> {
 /// The tree of equal copies beside one whose copies differ.
 #[derive(Clone, Debug, PartialEq)]
 struct MeanTree<T> {
-    equal: Constants<T>,
+    equal: MassConstants<T>,
     /// The constants less these.
-    beyond: Constants<T>,
+    beyond: MassConstants<T>,
 }
 
 /// A state of a tree, as it is given.
@@ -184,7 +184,7 @@ impl<T: Scalar> SymmetricTree<T> {
         if nodes.iter().flatten().any(|&link| link >= links.len()) {
             return None;
         }
-        let whole = Constants::new(&shape.pattern, &links, gravity);
+        let whole = MassConstants::new(&shape.pattern, &links, gravity);
         let mean = (!nodes.is_empty()).then(|| {
             let equal = whole.mean(&shape.pattern, nodes);
             MeanTree {
@@ -301,7 +301,7 @@ impl<T: Scalar> SymmetricTree<T> {
 
     /// The constants that energies of sectors are formed with.
     #[inline(always)]
-    fn equal(&self) -> &Constants<T> {
+    fn equal(&self) -> &MassConstants<T> {
         match &self.mean {
             Some(mean) => &mean.equal,
             None => &self.whole,

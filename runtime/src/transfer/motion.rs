@@ -1,14 +1,14 @@
 //! A state of a tree with copies, and what its constants make of it.
 
-use super::constants::Constants;
-use super::memory::Rest;
+use super::constants::MassConstants;
+use super::memory::FreeMemory;
 use super::pattern::{Entries, Pattern, multiply, write_slopes};
 use super::{Given, SymmetricTree};
 use crate::scalar::{Scalar, at};
 use crate::sectors::{Normalisation, Sectors};
 
 /// Angles, their sines and cosines, velocities and momenta.
-pub(super) struct Motion<'w, T> {
+pub(super) struct TreeMotion<'w, T> {
     pub(super) theta: &'w [T],
     pub(super) omega: &'w [T],
     pub(super) sines: &'w [T],
@@ -16,19 +16,19 @@ pub(super) struct Motion<'w, T> {
     /// Momenta of the symmetric coordinates.
     pub(super) momenta: &'w [T],
     /// Entries of the mass matrix of the tree.
-    pub(super) matrix: Matrix<'w, T>,
+    pub(super) matrix: MassEntries<'w, T>,
 }
 
 /// Entries of a mass matrix beside its diagonal, and their derivatives by the angle of their
 /// row.
 #[derive(Clone, Copy)]
-pub(super) struct Matrix<'w, T> {
+pub(super) struct MassEntries<'w, T> {
     pub(super) beside: &'w [T],
     pub(super) slopes: &'w [T],
 }
 
 /// Derivatives of K at fixed velocities and of U, by the angles.
-pub(super) struct Slopes<'w, T> {
+pub(super) struct SlopesOfEnergies<'w, T> {
     pub(super) kinetic: &'w [T],
     pub(super) potential: &'w [T],
 }
@@ -49,8 +49,8 @@ impl<T: Scalar> SymmetricTree<T> {
     pub(super) fn motion<'w>(
         &self,
         given: Given<'_, T>,
-        memory: &mut Rest<'w, T>,
-    ) -> Option<Motion<'w, T>> {
+        memory: &mut FreeMemory<'w, T>,
+    ) -> Option<TreeMotion<'w, T>> {
         let (shape, plain) = (&*self.shape, Normalisation::Plain);
         let links = shape.links();
         if given.lengths() != [links; 2] {
@@ -81,7 +81,7 @@ impl<T: Scalar> SymmetricTree<T> {
             multiply(pattern, inertia, matrix.beside, omega, absolute);
             self.symmetric_momenta_from_absolute(plain, absolute, momenta);
         }
-        Some(Motion {
+        Some(TreeMotion {
             theta,
             omega,
             sines,
@@ -95,10 +95,10 @@ impl<T: Scalar> SymmetricTree<T> {
     #[inline]
     pub(super) fn matrix<'w>(
         &self,
-        constants: &Constants<T>,
+        constants: &MassConstants<T>,
         [sines, cosines]: [&[T]; 2],
-        memory: &mut Rest<'w, T>,
-    ) -> Matrix<'w, T> {
+        memory: &mut FreeMemory<'w, T>,
+    ) -> MassEntries<'w, T> {
         let pattern = &self.shape.pattern;
         let [beside, slopes] = [(); 2].map(|()| memory.take(pattern.entries()));
         for (place, row, column) in pattern.iter() {
@@ -111,17 +111,17 @@ impl<T: Scalar> SymmetricTree<T> {
             }
             (beside[place], slopes[place]) = (entry, slope);
         }
-        Matrix { beside, slopes }
+        MassEntries { beside, slopes }
     }
 
     /// Turns forces into what they accelerate, or momenta into velocities.
     #[inline]
     pub(super) fn solve(
         &self,
-        constants: &Constants<T>,
-        matrix: Matrix<'_, T>,
+        constants: &MassConstants<T>,
+        matrix: MassEntries<'_, T>,
         values: &mut [T],
-        mut memory: Rest<'_, T>,
+        mut memory: FreeMemory<'_, T>,
     ) {
         let pattern = &self.shape.pattern;
         let mut factors = Entries {
@@ -138,20 +138,25 @@ impl<T: Scalar> SymmetricTree<T> {
     #[inline]
     pub(super) fn slopes<'w>(
         &self,
-        constants: &Constants<T>,
-        matrix: Matrix<'_, T>,
-        motion: &Motion<'_, T>,
-        memory: &mut Rest<'w, T>,
-    ) -> Slopes<'w, T> {
+        constants: &MassConstants<T>,
+        matrix: MassEntries<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        memory: &mut FreeMemory<'w, T>,
+    ) -> SlopesOfEnergies<'w, T> {
         let pattern = &self.shape.pattern;
         let [kinetic, potential] = [(); 2].map(|()| memory.take(pattern.rows()));
         write_kinetic_slopes(pattern, matrix.slopes, motion.omega, kinetic);
         self.write_fall(constants, motion, potential);
-        Slopes { kinetic, potential }
+        SlopesOfEnergies { kinetic, potential }
     }
 
     /// Writes the derivatives of U by the angles.
-    fn write_fall(&self, constants: &Constants<T>, motion: &Motion<'_, T>, slopes: &mut [T]) {
+    fn write_fall(
+        &self,
+        constants: &MassConstants<T>,
+        motion: &TreeMotion<'_, T>,
+        slopes: &mut [T],
+    ) {
         for (link, slope) in slopes.iter_mut().enumerate() {
             *slope = constants.gravity[link] * motion.sines[link];
             if let Some(&lateral) = constants.lateral_gravity.get(link) {
@@ -171,8 +176,8 @@ impl<T: Scalar> SymmetricTree<T> {
     /// Δκ φ − κ̄ Δρ with the strain φ.
     pub(super) fn write_fall_beyond(
         &self,
-        [whole, mean, beyond]: [&Constants<T>; 3],
-        motion: &Motion<'_, T>,
+        [whole, mean, beyond]: [&MassConstants<T>; 3],
+        motion: &TreeMotion<'_, T>,
         slopes: &mut [T],
     ) {
         for (link, slope) in slopes.iter_mut().enumerate() {
@@ -193,7 +198,7 @@ impl<T: Scalar> SymmetricTree<T> {
 
     /// θ − θ_parent − ρ.
     #[inline(always)]
-    fn strain(&self, constants: &Constants<T>, theta: &[T], link: usize) -> T {
+    fn strain(&self, constants: &MassConstants<T>, theta: &[T], link: usize) -> T {
         let own = match self.shape.parents[link] {
             Some(parent) => theta[link] - theta[parent],
             None => theta[link],
@@ -202,7 +207,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 
     /// U.
-    pub(super) fn potential_energy(&self, motion: &Motion<'_, T>) -> T {
+    pub(super) fn potential_energy(&self, motion: &TreeMotion<'_, T>) -> T {
         let (constants, half) = (&self.whole, T::from_f64(0.5));
         let mut energy = T::from_f64(0.0);
         for (link, &gravity) in constants.gravity.iter().enumerate() {

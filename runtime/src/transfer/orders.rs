@@ -22,7 +22,7 @@ pub enum Order {
 /// A tree in power series of `N` coefficients, which gives the transfers of all orders below
 /// `N` at once: [`SymmetricTree::expansion`].
 #[derive(Clone, Debug)]
-pub struct Expansion<T, const N: usize> {
+pub struct OrderedTransfers<T, const N: usize> {
     tree: SymmetricTree<PowerSeries<T, N>>,
     /// True for each coordinate that counts as small.
     small: Vec<bool>,
@@ -35,14 +35,14 @@ impl<T: Scalar> SymmetricTree<T> {
     /// Returns the tree expanded in the differences of these sectors, or of all where none is
     /// named by its number, through order `N` − 1.
     #[must_use]
-    pub fn expansion<const N: usize>(&self, small: &[usize]) -> Expansion<T, N> {
+    pub fn expansion<const N: usize>(&self, small: &[usize]) -> OrderedTransfers<T, N> {
         let mut is_small = Vec::with_capacity(self.links());
         for (number, block) in self.shape.blocks.iter().enumerate() {
             let own = !block.is_mean && (small.is_empty() || small.contains(&number));
             is_small.resize(is_small.len() + block.columns.len(), own);
         }
         let zero = PowerSeries::constant(T::from_f64(0.0));
-        Expansion {
+        OrderedTransfers {
             tree: self.cast(PowerSeries::constant),
             coordinates: alloc::vec![zero; is_small.len()],
             momenta: alloc::vec![zero; is_small.len()],
@@ -96,7 +96,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 }
 
-impl<T: Scalar, const N: usize> Expansion<T, N> {
+impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
     /// Writes the transfers into all sectors through an order, at symmetric coordinates and
     /// their momenta. Allocates the first time. NaN for slices of other lengths, and for orders
     /// that the series do not have.

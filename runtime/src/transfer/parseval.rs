@@ -2,8 +2,8 @@
 //! of mass in each sector they sum to H.
 
 use super::SymmetricTree;
-use super::memory::Rest;
-use super::motion::Motion;
+use super::memory::FreeMemory;
+use super::motion::TreeMotion;
 use super::shape::BlockShape;
 use crate::scalar::Scalar;
 
@@ -20,7 +20,7 @@ pub(super) const FORMED: usize = 5;
 
 /// Kinetic energy of a sector, with its derivatives by the angular velocities and by the
 /// angles.
-pub(super) struct Share<'w, T> {
+pub(super) struct ParsevalShare<'w, T> {
     pub(super) kinetic: T,
     pub(super) by_omega: &'w mut [T],
     pub(super) by_theta: &'w mut [T],
@@ -29,8 +29,8 @@ pub(super) struct Share<'w, T> {
 impl<T: Scalar> SymmetricTree<T> {
     pub(super) fn centres<'w>(
         &self,
-        motion: &Motion<'_, T>,
-        memory: &mut Rest<'w, T>,
+        motion: &TreeMotion<'_, T>,
+        memory: &mut FreeMemory<'w, T>,
     ) -> Centres<'w, T> {
         let links = self.shape.links();
         let [x, y] = [(); 2].map(|()| memory.take(links));
@@ -52,7 +52,7 @@ impl<T: Scalar> SymmetricTree<T> {
 
     /// Velocity of a point of a link against the link's pivot.
     #[inline(always)]
-    fn turn(&self, [along, across]: [T; 2], motion: &Motion<'_, T>, link: usize) -> [T; 2] {
+    fn turn(&self, [along, across]: [T; 2], motion: &TreeMotion<'_, T>, link: usize) -> [T; 2] {
         let (sine, cosine) = (motion.sines[link], motion.cosines[link]);
         let omega = motion.omega[link];
         [
@@ -65,10 +65,10 @@ impl<T: Scalar> SymmetricTree<T> {
     pub(super) fn share<'w>(
         &self,
         block: &BlockShape,
-        motion: &Motion<'_, T>,
+        motion: &TreeMotion<'_, T>,
         centres: &Centres<'_, T>,
-        memory: &mut Rest<'w, T>,
-    ) -> Share<'w, T> {
+        memory: &mut FreeMemory<'w, T>,
+    ) -> ParsevalShare<'w, T> {
         let (links, zero) = (self.shape.links(), T::from_f64(0.0));
         let [by_omega, by_theta] = [(); 2].map(|()| memory.take(links));
         let mut own = memory.lend();
@@ -114,7 +114,7 @@ impl<T: Scalar> SymmetricTree<T> {
                 carried_y[parent] = carried_y[parent] + whole[1];
             }
         }
-        Share {
+        ParsevalShare {
             kinetic: T::from_f64(0.5) * twice,
             by_omega,
             by_theta,

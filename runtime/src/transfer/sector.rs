@@ -7,9 +7,9 @@
 //! {E_s, U − V_s} = Σ x_i (∂V_s/∂θ_i − ∂U/∂θ_i). No inverse and no expansion.
 
 use super::SymmetricTree;
-use super::constants::Constants;
-use super::memory::Rest;
-use super::motion::{Matrix, Motion, Slopes};
+use super::constants::MassConstants;
+use super::memory::FreeMemory;
+use super::motion::{MassEntries, SlopesOfEnergies, TreeMotion};
 use super::shape::BlockShape;
 use crate::model::Transfer;
 use crate::scalar::Scalar;
@@ -29,7 +29,7 @@ pub(super) struct Alone<'w, T> {
 /// What the rest of a tree does to a sector: angular velocities and slopes of K and U.
 pub(super) struct Surroundings<'w, T> {
     pub(super) omega: &'w [T],
-    pub(super) slopes: Slopes<'w, T>,
+    pub(super) slopes: SlopesOfEnergies<'w, T>,
 }
 
 /// W_s by its parts.
@@ -64,10 +64,10 @@ impl<T: Scalar> SymmetricTree<T> {
     pub(super) fn alone<'w>(
         &self,
         block: &BlockShape,
-        constants: &Constants<T>,
-        matrix: Matrix<'w, T>,
-        motion: &Motion<'_, T>,
-        memory: &'w mut Rest<'_, T>,
+        constants: &MassConstants<T>,
+        matrix: MassEntries<'w, T>,
+        motion: &TreeMotion<'_, T>,
+        memory: &'w mut FreeMemory<'_, T>,
     ) -> Alone<'w, T> {
         let slopes = Some(matrix.slopes);
         let matrix = [&constants.inertia[..], matrix.beside];
@@ -79,8 +79,8 @@ impl<T: Scalar> SymmetricTree<T> {
     pub(super) fn alone_at_rest<'w>(
         &self,
         block: &BlockShape,
-        motion: &Motion<'_, T>,
-        memory: &'w mut Rest<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        memory: &'w mut FreeMemory<'_, T>,
     ) -> Alone<'w, T> {
         let constants = self.equal();
         let matrix = [&constants.inertia[..], &constants.coupling];
@@ -90,11 +90,11 @@ impl<T: Scalar> SymmetricTree<T> {
     fn alone_of<'w>(
         &self,
         block: &BlockShape,
-        constants: &Constants<T>,
+        constants: &MassConstants<T>,
         matrix: [&[T]; 2],
         slopes: Option<&'w [T]>,
-        motion: &Motion<'_, T>,
-        memory: &'w mut Rest<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        memory: &'w mut FreeMemory<'_, T>,
     ) -> Alone<'w, T> {
         let (shape, mut memory) = (&self.shape, memory.lend());
         let [velocities, fall] = [(); 2].map(|()| memory.take(shape.links()));

@@ -22,14 +22,14 @@ pub(super) struct BlockShape {
     pub(super) first: usize,
     /// Entries between its coordinates.
     pub(super) pattern: Pattern,
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<SectorColumn>,
     /// True for the sector of the means.
     pub(super) is_mean: bool,
 }
 
 /// A coordinate.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Column {
+pub(super) struct SectorColumn {
     pub(super) weights: Vec<(usize, f64)>,
     /// Σ weight².
     pub(super) norm: f64,
@@ -63,7 +63,7 @@ impl SymmetricShape {
                     *own.get_mut(*link)? = (number, index);
                 }
                 above.push(parent);
-                columns.push(Column::new(coordinate, parent.is_some()));
+                columns.push(SectorColumn::new(coordinate, parent.is_some()));
             }
             blocks.push(BlockShape {
                 first,
@@ -96,7 +96,7 @@ impl SymmetricShape {
     }
 }
 
-impl Column {
+impl SectorColumn {
     fn new(coordinate: &SectorCoordinate, is_below: bool) -> Self {
         Self {
             weights: coordinate.weights().to_vec(),

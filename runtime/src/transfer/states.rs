@@ -1,8 +1,8 @@
 //! Momenta, velocities and the energy H.
 
-use super::memory::Rest;
-use super::motion::{Motion, factors, room};
-use super::{Acting, Given, SymmetricTree};
+use super::memory::FreeMemory;
+use super::motion::{TreeMotion, factors, room};
+use super::{Given, NonConservative, SymmetricTree};
 use crate::scalar::Scalar;
 use crate::sectors::{Normalisation, Sectors};
 use crate::system::Workspace;
@@ -58,11 +58,11 @@ impl<T: Scalar> SymmetricTree<T> {
     pub fn accelerations_by(
         &self,
         workspace: &mut Workspace<T>,
-        acting: Acting<'_, T>,
+        acting: NonConservative<'_, T>,
         given: Given<'_, T>,
         accelerations: &mut [T],
     ) {
-        let mut memory = Rest(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
         match self.motion(given, &mut memory) {
             Some(motion) if accelerations.len() == self.links() => {
                 accelerations.fill(T::from_f64(0.0));
@@ -88,7 +88,7 @@ impl<T: Scalar> SymmetricTree<T> {
         workspace: &mut Workspace<T>,
         given: Given<'_, T>,
     ) -> [T; 2] {
-        let mut memory = Rest(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
         let Some(motion) = self.motion(given, &mut memory) else {
             return [T::from_f64(f64::NAN); 2];
         };
@@ -100,7 +100,7 @@ impl<T: Scalar> SymmetricTree<T> {
     }
 
     /// Writes the momenta of the absolute angles.
-    pub(super) fn write_absolute_momenta(&self, motion: &Motion<'_, T>, momenta: &mut [T]) {
+    pub(super) fn write_absolute_momenta(&self, motion: &TreeMotion<'_, T>, momenta: &mut [T]) {
         let plain = Normalisation::Plain;
         self.absolute_momenta_from_symmetric(plain, motion.momenta, momenta);
     }
@@ -110,9 +110,9 @@ impl<T: Scalar> SymmetricTree<T> {
         workspace: &mut Workspace<T>,
         given: Given<'_, T>,
         values: &mut [T],
-        write: impl FnOnce(&Motion<'_, T>, &mut [T]),
+        write: impl FnOnce(&TreeMotion<'_, T>, &mut [T]),
     ) {
-        let mut memory = Rest(workspace.numbers(self.state_room()));
+        let mut memory = FreeMemory(workspace.numbers(self.state_room()));
         match self.motion(given, &mut memory) {
             Some(motion) if values.len() == self.links() => write(&motion, values),
             _ => values.fill(T::from_f64(f64::NAN)),

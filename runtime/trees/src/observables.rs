@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Acting, Given, SymmetricTree};
+use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
 use branched_pendulum_codegen::scene::{
     CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Scene, Variable, VariableKind,
 };
@@ -130,7 +130,7 @@ impl Observable {
         let mut alpha = vec![0.0; theta.len()];
         let workspace = &mut Workspace::new();
         let symmetric = &self.symmetric;
-        symmetric.accelerations_by(workspace, Acting::Friction, given, &mut alpha);
+        symmetric.accelerations_by(workspace, NonConservative::Friction, given, &mut alpha);
         let still = vec![0.0; theta.len()];
         let moving = [along(&theta, &still), along(&omega, &alpha)];
         let [rate] = self.at(&self.moving, [&moving[0], &moving[1]]).tangents;

@@ -5,7 +5,9 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Acting, EnergyDefinition, Given, SectorBudget, SymmetricTree};
+use branched_pendulum::transfer::{
+    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+};
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
@@ -44,7 +46,7 @@ fn state(links: usize) -> [Vec<f64>; 3] {
 fn budget<T: Scalar>(
     tree: &SymmetricTree<T>,
     definition: EnergyDefinition,
-    acting: &[Acting<'_, T>],
+    acting: &[NonConservative<'_, T>],
     [theta, omega]: [&[T]; 2],
 ) -> SectorBudget<T> {
     let mut budget = SectorBudget::new();
@@ -82,9 +84,9 @@ fn energies_change_as_the_budget_tells() {
         let moving = [along(&theta, &omega), along(&omega, &alpha)];
         let dual = symmetric.cast(Dual::<f64, 1>::constant);
         let acting = [
-            Acting::Friction,
-            Acting::Drive(tree.drive(time).unwrap()),
-            Acting::Torques(&torques),
+            NonConservative::Friction,
+            NonConservative::Drive(tree.drive(time).unwrap()),
+            NonConservative::Torques(&torques),
         ];
         for definition in DEFINITIONS {
             let told = budget(&symmetric, definition, &acting, [&theta, &omega]);
@@ -115,7 +117,7 @@ fn energies_by_parseval_sum_up() {
     let parseval = budget(
         &symmetric,
         EnergyDefinition::Parseval,
-        &[Acting::Friction],
+        &[NonConservative::Friction],
         [&theta, &omega],
     );
     let near = |own: f64, other: f64| {
@@ -334,7 +336,7 @@ fn slices_of_other_lengths_are_answered_with_nan() {
     let mut powers = vec![0.0; count];
     symmetric.powers(
         &mut workspace,
-        Acting::Torques(&theta[1..]),
+        NonConservative::Torques(&theta[1..]),
         given,
         &mut powers,
     );

@@ -3,7 +3,9 @@
 
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{Acting, EnergyDefinition, Given, SectorBudget, SymmetricTree};
+use branched_pendulum::transfer::{
+    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+};
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::generator::{Recipe, braked_sample, sample};
@@ -112,7 +114,7 @@ fn budgets_of_random_trees_agree_with_their_programs() {
             for (definition, entry) in DEFINITIONS {
                 let place = || format!("{entry}, state {state} of tree {seed}");
                 let derived = compiled.evaluate(entry, &inputs);
-                let acting = [Acting::Friction];
+                let acting = [NonConservative::Friction];
                 tree.budget(&mut workspace, definition, &acting, given, &mut budget);
                 compare(&mut energies, &budget.energies, &derived[..count], place);
                 let (transfers, rest) = derived[count..].split_at(count);
@@ -179,7 +181,7 @@ impl<'a> Leaf<'a> {
         [all[2 * self.sector], all[2 * self.sector + 1]]
     }
 
-    fn power(&self, acting: Acting<'_, f64>, given: Given<'_, f64>) -> f64 {
+    fn power(&self, acting: NonConservative<'_, f64>, given: Given<'_, f64>) -> f64 {
         let mut powers = vec![0.0; self.tree.sectors().len()];
         let workspace = &mut Workspace::new();
         self.tree.powers(workspace, acting, given, &mut powers);
@@ -251,14 +253,18 @@ fn transfers_into_leaves_agree_with_their_programs() {
                 let drive = driven.drive(time).expect("it has one");
                 let [coordinates, motion] = inputs;
                 for (acting, stem, inputs) in [
-                    (Acting::Friction, "friction", vec![coordinates, motion]),
                     (
-                        Acting::Drive(drive),
+                        NonConservative::Friction,
+                        "friction",
+                        vec![coordinates, motion],
+                    ),
+                    (
+                        NonConservative::Drive(drive),
                         "drive",
                         vec![&[time], coordinates, motion],
                     ),
                     (
-                        Acting::Torques(&torques),
+                        NonConservative::Torques(&torques),
                         "outside",
                         vec![coordinates, motion, &torques],
                     ),

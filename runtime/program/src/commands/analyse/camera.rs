@@ -5,10 +5,10 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::subject::Subject;
+use super::subject::MeasuredSubject;
 use crate::Failure;
 use crate::motion::{MethodArguments, sample};
-use crate::subject::Subject as Described;
+use crate::subject::Subject;
 
 /// Pictures of a tree by a camera, each link by two dots.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,8 +45,8 @@ pub struct Truth<const N: usize> {
 /// # Errors
 /// [`Failure::Motion`].
 pub fn motion<const N: usize>(
-    described: &Described,
-    subject: &dyn Subject<N>,
+    described: &Subject,
+    subject: &dyn MeasuredSubject<N>,
     method: &MethodArguments,
     start: &State<f64>,
     [duration, rate]: [f64; 2],

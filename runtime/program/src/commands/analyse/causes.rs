@@ -9,7 +9,7 @@ use branched_pendulum_data::{AngleUnit, FileKind, Table};
 use super::arguments::Arguments;
 use super::estimate::{Draws, Estimate, Measured};
 use super::source::Source;
-use super::subject::Subject;
+use super::subject::MeasuredSubject;
 use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::Failure;
@@ -61,7 +61,7 @@ pub struct Unclosed<'a, const N: usize> {
     /// The options by which it was read and estimated.
     pub arguments: &'a Arguments,
     /// The pendulum.
-    pub subject: &'a dyn Subject<N>,
+    pub subject: &'a dyn MeasuredSubject<N>,
     /// The table.
     pub table: &'a Table,
     /// What was read of it.

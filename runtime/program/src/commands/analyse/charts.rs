@@ -6,7 +6,7 @@ use branched_pendulum_measure::Bands;
 use super::camera::Truth;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
-use super::subject::{Names, Subject};
+use super::subject::{MeasuredSubject, Names};
 
 const BLUE: Color = Color::rgb(0, 114, 178);
 const BLACK: Color = Color::rgb(0, 0, 0);
@@ -17,7 +17,7 @@ const NORMAL_95: f64 = 1.96;
 
 /// Draws the estimate; a simulated camera's truth is dashed.
 pub fn chart<const N: usize>(
-    subject: &dyn Subject<N>,
+    subject: &dyn MeasuredSubject<N>,
     source: &Source<N>,
     estimate: &Estimate<N>,
 ) -> Chart {

@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::subject::Subject;
+use super::subject::MeasuredSubject;
 use crate::Failure;
 use crate::smoothed::{Disturbances, Motion, Record, Smoothed, one_by_one};
 
@@ -59,7 +59,7 @@ pub struct Draws {
 #[derive(Clone, Copy)]
 pub struct Measured<'a, const N: usize> {
     /// The pendulum.
-    pub subject: &'a dyn Subject<N>,
+    pub subject: &'a dyn MeasuredSubject<N>,
     /// The angles.
     pub record: Record<'a, N>,
 }

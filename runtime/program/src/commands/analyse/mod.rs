@@ -28,14 +28,14 @@ pub mod wrong_pictures;
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
-pub use subject::{MeasuredTree, Subject};
+pub use subject::{MeasuredSubject, MeasuredTree};
 
 use branched_pendulum::system::Model;
 use branched_pendulum_data::{Table, TableOptions};
 
 use crate::Failure;
 use crate::frame::{Job, Progress};
-use crate::subject::Subject as Described;
+use crate::subject::Subject;
 use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
@@ -79,7 +79,7 @@ const MOST_LINKS: usize = 6;
 fn of_links<const N: usize, const D: usize>(
     arguments: &Arguments,
     job: &Job,
-    described: &Described,
+    described: &Subject,
     table: Option<&Table>,
 ) -> Result<(), Failure> {
     let subject = MeasuredTree::<N, D>::new(described, arguments.sector.as_deref())?;
@@ -93,7 +93,7 @@ fn of_links<const N: usize, const D: usize>(
 fn analyse<const N: usize>(
     arguments: &Arguments,
     job: &Job,
-    subject: &dyn Subject<N>,
+    subject: &dyn MeasuredSubject<N>,
     table: Option<&Table>,
     source: &Source<N>,
 ) -> Result<(), Failure> {
@@ -118,7 +118,7 @@ fn analyse<const N: usize>(
 /// table.
 fn judged<const N: usize>(
     arguments: &Arguments,
-    subject: &dyn Subject<N>,
+    subject: &dyn MeasuredSubject<N>,
     table: Option<&Table>,
     source: &Source<N>,
     progress: &Progress,

@@ -7,7 +7,7 @@ use super::camera::{Camera, Truth, motion};
 use super::subject::MeasuredTree;
 use crate::Failure;
 use crate::smoothed::Record;
-use crate::subject::Subject as Described;
+use crate::subject::Subject;
 
 /// Distance of the two dots of a link before the simulated camera, m.
 const DOTS: f64 = 0.25;
@@ -58,7 +58,7 @@ impl<const N: usize> Source<N> {
     /// [`MeasuredTree::new`].
     pub fn simulate<const D: usize>(
         arguments: &Arguments,
-        real: &Described,
+        real: &Subject,
     ) -> Result<Self, Failure> {
         let subject = MeasuredTree::<N, D>::new(real, arguments.sector.as_deref())?;
         let mut start = arguments.release.state(real)?;

@@ -6,13 +6,13 @@ use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Energy, Model, Workspace};
-use branched_pendulum::transfer::{Acting, Given, SymmetricTree};
+use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
 use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
 use crate::smoothed::{Motion, Record, Smoothed, by_equations};
-use crate::subject::Subject as Described;
+use crate::subject::Subject;
 
 /// Names of what is told about a tree.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ pub struct Powers {
 }
 
 /// A tree of N links that were measured.
-pub trait Subject<const N: usize> {
+pub trait MeasuredSubject<const N: usize> {
     /// Names of what is told.
     fn names(&self) -> &Names<N>;
 
@@ -114,7 +114,7 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
     /// # Errors
     /// [`Failure::Lacking`] for a sector that there is not, and [`Failure::Tree`] for values that
     /// no pendulum with copies can have.
-    pub fn new(described: &Described, asked: Option<&str>) -> Result<Self, Failure> {
+    pub fn new(described: &Subject, asked: Option<&str>) -> Result<Self, Failure> {
         let tree = described.tree.clone();
         let sectors = tree.sectors();
         let names: Vec<&str> = sectors.iter().map(|own| own.name()).collect();
@@ -192,7 +192,7 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
     }
 }
 
-fn names_of<const N: usize>(described: &Described, told: Option<usize>) -> Names<N> {
+fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N> {
     let tree = &described.tree;
     let sectors = tree.sectors();
     let all: Vec<&str> = sectors
@@ -267,7 +267,7 @@ fn sector_energy<T: Scalar, const N: usize>(
     kinetic + potential
 }
 
-impl<const N: usize, const D: usize> Subject<N> for MeasuredTree<N, D> {
+impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
     fn names(&self) -> &Names<N> {
         &self.names
     }
@@ -342,11 +342,11 @@ impl<const N: usize, const D: usize> Subject<N> for MeasuredTree<N, D> {
         tree.exact_transfers(&mut workspace, given, &mut transfers[..count]);
         let told = transfers[*sector].total();
         let mut whole = told;
-        let drive = self.tree.drive(time).map(Acting::Drive);
+        let drive = self.tree.drive(time).map(NonConservative::Drive);
         let acting = [
-            Some(Acting::Friction),
+            Some(NonConservative::Friction),
             drive,
-            Some(Acting::Torques(&torques)),
+            Some(NonConservative::Torques(&torques)),
         ];
         for acting in acting.into_iter().flatten() {
             let mut powers = [0.0; N];

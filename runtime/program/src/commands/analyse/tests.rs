@@ -11,9 +11,9 @@ use super::estimate::{Draws, Estimate, Measured, quantity};
 use super::report::{Trust, power_error};
 use super::source::Source;
 use super::spectrogram::Spectrogram;
-use super::subject::{MeasuredTree, Subject};
+use super::subject::{MeasuredSubject, MeasuredTree};
 use crate::frame::command_line::parse_line;
-use crate::subject::Subject as Described;
+use crate::subject::Subject;
 
 /// A camera before the paper's pendulum with these options.
 pub(super) fn paper(options: &str) -> Arguments {
@@ -23,7 +23,7 @@ pub(super) fn paper(options: &str) -> Arguments {
 /// The real tree of a camera, and the tree that is assumed.
 pub(super) fn tree<const N: usize, const D: usize>(
     arguments: &Arguments,
-) -> (Described, MeasuredTree<N, D>) {
+) -> (Subject, MeasuredTree<N, D>) {
     let (assumed, _) = constants::assumed(arguments).unwrap();
     let subject = MeasuredTree::new(&assumed, arguments.sector.as_deref()).unwrap();
     (constants::real(arguments).unwrap(), subject)

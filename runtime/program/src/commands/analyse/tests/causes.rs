@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::super::subject::Subject;
+use super::super::subject::MeasuredSubject;
 use super::super::verdict::Verdict;
 use super::super::{Arguments, Source};
 use super::super::{judged, run};
@@ -89,7 +89,7 @@ fn judge(text: &str, options: &str) -> (Verdict, Vec<String>) {
 
 fn judge_as<const N: usize>(
     arguments: &Arguments,
-    subject: &dyn Subject<N>,
+    subject: &dyn MeasuredSubject<N>,
     table: &Table,
 ) -> (Verdict, Vec<String>) {
     let source = Source::read(table, arguments, subject.parents()).unwrap();
