@@ -212,16 +212,17 @@ impl Question<'_> {
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
     subject.record(job);
-    let quantities = [
-        Quantity::of(&subject, &arguments.x)?,
-        Quantity::of(&subject, &arguments.y)?,
-    ];
+    // A tree without copies has no map at all, whatever the axes.
+    let copies = arguments.pair.copies(&subject)?;
     let question = Question {
         arguments,
         subject: &subject,
-        copies: arguments.pair.copies(&subject)?,
+        copies,
         start: arguments.release.state(&subject)?,
-        quantities,
+        quantities: [
+            Quantity::of(&subject, &arguments.x)?,
+            Quantity::of(&subject, &arguments.y)?,
+        ],
     };
     let rows = arguments.y.values.iter();
     let points: Vec<[f64; 2]> = rows
