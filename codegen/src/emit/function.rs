@@ -2,23 +2,14 @@
 
 use super::Emission;
 use super::gather::Gathered;
+use super::lines::{Line, Written, is_long};
 use super::names::Locals;
-use super::parts::{self, Line};
 use super::shapes::{argument_type, result_type};
 use super::tokens::{Binding, ident};
 use crate::functions::{Argument, Purpose};
 use crate::program::{Entry, LINK_MOTION, Op, Pass, ValueId};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
-
-/// A function before it is put together.
-pub(super) struct Written {
-    pub(super) lines: Vec<Line>,
-    pub(super) locals: Locals,
-    pub(super) gathered: Gathered,
-    /// True if the body is to be written in parts.
-    pub(super) long: bool,
-}
 
 impl Emission<'_> {
     pub(super) fn function(&self, entry: &Entry) -> TokenStream {
@@ -140,7 +131,7 @@ impl Emission<'_> {
             self.name_outputs(entry, &mut locals);
         }
         let mut lines = self.lines(&gathered, needed, &locals);
-        if splits && !long && parts::long(&lines) {
+        if splits && !long && is_long(&lines) {
             long = true;
             self.name_outputs(entry, &mut locals);
             lines = self.lines(&gathered, needed, &locals);

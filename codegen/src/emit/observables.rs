@@ -1,9 +1,9 @@
 //! Docs of observables: what they mean and their formulas.
 
 use super::Emission;
+use crate::functions::ObservableForm;
 use crate::mechanics::ObservableFormulas;
 use crate::mechanics::expression::{Expr, NamedFormula, SymbolId};
-use crate::scene::ObservableForm;
 
 impl Emission<'_> {
     pub(super) fn observable_meaning(&self, number: usize, form: ObservableForm) -> Vec<String> {

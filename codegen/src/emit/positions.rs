@@ -1,10 +1,10 @@
 //! Where links are: docs and formulas of the functions, and the runtime's trait.
 
 use super::Emission;
-use crate::functions::{PointKind, Purpose};
+use crate::functions::{LINK_PROPERTIES, PointKind, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula};
 use crate::mechanics::{LinkPositions, RelativePosition};
-use crate::scene::{LINK_PROPERTIES, Layout, LinkId};
+use crate::scene::{Layout, LinkId};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

@@ -5,9 +5,9 @@
 //! would those that are formed of it alone.
 
 use super::Emission;
-use super::function::Written;
+use super::lines::{Line, Written, is_whole};
 use super::names::Locals;
-use super::parts::{self, FunctionPart, Line, SHARED};
+use super::parts::{FunctionPart, SHARED};
 use super::tokens::{Binding, ident};
 use crate::functions::{Argument, Purpose};
 use crate::program::{Entry, Op, Pass, ValueId};
@@ -50,7 +50,7 @@ impl Emission<'_> {
         self.program.without != Some(Pass::Order)
             && entry.purpose == Purpose::Accelerations
             && written.gathered.whole == Some(Argument::Theta)
-            && parts::is_whole(&written.lines)
+            && is_whole(&written.lines)
             && self.program.live(entry) > WAITING
     }
 

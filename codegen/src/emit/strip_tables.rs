@@ -4,9 +4,9 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
-use crate::functions::Purpose;
+use crate::functions::{LINK_PROPERTIES, Purpose};
 use crate::program::{Column, ConstantId, ConstantOp, LoopTree, Op, StripConstants, ValueId};
-use crate::scene::{LINK_PROPERTIES, Layout};
+use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::BTreeMap;

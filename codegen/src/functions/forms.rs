@@ -104,3 +104,45 @@ impl Counting {
         }
     }
 }
+
+named_members! {
+    /// Quantity that a function gives of an observable. Names are ends of the names of
+    /// functions.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum ObservableForm {
+        /// F from coordinates and velocities.
+        Value = "",
+        /// dF/dt from coordinates and velocities.
+        Rate = "_rate",
+        /// The part of dF/dt that is friction and drag.
+        FrictionRate = "_friction_rate",
+        /// F from coordinates and momenta.
+        FromMomenta = "_from_momenta",
+        /// dF/dt from coordinates and momenta.
+        RateFromMomenta = "_rate_from_momenta",
+    }
+}
+
+impl ObservableForm {
+    /// Returns true if it is a rate by all forces.
+    pub fn is_rate(self) -> bool {
+        matches!(self, Self::Rate | Self::RateFromMomenta)
+    }
+
+    /// Returns true if momenta are handed over.
+    pub fn is_from_momenta(self) -> bool {
+        matches!(self, Self::FromMomenta | Self::RateFromMomenta)
+    }
+}
+
+/// Meaning of the properties of a link, in the order in which a model hands them over.
+pub const LINK_PROPERTIES: [&str; 8] = [
+    "mass (kg)",
+    "moment of inertia about the centre of mass (kg m²)",
+    "place of the centre of mass along the link, from its pivot (m)",
+    "place of the centre of mass across the link (m)",
+    "place of the pivot along the parent, from the parent's pivot (m)",
+    "place of the pivot across the parent (m)",
+    "place of the end along the link, from its pivot (m)",
+    "place of the end across the link (m)",
+];

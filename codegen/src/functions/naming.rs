@@ -1,14 +1,6 @@
-//! Names that functions are called after, and all functions that models may have.
+//! Names that functions are called after.
 
-use super::{
-    Argument, CANONICAL, Cause, Counting, EnergyDefinition, EntryState, PointKind, Purpose,
-    ResultShape,
-};
-use crate::scene::ObservableForm;
-use std::ops::RangeInclusive;
-
-/// Orders that any truncated form has.
-const ORDERS: RangeInclusive<u32> = 1..=8;
+use super::{Argument, ResultShape};
 
 /// Name, arguments and result of a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,57 +46,5 @@ impl Naming {
             observables: Vec::new(),
             transverse: vec![star()],
         }
-    }
-
-    /// The functions that a tree which is written out may have.
-    pub fn purposes(&self) -> Vec<Purpose> {
-        use Purpose as P;
-        let is_of_loops = |purpose: &P| matches!(purpose, P::RootGravity | P::RootDrive);
-        let mut all = P::singles();
-        all.retain(|purpose| !is_of_loops(purpose));
-        all.extend((0..self.prescribed.len()).map(P::Prescribed));
-        for kind in PointKind::ALL {
-            all.extend([
-                P::Positions(kind),
-                P::PointVelocities(kind),
-                P::PointTorques(kind),
-            ]);
-        }
-        let orders = Counting::ALL
-            .into_iter()
-            .flat_map(|counting| ORDERS.map(move |order| (counting, order)));
-        for transfer in 0..self.places.len() {
-            all.extend([P::SubHamiltonian(transfer), P::QuadraticForm(transfer)]);
-            let truncated = orders.clone();
-            all.extend(truncated.map(|(of, order)| P::TruncatedTransfer(transfer, of, order)));
-            for state in [CANONICAL, EntryState::Rates] {
-                all.push(P::ExactTransfer(transfer, state));
-                all.extend(Cause::ALL.map(|cause| P::SplitTransfer(transfer, cause, state)));
-                all.extend([
-                    P::AntiphaseFrictionPower(transfer, state),
-                    P::AntiphaseDrivePower(transfer, state),
-                    P::AntiphaseOutsidePower(transfer, state),
-                ]);
-            }
-        }
-        all.extend(orders.map(|(of, order)| P::TruncatedSectorTransfers(of, order)));
-        for state in [EntryState::Absolute, EntryState::Rates] {
-            all.extend([P::SectorTransfers(state), P::TransferMatrix(state)]);
-            all.extend(EnergyDefinition::ALL.map(|definition| P::Budget(definition, state)));
-        }
-        all.extend(EnergyDefinition::ALL.map(P::BudgetUnder));
-        for sector in 0..self.transverse.len() {
-            all.extend([
-                P::Transverse(sector),
-                P::TransverseMotion(sector),
-                P::TransverseEnergy(sector),
-                P::TransverseTransfer(sector),
-                P::TransverseFriction(sector, true),
-            ]);
-        }
-        for observable in 0..self.observables.len() {
-            all.extend(ObservableForm::ALL.map(|form| P::Observable(observable, form)));
-        }
-        all
     }
 }

@@ -8,10 +8,9 @@ use super::Argument::{
 };
 use super::ResultShape::{Arrays, Budget, Rows, Scalar, Transfer, Transfers, Vector};
 use super::{
-    BodyFunction, CANONICAL, Cause, Counting, EnergyDefinition, EntryState, LinkFunction, Naming,
-    PointKind, ResultShape, ScaleFunction, Signature,
+    BodyFunction, CANONICAL, Cause, Counting, EnergyDefinition, EntryState, LINK_PROPERTIES,
+    LinkFunction, Naming, ObservableForm, PointKind, ResultShape, ScaleFunction, Signature,
 };
-use crate::scene::{LINK_PROPERTIES, ObservableForm};
 
 /// Declares the purposes, each with the signature of its function among those that `$naming`
 /// gives names and lengths.

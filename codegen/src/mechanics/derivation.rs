@@ -2,10 +2,8 @@
 //! the chain rule.
 
 use super::algebra::Formula;
-use super::drive::DerivedDrive;
 use super::expression::{Role, SymbolId, Symbols};
-use super::joint::JointDifference;
-use super::observable::CompositeObservable;
+use super::meaning::{CompositeObservable, DerivedDrive, JointDifference};
 use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::Scene;

@@ -11,23 +11,11 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::letters;
+use super::meaning::{DerivedDrive, DerivedMotion, Temporal};
 use super::print::{latex, text};
 use crate::scene::{Signal, SignalAtom, TimeFunction};
 use std::collections::BTreeMap;
 use std::convert::Infallible;
-
-/// Meaning of a symbol that depends on time alone.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Temporal<F = Expr> {
-    /// Time itself, s.
-    Time,
-    /// Sine of a function of time.
-    Sin(F),
-    /// Cosine of a function of time.
-    Cos(F),
-    /// A function of time with a name.
-    Given(F),
-}
 
 /// One component of the motion of the root's pivot.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,46 +50,6 @@ impl DriveTerms {
     pub fn time(&self) -> Option<SymbolId> {
         let mut symbols = self.temporal.iter();
         symbols.find_map(|(&symbol, meaning)| (*meaning == Temporal::Time).then_some(symbol))
-    }
-}
-
-/// Symbols that depend on time alone, while they are derived.
-pub(super) struct DerivedDrive {
-    temporal: BTreeMap<SymbolId, Temporal<Formula>>,
-    /// Sine and cosine of each argument.
-    rotations: Vec<(Formula, SymbolId, SymbolId)>,
-    torque: Option<SymbolId>,
-    pivot: Vec<DerivedMotion>,
-    friction: Formula,
-}
-
-/// A [`PivotMotion`] while it is derived.
-struct DerivedMotion {
-    name: &'static str,
-    position: Formula,
-    acceleration: Option<SymbolId>,
-    inner_acceleration: Formula,
-}
-
-impl Default for DerivedDrive {
-    fn default() -> Self {
-        Self {
-            temporal: BTreeMap::new(),
-            rotations: Vec::new(),
-            torque: None,
-            pivot: Vec::new(),
-            friction: Formula::zero(),
-        }
-    }
-}
-
-impl DerivedDrive {
-    /// Notes −2 R − Σ D w, given the terms of R and the products D w: left as squares, so
-    /// that no rounding turns its sign.
-    pub(super) fn note_friction(&mut self, dissipation: &[Formula], work: &[Formula]) {
-        let minus_two = Formula::integer(-2);
-        let viscous = dissipation.iter().map(|term| &minus_two * term);
-        self.friction = viscous.chain(work.iter().map(|work| -work.clone())).sum();
     }
 }
 

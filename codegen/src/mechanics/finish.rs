@@ -5,7 +5,7 @@ use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::DerivedExpansion;
-use super::joint::JointDifference;
+use super::meaning::JointDifference;
 use super::mismatch::Mismatch;
 use super::series::VelocitySeries;
 use super::transfer::SubHamiltonian;

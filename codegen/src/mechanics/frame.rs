@@ -4,7 +4,7 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::SymbolId;
-use super::friction::DerivedTorque;
+use super::meaning::DerivedTorque;
 use std::collections::BTreeMap;
 
 /// Lower triangle of a symmetric matrix, sparse.

@@ -6,6 +6,7 @@ use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId, Symbols};
 use super::frame::DerivedFrame;
 use super::letters;
+use super::meaning::{DerivedSource, DerivedTorque};
 use super::print::latex_name;
 use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
 
@@ -38,42 +39,6 @@ pub enum TorqueSource {
     },
     /// The component of the torques of copies in this symmetric coordinate.
     Coordinate(usize),
-}
-
-/// A braking torque while it is derived.
-#[derive(Clone)]
-pub(super) struct DerivedTorque {
-    pub(super) symbol: SymbolId,
-    pub(super) slopes: [SymbolId; 2],
-    pub(super) place: FrictionPlace,
-    pub(super) source: DerivedSource,
-}
-
-#[derive(Clone)]
-pub(super) enum DerivedSource {
-    Link { link: LinkId, rate: Formula },
-    Coordinate(usize),
-}
-
-impl DerivedTorque {
-    /// D w of a link.
-    pub(super) fn work(&self) -> Option<Formula> {
-        match &self.source {
-            DerivedSource::Link { rate, .. } => Some(&Formula::symbol(self.symbol) * rate),
-            DerivedSource::Coordinate(_) => None,
-        }
-    }
-}
-
-impl DerivedTorque {
-    /// The torque with its rate in other symbols.
-    pub(super) fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
-        let mut torque = self.clone();
-        if let DerivedSource::Link { rate, .. } = &mut torque.source {
-            *rate = rate.substitute(replacements).expand();
-        }
-        torque
-    }
 }
 
 impl FrictionPlace {

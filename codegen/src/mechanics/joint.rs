@@ -4,53 +4,11 @@
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, SymbolId};
+use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
+use super::meaning::JointDifference;
 use super::mismatch::CopyConstants;
 use crate::scene::{Coordinate, LinkId};
-
-/// A link's angle less its parent's, and less the one at which the spring is at rest; or the
-/// rate of the joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct JointDifference<F = Expr> {
-    /// The link's own angle or rate.
-    pub own: SymbolId,
-    /// The parent's.
-    pub parent: Option<SymbolId>,
-    /// The angle at which the spring is at rest, zero of rates.
-    pub rest: F,
-}
-
-impl JointDifference<Formula> {
-    /// The derivative by an angle or a rate.
-    pub(super) fn slope(&self, symbol: SymbolId) -> Option<Formula> {
-        match symbol {
-            own if own == self.own => Some(Formula::integer(1)),
-            parent if Some(parent) == self.parent => Some(Formula::integer(-1)),
-            _ => None,
-        }
-    }
-
-    /// The difference written out.
-    pub(super) fn written_out(&self) -> Formula {
-        let parent = self.parent.map_or_else(Formula::zero, Formula::symbol);
-        &(&Formula::symbol(self.own) - &parent) - &self.rest
-    }
-}
-
-impl JointDifference {
-    /// The difference as a formula, in the order in which it is computed.
-    pub fn formula(&self) -> Expr {
-        let minus = |expr: Expr| {
-            let number = Expr::Number((-1_i64).into());
-            Expr::Product(vec![number, expr])
-        };
-        let parent = self.parent.map(|parent| minus(Expr::Symbol(parent)));
-        let rest = (!self.rest.is_zero()).then(|| minus(self.rest.clone()));
-        let own = std::iter::once(Expr::Symbol(self.own));
-        Expr::Sum(own.chain(parent).chain(rest).collect())
-    }
-}
 
 /// What joints have one of.
 #[derive(Clone, Copy)]

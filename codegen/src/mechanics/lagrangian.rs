@@ -5,10 +5,10 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
-use super::friction::DerivedTorque;
 use super::joint::JointQuantity;
 use super::laws::{dissipated, stored};
 use super::letters;
+use super::meaning::DerivedTorque;
 use crate::scene::{Link, LinkId, Offset, Quantity, QuantityAtom};
 use std::convert::Infallible;
 

@@ -9,6 +9,7 @@ mod articulation;
 mod body;
 mod bracket;
 mod derivation;
+mod differences;
 mod drive;
 pub mod expression;
 mod finish;
@@ -24,6 +25,7 @@ mod laws;
 mod letters;
 mod link;
 mod lock;
+mod meaning;
 mod mismatch;
 mod observable;
 mod observable_rate;
@@ -46,12 +48,13 @@ pub use algebra::AlgebraError;
 pub use articulation::{Articulation, Joint};
 pub use body::{BodySymbols, LinkBody};
 pub use derivation::{AngleCombination, CombinationId, Trigonometric};
-pub use drive::{DriveTerms, PivotMotion, Temporal};
+pub use differences::{SmallFormulas, SmallMechanics, TransverseFormulas, TransverseMechanics};
+pub use drive::{DriveTerms, PivotMotion};
 pub use friction::{BrakingTorque, TorqueSource};
-pub use joint::JointDifference;
 pub use joint_forces::{JointForces, JointSymbols};
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use lock::LockError;
+pub use meaning::{JointDifference, Temporal};
 pub use observables::{
     AppliedFunction, CanonicalRate, EnergySymbols, LinearSystem, NestedSymbols, ObservableFormulas,
     ObservableFrame, Observables,
@@ -61,8 +64,6 @@ pub(crate) use print::superscript;
 pub use print::{constant_latex, constant_text, latex, text};
 pub use scales::{LinkScales, ScaleSymbols};
 pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
-pub use small::{SmallFormulas, SmallMechanics};
-pub use transverse::{TransverseFormulas, TransverseMechanics};
 pub use work_limit::MOST_TERMS;
 
 use crate::functions::Counting;

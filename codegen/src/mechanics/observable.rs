@@ -4,19 +4,11 @@ use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
+use super::meaning::CompositeObservable;
 use super::print;
 use crate::scene::{
     Coordinate, CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Variable, VariableKind,
 };
-
-/// Meaning of a symbol that stands for a function of an expression.
-pub(super) struct CompositeObservable {
-    pub(super) function: Function,
-    pub(super) argument: Formula,
-    /// The cosine that belongs to a sine, and the other way round; the symbol
-    /// itself for a root.
-    partner: SymbolId,
-}
 
 /// The frame in which an observable is written: the variables are those of one
 /// frame.

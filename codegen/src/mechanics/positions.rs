@@ -6,7 +6,8 @@ use super::derivation::Derivation;
 use super::expression::{Expr, SymbolId};
 use super::frame::DerivedFrame;
 use super::print::latex_name;
-use crate::scene::{LINK_PROPERTIES, LinkId, Offset};
+use crate::functions::LINK_PROPERTIES;
+use crate::scene::{LinkId, Offset};
 
 /// A point of a link, from the pivot of that link: x to the side, y upwards.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,67 +7,11 @@
 //! those of θ get half the second derivative of their own terms, and those of δ are
 //! the transverse equations at the accelerations that come of it.
 
+use super::MatrixEntry;
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::{Expr, SymbolId};
+use super::differences::{SmallFormulas, SmallMechanics, SmallMotion, TransverseFormulas};
 use super::frame::DerivedFrame;
-use super::transverse::{SmallMotion, TransverseFormulas};
-use super::{MatrixEntry, TransverseMechanics};
-
-/// Terms that the differences of one sector add to the equations of the in-phase motion, and
-/// what couples the two: with the sector's own masses M_δ,
-/// (M + `mass`) θ̈ + `coupling`ᵀ δ̈ + b + `bias` = 0 and
-/// `coupling` θ̈ + M_δ δ̈ + `difference_bias` = 0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SmallFormulas {
-    /// Number of the transverse sector.
-    pub sector: usize,
-    /// Second order of the mass matrix of all links, lower triangle.
-    pub mass: Vec<MatrixEntry>,
-    /// First order of the rows of the mass matrix that are the sector's.
-    pub coupling: Vec<MatrixEntry>,
-    /// Second order of the other terms, for all links.
-    pub bias: Vec<Expr>,
-    /// First order of the other terms of the sector's links.
-    pub difference_bias: Vec<Expr>,
-    /// Second order of the energy.
-    pub energy: Expr,
-}
-
-/// Differences of the named sectors, as they act back.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SmallMechanics {
-    /// Energy of the motion without differences.
-    pub energy: Expr,
-    /// The sectors, in the order of the differences in the state.
-    pub sectors: Vec<SmallFormulas>,
-}
-
-impl TransverseMechanics {
-    /// The symbol with that number of the differences that act back, or of their rates.
-    pub fn small_symbol(
-        &self,
-        index: usize,
-        of: impl Fn(&TransverseFormulas) -> &[SymbolId],
-    ) -> Option<SymbolId> {
-        let sectors = self.small.iter().flat_map(|small| &small.sectors);
-        let mut symbols = sectors.flat_map(|formulas| of(&self.sectors[formulas.sector]));
-        symbols.nth(index).copied()
-    }
-}
-
-impl SmallMechanics {
-    /// Place of the differences of each sector among those of all, in their order, and
-    /// behind them the number of all.
-    pub fn offsets(&self, transverse: &TransverseMechanics) -> Vec<usize> {
-        let mut offsets = vec![0];
-        for formulas in &self.sectors {
-            let links = transverse.sectors[formulas.sector].sector.links;
-            offsets.push(offsets[offsets.len() - 1] + links);
-        }
-        offsets
-    }
-}
 
 impl Derivation<'_> {
     pub(super) fn small(

@@ -8,98 +8,13 @@
 use super::MatrixEntry;
 use super::algebra::Formula;
 use super::derivation::Derivation;
-use super::expression::{Expr, Role, SymbolId};
+use super::differences::{SmallMotion, TransverseFormulas, TransverseMechanics};
+use super::expression::{Role, SymbolId};
 use super::frame::DerivedFrame;
 use super::joint::JointQuantity;
-use super::small::SmallMechanics;
 use crate::scene::TransverseCopies;
 use std::collections::BTreeMap;
 use std::ops::Range;
-
-/// The equations of one sector: M δ̈ + residual = 0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TransverseFormulas {
-    /// Links of the sector.
-    pub sector: TransverseCopies,
-    /// Differences of its links.
-    pub differences: Vec<SymbolId>,
-    /// Their rates.
-    pub rates: Vec<SymbolId>,
-    /// The sector's block of the mass matrix, lower triangle; of one holder's copies.
-    pub mass: Vec<MatrixEntry>,
-    /// Terms linear in the differences and their rates, friction and drag included.
-    pub residual: Vec<Expr>,
-    /// Energy of the differences in one holder's copies.
-    pub energy: Expr,
-    /// Rate of the energy without friction and drag.
-    pub transfer: Expr,
-    /// The power of friction and drag on it; zero without both.
-    pub friction: Expr,
-    /// True if that power depends on the in-phase motion, as it does where friction is not
-    /// viscous.
-    pub braked: bool,
-}
-
-/// All sectors, with the accelerations of the in-phase motion that drive them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TransverseMechanics {
-    /// Accelerations of the scene's links.
-    pub accelerations: Vec<SymbolId>,
-    /// The sectors.
-    pub sectors: Vec<TransverseFormulas>,
-    /// Small differences that act back, if any are asked for.
-    pub small: Option<SmallMechanics>,
-}
-
-/// Symbols of the small motion of all links beside the in-phase one.
-pub(super) struct SmallMotion {
-    accelerations: Vec<SymbolId>,
-    differences: Vec<SymbolId>,
-    rates: Vec<SymbolId>,
-    /// Angles and rates of joints by their symbols: the link, and by how much they change
-    /// where the parent does not change and where it does.
-    joints: BTreeMap<SymbolId, (usize, [Formula; 2])>,
-}
-
-impl SmallMotion {
-    fn difference(&self, link: usize) -> Formula {
-        Formula::symbol(self.differences[link])
-    }
-
-    fn rate(&self, link: usize) -> Formula {
-        Formula::symbol(self.rates[link])
-    }
-
-    /// By how much an angle or a rate, of a link or of a joint, changes where these links move;
-    /// none where the symbol is no such thing.
-    fn change(
-        &self,
-        derivation: &Derivation<'_>,
-        frame: &DerivedFrame,
-        symbol: SymbolId,
-        block: &Range<usize>,
-    ) -> Option<Formula> {
-        if let Some((link, [alone, relative])) = self.joints.get(&symbol) {
-            let parent = derivation.scene.links[*link].parent.map(|parent| parent.0);
-            let holder = parent.filter(|parent| block.contains(parent));
-            return Some(match (block.contains(link), holder) {
-                (true, Some(_)) => relative.clone(),
-                (true, None) => alone.clone(),
-                (false, _) => Formula::zero(),
-            });
-        }
-        let of = |symbols: &[SymbolId], changes: &[SymbolId]| {
-            let link = symbols.iter().position(|own| *own == symbol)?;
-            let moves = block.contains(&link);
-            Some(if moves {
-                Formula::symbol(changes[link])
-            } else {
-                Formula::zero()
-            })
-        };
-        of(&frame.coordinates, &self.differences).or_else(|| of(&frame.velocities, &self.rates))
-    }
-}
 
 impl Derivation<'_> {
     pub(super) fn transverse(&mut self, frame: &DerivedFrame) -> TransverseMechanics {

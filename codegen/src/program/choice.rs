@@ -4,21 +4,10 @@
 use super::count::{Operations, operations};
 use super::lower::{Environment, Lowering};
 use super::solve::Matrix;
-use super::{Pass, ValueId};
+use super::{Pass, SolveChoice, ValueId};
 use crate::functions::Argument;
 use crate::scene::{LinkId, Scene, Solve};
 use std::collections::BTreeMap;
-
-/// The solve for the accelerations in absolute angles, and the cost of both.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SolveChoice {
-    /// The solve that is emitted.
-    pub solve: Solve,
-    /// Operations of the factorisation; `None` where it is too long to be formed.
-    pub factorization: Option<Operations>,
-    /// Operations of the recursion.
-    pub recursion: Operations,
-}
 
 /// Accelerations of links that are given, by link.
 pub(super) type Held = BTreeMap<usize, ValueId>;

@@ -1,7 +1,7 @@
 //! Functions of time, and the powers of what moves and brakes the tree.
 
 use super::ValueId;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::{Environment, Lowering};
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::expression::SymbolId;

@@ -1,9 +1,9 @@
 //! The entry points that a scene's requests lead to.
 
+use super::entry_list::EntryList;
 use super::lower::{Environment, Lowering};
 use super::{Entry, LoopTree, Operations, SolveChoice, ValueId};
-use crate::functions::{Argument, Naming, Purpose};
-use crate::mechanics::expression::Expr;
+use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Frame, MatrixEntry, Mechanics};
 use crate::scene::{LinkId, Scene, Solve};
 
@@ -59,38 +59,7 @@ pub(super) fn entries(scene: &Scene, lowering: &mut Lowering<'_>) -> Lowered {
     (list.entries, choice, None)
 }
 
-pub(super) struct EntryList<'l, 'm> {
-    pub(super) lowering: &'l mut Lowering<'m>,
-    pub(super) entries: Vec<Entry>,
-    pub(super) naming: Naming,
-}
-
-impl<'l, 'm> EntryList<'l, 'm> {
-    fn new(scene: &Scene, lowering: &'l mut Lowering<'m>) -> Self {
-        Self {
-            naming: Naming::of(scene, lowering.mechanics),
-            lowering,
-            entries: Vec::new(),
-        }
-    }
-
-    /// Adds the entry point for a purpose.
-    pub(super) fn push(&mut self, purpose: Purpose, outputs: Vec<ValueId>) {
-        let signature = self.naming.signature(purpose);
-        self.entries.push(Entry::new(signature, purpose, outputs));
-    }
-
-    pub(super) fn exprs(
-        &mut self,
-        environment: &mut Environment<'_>,
-        exprs: &[Expr],
-    ) -> Vec<ValueId> {
-        exprs
-            .iter()
-            .map(|expr| self.lowering.expr(environment, expr))
-            .collect()
-    }
-
+impl EntryList<'_, '_> {
     fn absolute(&mut self, scene: &Scene, mechanics: &Mechanics) -> SolveChoice {
         use Argument::{AbsoluteMomenta, Omega, Theta};
         let frame = &mechanics.absolute;

@@ -15,6 +15,7 @@ mod dead;
 mod drive;
 mod entries;
 mod entry;
+mod entry_list;
 mod entry_state;
 mod factors;
 mod friction;
@@ -28,12 +29,12 @@ mod nested_observables;
 mod observables;
 mod operation;
 mod pair;
+mod pass;
 mod passes;
 mod positions;
 mod rebuild;
 mod rotations;
 mod rounding;
-mod rules;
 mod scale;
 mod sectors;
 mod small;
@@ -47,7 +48,7 @@ mod transverse;
 mod verify;
 mod wide;
 
-pub use choice::{SolveChoice, cost};
+pub use choice::cost;
 pub use constants::{ConstantDefinition, ConstantId, ConstantOp, Setup};
 pub use count::Operations;
 pub use entry::Entry;
@@ -55,15 +56,16 @@ pub use fuse::FusedSum;
 pub use interpret::Interpreter;
 pub use link::{Column, LINK_MOTION, LoopTree, StripConstants};
 pub use operation::{Definition, Op, ValueId};
+pub use pass::Pass;
 use passes::PASSES;
-pub use passes::{Pass, worth};
+pub use passes::worth;
 pub use rebuild::Rebuilt;
 pub use rounding::Rounding;
 pub use taylor::TaylorOutputs;
 pub use verify::Fault;
 
 use crate::mechanics::Mechanics;
-use crate::scene::Scene;
+use crate::scene::{Scene, Solve};
 
 /// Lowers everything that the scene asks for into one program, without one of the passes
 /// where the worth of that one is to be seen.
@@ -98,6 +100,17 @@ pub fn lower(
     });
     program.name_constants(mechanics);
     Ok(program)
+}
+
+/// The solve for the accelerations in absolute angles, and the cost of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SolveChoice {
+    /// The solve that is emitted.
+    pub solve: Solve,
+    /// Operations of the factorisation; `None` where it is too long to be formed.
+    pub factorization: Option<Operations>,
+    /// Operations of the recursion.
+    pub recursion: Operations,
 }
 
 /// All of a scene's code in one list.

@@ -1,13 +1,13 @@
 //! Entry points of observables: values and rates.
 
 use super::ValueId;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::{Environment, Lowering};
 use super::nested_observables::NestedObservables;
-use crate::functions::{Argument, CANONICAL, EntryState, Purpose};
+use crate::functions::{Argument, CANONICAL, EntryState, ObservableForm, Purpose};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{Frame, LinearSystem, Mechanics, ObservableFrame};
-use crate::scene::{Function, ObservableForm, Scene};
+use crate::scene::{Function, Scene};
 
 impl Lowering<'_> {
     /// The value of a symbol that only observables have.

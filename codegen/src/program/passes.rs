@@ -2,65 +2,30 @@
 //!
 //! | pass | where | acts |
 //! |---|---|---|
-//! | signs, folding, sharing | `rules/` | on an operation when it is formed |
+//! | signs, folding, sharing | `builder/rules/` | on an operation when it is formed |
 //! | angle addition | `angles.rs` | on the sine or cosine of a difference when it is formed |
 //! | choice of solve | `choice.rs` | on the accelerations, derived both ways |
 //! | common factors | `factors.rs` | on whole programs |
 //! | fusing | `fuse.rs` | on an entry point, for emission and interpreter alike |
 //! | dead code | `dead.rs` | on an entry point, which is the program pruned to its outputs |
 //! | order | `emit/sink.rs` | on accelerations with more values than registers |
-//! | splitting | `emit/parts.rs` | on functions that are too long for the compiler |
+//! | splitting | `emit/parts/` | on functions that are too long for the compiler |
 //!
 //! Every one keeps what [`Program::verify`] checks, and the meaning: exactly, or within
 //! the roundings that its file states.
 
 use super::count::{Operations, operations};
-use super::{Entry, Program, ValueId, factors, lower};
+use super::{Entry, Pass, Program, ValueId, factors, lower};
 use crate::functions::LinkFunction;
 use crate::mechanics::Mechanics;
-use crate::named_members::named_members;
 use crate::scene::Scene;
 use std::fmt::Write;
-
-named_members! {
-    /// A step that can be left out.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Pass {
-        /// Equal operations on equal operands are one value.
-        Sharing = "sharing",
-        /// Operations on constants become constants of the model, exactly.
-        Folding = "folding",
-        /// Signs move outwards and into sums and differences.
-        Signs = "signs",
-        /// Sines and cosines of differences are formed from those of single angles.
-        AngleAddition = "angle-addition",
-        /// A common factor of several terms is multiplied once.
-        CommonFactors = "common-factors",
-        /// The cheaper of two solves is taken.
-        Choice = "choice",
-        /// Products are part of the sums that they feed.
-        Fusing = "fusing",
-        /// Where values outnumber registers, inputs are read, sines asked for and results
-        /// handed over each where its turn comes.
-        Order = "order",
-        /// Long functions are written in parts.
-        Splitting = "splitting",
-    }
-}
 
 /// A pass over whole programs.
 type Over = fn(Program) -> Program;
 
 /// The passes over whole programs, in their order.
 pub(super) const PASSES: [(Pass, Over); 1] = [(Pass::CommonFactors, factors::common_factors)];
-
-impl Pass {
-    /// Returns true if the pass changes the operations of a function; if not,
-    /// it changes only how they are written.
-    fn is_counted(self) -> bool {
-        !matches!(self, Self::Order | Self::Splitting)
-    }
-}
 
 /// A table of the operations of the accelerations, of the sums among them that have a
 /// product in them, of the values that wait at most, and of the operations of all

@@ -2,13 +2,13 @@
 //! torques of forces there.
 
 use super::ValueId;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::Environment;
 use super::pair::Pair;
-use crate::functions::{Argument, PointKind, Purpose};
+use crate::functions::{Argument, LINK_PROPERTIES, PointKind, Purpose};
 use crate::mechanics::expression::Expr;
 use crate::mechanics::{LinkPositions, Mechanics, RelativePosition};
-use crate::scene::{LINK_PROPERTIES, LinkId, Scene};
+use crate::scene::{LinkId, Scene};
 
 /// Names and units of the properties of a link, in their order.
 const PROPERTIES: [(&str, &str); LINK_PROPERTIES.len()] = [

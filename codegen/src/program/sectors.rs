@@ -2,7 +2,7 @@
 //! in symmetric coordinates, and the budgets of sectors.
 
 use super::ValueId;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::entry_state::{self, motion, symmetric_tree, values};
 use super::symmetric::{
     ConstantValues, Fields, SectorId, Share, SymmetricField, SymmetricMotion, SymmetricTree,

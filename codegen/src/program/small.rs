@@ -1,6 +1,6 @@
 //! Entry points of small differences that act back on the motion that they are beside.
 
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Mechanics, SmallMechanics, TransverseMechanics};

@@ -5,7 +5,7 @@
 //! centrifugal terms follow, and gravity. What else stands in it is a program of its
 //! own.
 
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::Environment;
 use super::{ValueId, scale};
 use crate::exact::Rational;

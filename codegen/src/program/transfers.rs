@@ -1,7 +1,7 @@
 //! The entry points of the energy transfer into one difference.
 
 use super::ValueId;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, CANONICAL, Cause, EntryState, Purpose};
 use crate::mechanics::{EnergyParts, Frame, MeanTree, TransferFormulas, Truncated};

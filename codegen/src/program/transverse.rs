@@ -1,7 +1,7 @@
 //! Entry points of small differences between copies that move in phase.
 
 use super::Entry;
-use super::entries::EntryList;
+use super::entry_list::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::{Mechanics, TransverseFormulas, TransverseMechanics};

@@ -1,21 +1,11 @@
 //! A link as data.
 
 use super::{Link, Quantity};
-
-/// Meaning of the properties of a link, in the order of [`Link::properties`].
-pub const LINK_PROPERTIES: [&str; 8] = [
-    "mass (kg)",
-    "moment of inertia about the centre of mass (kg m²)",
-    "place of the centre of mass along the link, from its pivot (m)",
-    "place of the centre of mass across the link (m)",
-    "place of the pivot along the parent, from the parent's pivot (m)",
-    "place of the pivot across the parent (m)",
-    "place of the end along the link, from its pivot (m)",
-    "place of the end across the link (m)",
-];
+use crate::functions::LINK_PROPERTIES;
 
 impl Link {
-    /// The properties that say where its points are and how heavy it is.
+    /// Returns the [properties](LINK_PROPERTIES) that say where the points of the link are and
+    /// how heavy it is.
     pub fn properties(&self) -> [&Quantity; LINK_PROPERTIES.len()] {
         let Self {
             mass,

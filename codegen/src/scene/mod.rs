@@ -22,6 +22,7 @@ mod magnitude;
 mod names;
 mod notation;
 mod observables;
+mod observed;
 mod outputs;
 mod passive;
 mod prescribed;
@@ -43,18 +44,17 @@ mod symbols;
 mod template;
 mod text;
 mod transverse;
+mod tree_reader;
 mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
-pub use link_properties::LINK_PROPERTIES;
 pub use magnitude::{Magnitudes, NEGLIGIBLE};
 pub use names::is_keyword;
-pub use observables::{
-    CoordinateIndex, Function, Observable, ObservableForm, Observed, ObservedAtom, Variable,
-    VariableKind,
+pub use observed::{
+    CoordinateIndex, Function, Observable, Observed, ObservedAtom, Variable, VariableKind,
 };
 pub use outputs::{BudgetRequest, Requests, Solve, TransferRequest};
 pub use passive::{FrictionLaw, FrictionPlace, PassiveTorques};

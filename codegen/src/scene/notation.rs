@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::observables::ObservedAtom;
+use super::observed::ObservedAtom;
 use super::{Parameter, ParameterId, QuantityAtom, RationalExpression, SignalAtom};
 use crate::description::TIME;
 use crate::exact::Rational;

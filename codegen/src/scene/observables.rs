@@ -1,151 +1,19 @@
-//! Observables: quantities of the user's own in the symbols of the scene.
+//! From clauses to observables.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
-use self::ObservedAtom::Known;
 use super::names::{check_observable, irrational};
+use super::observed::ObservedAtom::Known;
+use super::observed::{Function, Observable, Observed, ObservedAtom};
 use super::symbols::{Meaning, ObservableSymbols};
 use super::values::{all, message_for, unrepresentable};
-use super::{Quantity, RationalExpression, Scene};
+use super::{Quantity, Scene};
 use crate::description::{self, Expression, ExpressionKind};
 use crate::exact::ExactError;
-use crate::functions::is_method;
-use crate::named_members::named_members;
+use crate::functions::{ObservableForm, is_method};
 use crate::report::{Faults, Message, OutputMessage, TreeMessage, ValueMessage, nearest};
-
-/// A quantity that the description defines by an expression.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Observable {
-    /// Snake-case name; its functions are called after it.
-    pub name: String,
-    /// Definition of the observable.
-    pub value: Observed,
-}
-
-/// An expression in the symbols of the scene. Sums, products, quotients and powers of
-/// what is known are one [`ObservedAtom::Known`].
-pub type Observed = RationalExpression<ObservedAtom>;
-
-/// What observables are formed of.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ObservedAtom {
-    /// Numbers, parameters, gravity, and what is formed of them.
-    Known(Quantity),
-    /// A quantity that moves.
-    Variable(Variable),
-    /// A constant of the model, by its name there; one that the model does not
-    /// have is zero.
-    Constant(String),
-    /// Kinetic energy, J.
-    KineticEnergy,
-    /// Potential energy, J.
-    PotentialEnergy,
-    /// A function of a value.
-    Call(Function, Box<Observed>),
-}
-
-/// A coordinate, or its velocity or momentum.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Variable {
-    /// Name as the user writes it: `theta_child_1`, `p_d`.
-    pub name: String,
-    /// Angle, velocity or momentum of the coordinate.
-    pub kind: VariableKind,
-    /// The coordinate.
-    pub coordinate: CoordinateIndex,
-}
-
-/// Kind of a [`Variable`] of a coordinate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum VariableKind {
-    /// The coordinate itself, rad.
-    Angle,
-    /// Velocity of the coordinate, rad/s.
-    Velocity,
-    /// The momentum that belongs to it, kg m²/s.
-    Momentum,
-}
-
-/// A generalized coordinate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CoordinateIndex {
-    /// The absolute angle of the link with that index.
-    Absolute(usize),
-    /// The symmetric coordinate with that index.
-    Symmetric(usize),
-}
-
-named_members! {
-    /// Functions of observables.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Function {
-        /// Sine.
-        Sin = "sin",
-        /// Cosine.
-        Cos = "cos",
-        /// Square root.
-        Sqrt = "sqrt",
-    }
-}
-
-impl Observed {
-    /// A value that is known.
-    pub(super) fn known(quantity: Quantity) -> Self {
-        Self::Atom(Known(quantity))
-    }
-
-    /// The value if it is known.
-    fn quantity(&self) -> Option<&Quantity> {
-        match self {
-            Self::Atom(Known(quantity)) => Some(quantity),
-            _ => None,
-        }
-    }
-
-    /// Returns true if a variable that only the symmetric coordinates have
-    /// occurs.
-    pub fn is_symmetric(&self) -> bool {
-        self.atoms().into_iter().any(|atom| match atom {
-            ObservedAtom::Variable(variable) => {
-                matches!(variable.coordinate, CoordinateIndex::Symmetric(_))
-            }
-            ObservedAtom::Call(_, argument) => argument.is_symmetric(),
-            _ => false,
-        })
-    }
-}
-
-named_members! {
-    /// Quantity that a function gives of an observable. Names are ends of the names of
-    /// functions.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum ObservableForm {
-        /// F from coordinates and velocities.
-        Value = "",
-        /// dF/dt from coordinates and velocities.
-        Rate = "_rate",
-        /// The part of dF/dt that is friction and drag.
-        FrictionRate = "_friction_rate",
-        /// F from coordinates and momenta.
-        FromMomenta = "_from_momenta",
-        /// dF/dt from coordinates and momenta.
-        RateFromMomenta = "_rate_from_momenta",
-    }
-}
-
-impl ObservableForm {
-    /// Returns true if it is a rate by all forces.
-    pub fn is_rate(self) -> bool {
-        matches!(self, Self::Rate | Self::RateFromMomenta)
-    }
-
-    /// Returns true if momenta are handed over.
-    pub fn is_from_momenta(self) -> bool {
-        matches!(self, Self::FromMomenta | Self::RateFromMomenta)
-    }
-}
 
 /// Adds the observables to the scene, whose tree is complete; what is wrong
 /// goes to `report`. `owners` holds the names of links, orbits and groups.

@@ -3,7 +3,6 @@
 
 use super::Quantity;
 use super::bodies::GivenProperties;
-use super::reduction::times;
 use crate::description::Node;
 use crate::exact::Rational;
 use crate::report::{Faults, TreeMessage};
@@ -106,7 +105,7 @@ impl FrictionLaw {
     /// The law of links that turn as one, as heavy as so many.
     fn times(&mut self, count: usize) {
         for value in [&mut self.coulomb, &mut self.quadratic] {
-            *value = times(count, value);
+            *value = value.times(count);
         }
     }
 }
@@ -156,7 +155,7 @@ impl PassiveTorques {
     /// Torques of so many links that turn as one.
     pub(super) fn times(&mut self, count: usize) {
         for value in [&mut self.friction, &mut self.drag, &mut self.spring] {
-            *value = times(count, value);
+            *value = value.times(count);
         }
         self.laws.iter_mut().for_each(|law| law.times(count));
     }

@@ -2,7 +2,7 @@
 //! tried at a few points in numbers, since the algebra comes later and may not divide
 //! by zero.
 
-use super::observables::{Function, Observed, ObservedAtom};
+use super::observed::{Function, Observed, ObservedAtom};
 use super::{Quantity, QuantityAtom, RationalExpression};
 use crate::exact::Rational;
 

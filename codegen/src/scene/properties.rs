@@ -5,8 +5,7 @@ use super::bodies::{Body, BodyShape, COMMON, Condition, Dimension, GivenProperti
 use super::names::motion;
 use super::rule::{COUNTS, Counts, GenerationRule, changes_shape, ratios, scaled};
 use super::shape_names::{find_shape, forgotten_shape};
-use super::template::accept_body;
-use super::values::{Usage, Values, message_for};
+use super::values::{Usage, Values, message_for, unrepresentable};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
@@ -26,7 +25,7 @@ pub(super) struct Properties {
 const POINTS: &[&str] = &["com", "joint", "at"];
 
 /// Properties that a link may and must have.
-pub(super) struct LinkKind {
+struct LinkKind {
     /// Name of the kind: "a link", "a `rod`".
     text: String,
     shape: Option<&'static BodyShape>,
@@ -44,6 +43,10 @@ impl Properties {
         let mut counts = Counts::default();
         let shape = if is_rule {
             counts.read(node, report);
+            if !counts.is_named && !node.damaged {
+                let message = LinkKind::new(None, true).missing("count", node);
+                report.error(node.name.span(), message);
+            }
             counts.shape
         } else {
             node.shape.as_ref().map(|shape| {
@@ -132,7 +135,7 @@ fn stand_in() -> Body {
 }
 
 impl LinkKind {
-    pub(super) fn new(shape: Option<&'static BodyShape>, is_rule: bool) -> Self {
+    fn new(shape: Option<&'static BodyShape>, is_rule: bool) -> Self {
         let text = match (shape, is_rule) {
             (None, false) => "a link without shape".to_owned(),
             (Some(shape), false) => format!("a `{}`", shape.name),
@@ -236,7 +239,7 @@ impl LinkKind {
     }
 
     /// The message about a missing property.
-    pub(super) fn missing(&self, name: &'static str, node: &Node) -> TreeMessage {
+    fn missing(&self, name: &'static str, node: &Node) -> TreeMessage {
         TreeMessage::MissingProperty {
             name,
             link: node.name.to_string(),
@@ -382,4 +385,25 @@ fn in_words(name: &str) -> String {
         "drag(width)" => "width of drag".to_owned(),
         _ => name.replace('_', " "),
     }
+}
+
+/// Checks that the numbers of a body can be rounded to `f64`.
+fn accept_body(body: &Body, node: &Node, report: &mut Faults) -> bool {
+    let Body {
+        mass,
+        inertia,
+        com,
+        joint,
+    } = body;
+    let points = [Some(com), joint.as_ref()].into_iter().flatten();
+    let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
+    // One message for a body is enough.
+    [mass, inertia].into_iter().chain(parts).all(|part| {
+        let fault = unrepresentable(part);
+        let fits = fault.is_none();
+        if let Some(message) = fault {
+            report.error(node.name.span(), message);
+        }
+        fits
+    })
 }

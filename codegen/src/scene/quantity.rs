@@ -147,6 +147,13 @@ impl Quantity {
         }
     }
 
+    /// Returns a multiple of the value.
+    pub(super) fn times(&self, count: usize) -> Self {
+        // Counts are below 2^32, see `layout::MOST`.
+        let count = Self::integer(i64::try_from(count).unwrap_or(i64::MAX));
+        Self::product([count, self.clone()])
+    }
+
     /// The opposite.
     pub fn negative(self) -> Self {
         match self {

@@ -1,7 +1,6 @@
 //! Two bodies that are one: mass, centre of mass and inertia combined exactly.
 
 use super::bodies::Body;
-use super::reduction::times;
 use super::template::Template;
 use super::{Offset, Quantity};
 use crate::exact::{ExactError, Rational};
@@ -32,13 +31,10 @@ pub(super) fn turned(point: &Offset, angle: &Rational, pivot: &Offset) -> Offset
 /// # Errors
 /// Numbers that become too long.
 pub(super) fn weld(parent: &Body, link: &Template, angle: &Rational) -> Result<Body, ExactError> {
-    let added = times(link.copies, &link.body.mass);
+    let added = link.body.mass.times(link.copies);
     let at = turned(&link.body.com, angle, &link.pivot);
     let mass = Quantity::sum([parent.mass.clone(), added.clone()]);
-    let inertia = Quantity::sum([
-        parent.inertia.clone(),
-        times(link.copies, &link.body.inertia),
-    ]);
+    let inertia = Quantity::sum([parent.inertia.clone(), link.body.inertia.times(link.copies)]);
     let joint = parent.joint.clone();
     if mass.is_zero() {
         return Ok(Body {

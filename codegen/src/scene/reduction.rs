@@ -333,14 +333,7 @@ fn merge(templates: &mut [Template], alike: &[bool]) {
         let Template { body, passive, .. } = template;
         passive.times(weight);
         for value in [&mut body.mass, &mut body.inertia] {
-            *value = times(weight, value);
+            *value = value.times(weight);
         }
     }
-}
-
-/// A multiple of a value.
-pub(super) fn times(count: usize, value: &Quantity) -> Quantity {
-    // Counts are below 2^32, see `layout::MOST`.
-    let count = Quantity::integer(i64::try_from(count).unwrap_or(i64::MAX));
-    Quantity::product([count, value.clone()])
 }

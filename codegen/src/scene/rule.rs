@@ -3,7 +3,6 @@
 use proc_macro2::{Ident, Span};
 
 use super::bodies::{BodyShape, COMMON, Dimension, GivenProperties};
-use super::properties::LinkKind;
 use super::shape_names::find_shape;
 use super::{Offset, Quantity, Sign};
 use crate::description::{Expression, ExpressionKind, Node, Property, Value};
@@ -154,6 +153,8 @@ pub(super) fn scaled(
 /// The properties of a rule that are no quantities.
 #[derive(Default)]
 pub(super) struct Counts {
+    /// True if the number of generations is given, right or wrong.
+    pub(super) is_named: bool,
     pub(super) count: Option<usize>,
     pub(super) branching: Option<usize>,
     pub(super) shape: Option<Result<&'static BodyShape, ()>>,
@@ -164,7 +165,6 @@ impl Counts {
     /// Reads them; what is wrong goes to `report`. Properties given twice are
     /// reported elsewhere.
     pub(super) fn read(&mut self, node: &Node, report: &mut Faults) {
-        let mut named = false;
         for property in &node.properties {
             let Property { name, value, .. } = property;
             let text = property.key();
@@ -175,7 +175,7 @@ impl Counts {
                         report.error(name.span(), TreeMessage::NotACount { name: text.clone() });
                     }
                     if text == "count" {
-                        named = true;
+                        self.is_named = true;
                         self.count = count;
                     } else {
                         self.branching = count;
@@ -190,10 +190,6 @@ impl Counts {
                 "shape" => self.shape = Some(shape(value, name.span(), report)),
                 _ => {}
             }
-        }
-        if !named && !node.damaged {
-            let message = LinkKind::new(None, true).missing("count", node);
-            report.error(node.name.span(), message);
         }
     }
 }

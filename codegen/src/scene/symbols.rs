@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::coordinates::symmetric_coordinates;
-use super::observables::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
+use super::observed::{CoordinateIndex, ObservedAtom, Variable, VariableKind};
 use crate::report::{Faults, OutputMessage};
 use proc_macro2::Span;
 

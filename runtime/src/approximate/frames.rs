@@ -60,6 +60,19 @@ struct ModeError<T> {
     errors: [T; 2],
 }
 
+impl Linear {
+    /// Returns the model by frames of this length (s), in numbers `T`: the matrix exponential,
+    /// computed in double-double numbers and rounded once.
+    ///
+    /// # Errors
+    ///
+    /// [`LinearError::Frame`] if the frame is not positive and finite;
+    /// [`LinearError::NotFinite`] if the motion grows beyond all numbers in one.
+    pub fn frames<T: Real>(&self, frame: f64) -> Result<LinearFrames<T>, LinearError> {
+        LinearFrames::new(self, frame)
+    }
+}
+
 impl<T: Real> LinearFrames<T> {
     pub(super) fn new(linear: &Linear, frame: f64) -> Result<Self, LinearError> {
         if !(frame.is_finite() && frame > 0.0) {

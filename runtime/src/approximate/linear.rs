@@ -3,7 +3,6 @@
 use alloc::vec::Vec;
 
 use super::error::LinearError;
-use super::frames::LinearFrames;
 use super::matrix::{PreciseMatrix, largest, number};
 use crate::scalar::{Double, Real, Scalar};
 
@@ -232,17 +231,6 @@ impl Linear {
             }
             sum + 0.5 * (rate * rate + self.squares[mode].high() * q * q)
         })
-    }
-
-    /// The model by frames of this length (s), in numbers `T`: the matrix exponential,
-    /// computed in double-double numbers and rounded once.
-    ///
-    /// # Errors
-    ///
-    /// [`LinearError::Frame`] if the frame is not positive and finite;
-    /// [`LinearError::NotFinite`] if the motion grows beyond all numbers in one.
-    pub fn frames<T: Real>(&self, frame: f64) -> Result<LinearFrames<T>, LinearError> {
-        LinearFrames::new(self, frame)
     }
 
     /// The modes that take part, in groups that friction couples.

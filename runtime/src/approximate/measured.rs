@@ -3,8 +3,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::about::RestSlopes;
 use super::linear::Linear;
+use super::slopes::RestSlopes;
 use crate::integrate::{Frames, longest_sub_step};
 use crate::system::{AbsoluteAngles, Ode, OdeFn, Pendulum, State};
 

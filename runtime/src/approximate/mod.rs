@@ -14,6 +14,7 @@ mod matrix;
 mod measured;
 mod nearly;
 pub(crate) mod rest;
+mod slopes;
 mod small_error;
 mod switched;
 

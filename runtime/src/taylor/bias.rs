@@ -1,9 +1,23 @@
 //! Bias terms of the equation of motion, order by order.
 
-use super::expand::KnownOrder;
-use super::orders::{collect, spread};
+use super::room::{collect, spread};
 use crate::scalar::Scalar;
 use crate::simd::Quad;
+
+/// Coefficients of one order of what a torque may depend on, of all links.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownOrder<T, const N: usize> {
+    /// Number of the order.
+    pub order: usize,
+    /// Of the angles.
+    pub theta: [T; N],
+    /// Of the angular velocities.
+    pub omega: [T; N],
+    /// Of their sines.
+    pub sines: [T; N],
+    /// Of their cosines.
+    pub cosines: [T; N],
+}
 
 /// State that a bias may depend on, in one order.
 pub(super) struct KnownState<'a, T> {

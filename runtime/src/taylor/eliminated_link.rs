@@ -20,7 +20,7 @@ pub(super) struct EliminatedLink<P> {
     pub(super) deficit: [P; 3],
 }
 
-/// WritableNumbers of an [`EliminatedLink`].
+/// Numbers of an [`EliminatedLink`].
 pub(super) const ELIMINATED: usize = 10;
 
 impl<P: Scalar> EliminatedLink<P> {

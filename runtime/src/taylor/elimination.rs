@@ -30,8 +30,8 @@
 
 use super::eliminated_link::{ELIMINATED, EliminatedLink};
 use super::links::TreeLinks;
-use super::orders::{Constants, Origin};
 use super::room::{OfLinks, PackColumn, PackRoom, SharedNumbers, WritableNumbers};
+use super::start::{Constants, Origin};
 use crate::scalar::Scalar;
 use crate::simd::{Quad, Simd};
 
@@ -202,7 +202,7 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
             let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
             for l in 0..4 {
-                // PackRoom may be for more links, with zeros.
+                // Room may be for more links, with zeros.
                 if first + l < answers.len() {
                     let [own_s, own_y, _, _] = answers[first + l].0;
                     (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);

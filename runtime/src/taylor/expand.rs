@@ -15,119 +15,17 @@
 //! factors are formed once and serve all orders. From order 28 on, which is that of
 //! tolerances near rounding, the S of order 0 is refined once more.
 
-use super::bias::{Bias, ConstantBias, MovingBias};
+use super::bias::{Bias, ConstantBias, KnownOrder, MovingBias};
 use super::elimination::FACTORS;
-use super::links::{KnownLinks, TreeLinks};
-use super::orders::{Constants, Orders, Origin};
+use super::links::{Connectivity, KnownLinks, TreeLinks};
+use super::orders::Orders;
 use super::room::{Rooms, SharedNumbers, StackRooms};
 use super::series::SERIES;
+use super::start::{Constants, LinkConstants, Origin, Start};
 use crate::scalar::kind::ByKind;
 use crate::scalar::{Lanes, Scalar};
 use crate::simd::dispatch::in_fours;
 use crate::simd::{Quad, Simd};
-
-/// Says which link of a tree hangs on which.
-pub trait Connectivity<const N: usize> {
-    /// Index of each link's parent, which comes before it. The root's, link 0, does
-    /// not count.
-    const PARENTS: [usize; N];
-
-    /// False if centres of mass and pivots lie on the links' axes: then all second
-    /// components of moments and attachments are zero.
-    const LATERAL: bool;
-
-    /// True for links that others hang on.
-    #[doc(hidden)]
-    const CARRIES: [bool; N] = {
-        let mut carries = [false; N];
-        let mut link = 1;
-        while link < N {
-            carries[Self::PARENTS[link]] = true;
-            link += 1;
-        }
-        carries
-    };
-
-    /// TreeLinks that others hang on, from the last one to the root; and how many they are.
-    #[doc(hidden)]
-    const CARRIERS: ([usize; N], usize) = listed(&Self::CARRIES, true);
-
-    /// TreeLinks that none hangs on, likewise.
-    #[doc(hidden)]
-    const LEAVES: ([usize; N], usize) = listed(&Self::CARRIES, false);
-
-    /// Fails to compile where a parent comes behind its child.
-    #[doc(hidden)]
-    const ORDERED: () = {
-        let mut link = 1;
-        while link < N {
-            assert!(Self::PARENTS[link] < link, "parents come before children");
-            link += 1;
-        }
-    };
-}
-
-/// WritableNumbers of the links of which this is said, from the last to the first, and how many.
-const fn listed<const N: usize>(said: &[bool; N], this: bool) -> ([usize; N], usize) {
-    let (mut list, mut count) = ([0; N], 0);
-    let mut link = N;
-    while link > 0 {
-        link -= 1;
-        if said[link] == this {
-            list[count] = link;
-            count += 1;
-        }
-    }
-    (list, count)
-}
-
-/// State at which an expansion starts.
-#[derive(Clone, Copy, Debug)]
-pub struct Start<'a, T, const N: usize> {
-    /// Angles θ, rad.
-    pub theta: &'a [T; N],
-    /// Angular velocities ω, rad/s.
-    pub omega: &'a [T; N],
-    /// sin θ.
-    pub sines: [T; N],
-    /// cos θ.
-    pub cosines: [T; N],
-    /// Bias of the equation of motion, Σ M_ij α_j + … + bias_i = 0.
-    pub bias: [T; N],
-}
-
-/// Constants of a tree's equation of motion, in any units of mass and length that
-/// go together.
-#[derive(Clone, Copy, Debug)]
-pub struct LinkConstants<T, const N: usize> {
-    /// M: the diagonal of the mass matrix.
-    pub inertias: [T; N],
-    /// (h, e): the first moment, about the link's pivot, of the mass that the link
-    /// carries, along and across.
-    pub moments: [[T; 2]; N],
-    /// (ℓ, w): where the link hangs on its parent, from the parent's pivot, along and
-    /// across. The root's does not count.
-    pub attachments: [[T; 2]; N],
-    /// G of the torque −G sin θ − F cos θ of gravity.
-    pub weights: [T; N],
-    /// F of the same.
-    pub lateral_weights: [T; N],
-}
-
-/// Coefficients of one order of what a torque may depend on, of all links.
-#[derive(Clone, Copy, Debug)]
-pub struct KnownOrder<T, const N: usize> {
-    /// Number of the order.
-    pub order: usize,
-    /// Of the angles.
-    pub theta: [T; N],
-    /// Of the angular velocities.
-    pub omega: [T; N],
-    /// Of their sines.
-    pub sines: [T; N],
-    /// Of their cosines.
-    pub cosines: [T; N],
-}
 
 /// Number of quads that [`expand`] works in, for `links` links and polynomials of
 /// order `order`.

@@ -1,4 +1,4 @@
-//! PackRoom for trees whose number of links no type tells: in memory that the caller lends.
+//! Room for trees whose number of links no type tells: in memory that the caller lends.
 
 use core::marker::PhantomData;
 
@@ -43,14 +43,14 @@ impl<'a, T: Scalar> Rooms<T> for LentRooms<'a, T> {
     }
 }
 
-/// PackRoom that the caller lends. What does not fit into it has no places.
+/// Room that the caller lends. What does not fit into it has no places.
 pub(super) struct Lent<'a, T> {
     free: &'a mut [Quad<T>],
     links: usize,
     packs: usize,
 }
 
-/// WritableNumbers in lent memory, those of one place after those of another.
+/// Numbers in lent memory, those of one place after those of another.
 pub(super) struct LentColumn<'a, T, P> {
     quads: &'a mut [Quad<T>],
     numbers: PhantomData<P>,

@@ -2,8 +2,6 @@
 
 use core::marker::PhantomData;
 
-use super::expand::Connectivity;
-
 /// The links of a tree, parents before children.
 pub(super) trait TreeLinks: Copy {
     /// Returns how many there are.
@@ -22,7 +20,7 @@ pub(super) trait TreeLinks: Copy {
     fn lateral(&self) -> bool;
 }
 
-/// TreeLinks that the compiler knows.
+/// Links that the compiler knows.
 pub(super) struct KnownLinks<C, const N: usize>(PhantomData<C>);
 
 impl<C, const N: usize> KnownLinks<C, N> {
@@ -67,4 +65,59 @@ impl<C: Connectivity<N>, const N: usize> TreeLinks for KnownLinks<C, N> {
     fn lateral(&self) -> bool {
         C::LATERAL
     }
+}
+
+/// Says which link of a tree hangs on which.
+pub trait Connectivity<const N: usize> {
+    /// Index of each link's parent, which comes before it. The root's, link 0, does
+    /// not count.
+    const PARENTS: [usize; N];
+
+    /// False if centres of mass and pivots lie on the links' axes: then all second
+    /// components of moments and attachments are zero.
+    const LATERAL: bool;
+
+    /// True for links that others hang on.
+    #[doc(hidden)]
+    const CARRIES: [bool; N] = {
+        let mut carries = [false; N];
+        let mut link = 1;
+        while link < N {
+            carries[Self::PARENTS[link]] = true;
+            link += 1;
+        }
+        carries
+    };
+
+    /// Links that others hang on, from the last one to the root; and how many they are.
+    #[doc(hidden)]
+    const CARRIERS: ([usize; N], usize) = listed(&Self::CARRIES, true);
+
+    /// Links that none hangs on, likewise.
+    #[doc(hidden)]
+    const LEAVES: ([usize; N], usize) = listed(&Self::CARRIES, false);
+
+    /// Fails to compile where a parent comes behind its child.
+    #[doc(hidden)]
+    const ORDERED: () = {
+        let mut link = 1;
+        while link < N {
+            assert!(Self::PARENTS[link] < link, "parents come before children");
+            link += 1;
+        }
+    };
+}
+
+/// Numbers of the links of which this is said, from the last to the first, and how many.
+const fn listed<const N: usize>(said: &[bool; N], this: bool) -> ([usize; N], usize) {
+    let (mut list, mut count) = ([0; N], 0);
+    let mut link = N;
+    while link > 0 {
+        link -= 1;
+        if said[link] == this {
+            list[count] = link;
+            count += 1;
+        }
+    }
+    (list, count)
 }

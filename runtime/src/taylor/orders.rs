@@ -16,10 +16,11 @@ use super::elimination::{LinkFactors, TaylorElimination};
 use super::links::TreeLinks;
 use super::reciprocal::Reciprocal;
 use super::refine::Balance;
-use super::room::{OfLinks, PackColumn, PackRoom, SharedNumbers};
+use super::room::{PackColumn, PackRoom, SharedNumbers, collect, read};
 use super::series::{SUMS, SeriesRow, SeriesSums, store, turned};
+use super::start::{Constants, Origin, weights};
 use crate::scalar::Scalar;
-use crate::simd::{Kernel, Quad, Simd};
+use crate::simd::{Kernel, Simd};
 
 /// From this order on the accelerations at the start are refined: the order for
 /// tolerances of 1e-13, below which rounding is most of the error.
@@ -28,52 +29,6 @@ const REFINED: usize = 28;
 /// Number of links up to which one state has its sums formed order by order, from which
 /// two orders at a time: for more links the machine computes more than it waits.
 const IN_TURN: usize = 15;
-
-/// State at which an expansion starts, of all links: [`Start`](super::expand::Start).
-#[derive(Clone, Copy)]
-pub(super) struct Origin<'a, T, S> {
-    pub(super) omega: &'a [T],
-    pub(super) sines: S,
-    pub(super) cosines: S,
-    pub(super) bias: S,
-}
-
-/// Constants of all links: [`LinkConstants`](super::expand::LinkConstants).
-#[derive(Clone, Copy)]
-pub(super) struct Constants<'a, T> {
-    pub(super) inertias: &'a [T],
-    pub(super) moments: &'a [[T; 2]],
-    pub(super) attachments: &'a [[T; 2]],
-    pub(super) weights: &'a [T],
-    pub(super) lateral_weights: &'a [T],
-}
-
-impl<T: Copy, S: SharedNumbers<T>> Origin<'_, T, S> {
-    /// Returns the first links' numbers, as many as the compiler may know them to be.
-    #[inline(always)]
-    fn first_links(self, links: usize) -> Self {
-        Self {
-            omega: self.omega.first_links(links),
-            sines: self.sines.first_links(links),
-            cosines: self.cosines.first_links(links),
-            bias: self.bias.first_links(links),
-        }
-    }
-}
-
-impl<T> Constants<'_, T> {
-    /// Returns the first links' numbers, as many as the compiler may know them to be.
-    #[inline(always)]
-    fn first_links(self, links: usize) -> Self {
-        Self {
-            inertias: &self.inertias[..links],
-            moments: &self.moments[..links],
-            attachments: &self.attachments[..links],
-            weights: &self.weights[..links],
-            lateral_weights: &self.lateral_weights[..links],
-        }
-    }
-}
 
 /// The orders of an expansion from 1 on.
 pub(super) struct Orders<'a, T, L, S, R, B> {
@@ -319,15 +274,6 @@ where
     }
 }
 
-/// Torques G sin θ + F cos θ, with G and F the weights (w, l) at the acceleration (x, y) of an
-/// order, w y − l x and w x + l y: at (0, 1) where there is none.
-#[inline(always)]
-pub(super) fn weights<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2]) -> [P; 2] {
-    let Some(fall) = fall else { return weight };
-    let ([x, y], [w, l]) = (fall.map(P::splat), weight);
-    [(w * y).minus_product(l, x), (w * x).plus_product(l, y)]
-}
-
 /// Gravity is a constant force: its torque (G s₀ + F c₀) γ + (G c₀ − F s₀) σ, with
 /// s₀, c₀ of the angle at the start, is that of an X and of a Y of order 0. So is the
 /// acceleration of the root's pivot, of any order.
@@ -338,49 +284,4 @@ fn pull<T: Scalar, P: Simd<T>>(fall: Option<[T; 2]>, weight: [P; 2], [cos, sin]:
         (of_sine * sin).plus_product(of_cosine, cos),
         (of_cosine * sin).minus_product(of_sine, cos),
     ]
-}
-
-/// Reads numbers of all links into number `k` of each pack, by way of `quads`.
-#[inline(always)]
-pub(super) fn read<T: Scalar, P: Simd<T>, const K: usize>(
-    numbers: impl OfLinks<T>,
-    quads: &mut [Quad<T>],
-    [packs, links]: [usize; 2],
-    k: usize,
-    column: &mut impl PackColumn<P, K>,
-) {
-    spread(numbers, links, quads);
-    for m in 0..packs {
-        let mut own = column.at(m);
-        own[k] = P::load_quad(quads, m);
-        column.put(m, own);
-    }
-}
-
-/// Writes numbers of all links as quads, zero where there is no link.
-#[inline(always)]
-pub(super) fn spread<T: Scalar>(numbers: impl OfLinks<T>, links: usize, quads: &mut [Quad<T>]) {
-    for (q, quad) in quads.iter_mut().enumerate() {
-        for (l, number) in quad.0.iter_mut().enumerate() {
-            *number = match 4 * q + l < links {
-                true => numbers.of(4 * q + l),
-                false => T::from_f64(0.0),
-            };
-        }
-    }
-}
-
-/// Writes the numbers of all links that stand in quads.
-#[inline(always)]
-pub(super) fn collect<T: Scalar>(quads: &[Quad<T>], numbers: &mut [T]) {
-    let (fours, few) = numbers.as_chunks_mut::<4>();
-    let last = quads.get(fours.len());
-    for (four, quad) in fours.iter_mut().zip(quads) {
-        *four = quad.0;
-    }
-    if let Some(last) = last {
-        for (number, own) in few.iter_mut().zip(last.0) {
-            *number = own;
-        }
-    }
 }

@@ -14,8 +14,8 @@
 //! −bias − M α − (F + D) cos θ − (G + E) sin θ
 
 use super::links::TreeLinks;
-use super::orders::{Constants, Origin, read, weights};
-use super::room::{PackColumn, PackRoom, SharedNumbers};
+use super::room::{PackColumn, PackRoom, SharedNumbers, read};
+use super::start::{Constants, Origin, weights};
 use crate::scalar::{Scalar, two_sum};
 use crate::simd::{Quad, Simd};
 
@@ -142,7 +142,7 @@ fn plus_turned<T: Scalar, P: Simd<T>>(
     ]
 }
 
-/// WritableNumbers in two parts. What products and sums lose is of the size of the second
+/// Numbers in two parts. What products and sums lose is of the size of the second
 /// part's last digits where products are fused with the sums they go into; elsewhere
 /// products are rounded as they always are.
 #[derive(Clone, Copy)]
@@ -151,7 +151,7 @@ struct Parts<P> {
     low: P,
 }
 
-/// WritableNumbers of a complex number in two parts.
+/// Numbers of a complex number in two parts.
 const COMPLEX: usize = 4;
 
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! WritableNumbers of all links while an expansion runs: on the stack where the compiler knows how
+//! Numbers of all links while an expansion runs: on the stack where the compiler knows how
 //! many links there are, so that they become registers; else in memory that the caller lends.
 
 use crate::scalar::Scalar;
@@ -34,10 +34,10 @@ pub(super) trait WritableNumbers<T: Scalar>: OfLinks<T> {
 /// Gives out room for numbers, whatever stands there. A *pack* is a wide number of one or
 /// four links.
 pub(super) trait PackRoom<T: Scalar> {
-    /// WritableNumbers of each pack.
+    /// Numbers of each pack.
     type OfPacks<P: Simd<T>, const K: usize>: PackColumn<P, K>;
 
-    /// WritableNumbers of each link.
+    /// Numbers of each link.
     type OfLinks<P: Simd<T>, const K: usize>: PackColumn<P, K>;
 
     /// A number of each link.
@@ -49,7 +49,7 @@ pub(super) trait PackRoom<T: Scalar> {
     /// A quad of each link.
     type LinkQuads: AsMut<[Quad<T>]>;
 
-    /// PackRoom that is free again.
+    /// Room that is free again.
     type Rest<'r>: PackRoom<T>
     where
         Self: 'r;
@@ -71,7 +71,7 @@ pub(super) trait PackRoom<T: Scalar> {
     fn link_quads(&mut self) -> Self::LinkQuads;
 }
 
-/// PackRoom for packs of four links or of one, as the machine computes.
+/// Room for packs of four links or of one, as the machine computes.
 pub(super) trait Rooms<T: Scalar> {
     type InFours: PackRoom<T>;
     type OneByOne: PackRoom<T>;
@@ -81,7 +81,7 @@ pub(super) trait Rooms<T: Scalar> {
     fn one_by_one(self) -> Self::OneByOne;
 }
 
-/// PackRoom on the stack for N links in Q quads and M packs, or for the first ones of these.
+/// Room on the stack for N links in Q quads and M packs, or for the first ones of these.
 pub(super) struct OnStack<C, const N: usize, const Q: usize, const M: usize>(C);
 
 /// How many of the packs that there is room for there are: a type, so that the compiler
@@ -203,7 +203,7 @@ where
     }
 }
 
-/// PackRoom on the stack for N links in Q quads.
+/// Room on the stack for N links in Q quads.
 pub(super) struct StackRooms<const N: usize, const Q: usize>;
 
 impl<T: Scalar, const N: usize, const Q: usize> Rooms<T> for StackRooms<N, Q> {
@@ -221,7 +221,7 @@ impl<T: Scalar, const N: usize, const Q: usize> Rooms<T> for StackRooms<N, Q> {
     }
 }
 
-/// PackRoom on the stack for up to N links in Q quads, all of which some of them stand in.
+/// Room on the stack for up to N links in Q quads, all of which some of them stand in.
 pub(super) struct RoomsOfFew<const N: usize, const Q: usize> {
     pub(super) links: usize,
 }
@@ -238,5 +238,50 @@ impl<T: Scalar, const N: usize, const Q: usize> Rooms<T> for RoomsOfFew<N, Q> {
     #[inline(always)]
     fn one_by_one(self) -> Self::OneByOne {
         OnStack(First(self.links))
+    }
+}
+
+/// Reads numbers of all links into number `k` of each pack, by way of `quads`.
+#[inline(always)]
+pub(super) fn read<T: Scalar, P: Simd<T>, const K: usize>(
+    numbers: impl OfLinks<T>,
+    quads: &mut [Quad<T>],
+    [packs, links]: [usize; 2],
+    k: usize,
+    column: &mut impl PackColumn<P, K>,
+) {
+    spread(numbers, links, quads);
+    for m in 0..packs {
+        let mut own = column.at(m);
+        own[k] = P::load_quad(quads, m);
+        column.put(m, own);
+    }
+}
+
+/// Writes numbers of all links as quads, zero where there is no link.
+#[inline(always)]
+pub(super) fn spread<T: Scalar>(numbers: impl OfLinks<T>, links: usize, quads: &mut [Quad<T>]) {
+    for (q, quad) in quads.iter_mut().enumerate() {
+        for (l, number) in quad.0.iter_mut().enumerate() {
+            *number = match 4 * q + l < links {
+                true => numbers.of(4 * q + l),
+                false => T::from_f64(0.0),
+            };
+        }
+    }
+}
+
+/// Writes the numbers of all links that stand in quads.
+#[inline(always)]
+pub(super) fn collect<T: Scalar>(quads: &[Quad<T>], numbers: &mut [T]) {
+    let (fours, few) = numbers.as_chunks_mut::<4>();
+    let last = quads.get(fours.len());
+    for (four, quad) in fours.iter_mut().zip(quads) {
+        *four = quad.0;
+    }
+    if let Some(last) = last {
+        for (number, own) in few.iter_mut().zip(last.0) {
+            *number = own;
+        }
     }
 }

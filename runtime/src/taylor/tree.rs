@@ -3,15 +3,9 @@
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use super::expand::{Expansion, workspace};
-use super::lent::{LentRooms, lent};
+use super::friction::RoughFriction;
 use super::links::TreeLinks;
-use super::orders::{Constants, Origin};
-use super::room::RoomsOfFew;
-use super::torques::{RoughFriction, TreeTorques, law_room};
 use crate::scalar::Scalar;
-use crate::scalar::kind::ByKind;
-use crate::simd::{Quad, Simd};
 
 /// A link of a tree as the recurrences of Taylor coefficients take it, in any units of mass
 /// and length that go together.
@@ -45,11 +39,11 @@ pub struct SeriesLink<T> {
 #[derive(Clone, Debug)]
 pub struct SeriesTree<T> {
     pub(super) hanging: Arc<Hanging>,
-    inertias: Vec<T>,
-    moments: Vec<[T; 2]>,
-    attachments: Vec<[T; 2]>,
-    weights: Vec<T>,
-    lateral_weights: Vec<T>,
+    pub(super) inertias: Vec<T>,
+    pub(super) moments: Vec<[T; 2]>,
+    pub(super) attachments: Vec<[T; 2]>,
+    pub(super) weights: Vec<T>,
+    pub(super) lateral_weights: Vec<T>,
     /// Friction, drag, spring and rest of each link, if any has some.
     pub(super) passive: Vec<[T; 4]>,
     pub(super) rough: Vec<RoughFriction<T>>,
@@ -106,7 +100,7 @@ impl<T: Scalar> SeriesTree<T> {
     /// Returns the tree of these links, the root first and parents before their children.
     /// `share` is what torques in N m are multiplied by to be in the units of the links.
     ///
-    /// TreeLinks of parents that come behind them, and friction of links that there are not, are
+    /// Links of parents that come behind them, and friction of links that there are not, are
     /// as if they hung on the root, and left out.
     #[must_use]
     pub fn new(
@@ -169,152 +163,5 @@ impl<T: Scalar> SeriesTree<T> {
             rough: rough.collect(),
             share: convert(self.share),
         }
-    }
-
-    /// Returns the number of quads that [`expand`](Self::expand) works in, to order `order`.
-    #[must_use]
-    pub fn workspace(&self, order: usize) -> usize {
-        let links = self.inertias.len();
-        let laws = self.rough.len() * law_room(order);
-        workspace(links, order) + lent(links) + 3 * links.div_ceil(4) + laws
-    }
-
-    /// Writes the Taylor coefficients of the motion through angles `theta` and angular
-    /// velocities `omega`, order by order: those of the angles, then those of the angular
-    /// velocities.
-    ///
-    /// `drive` has for each order the acceleration of the root's pivot, across and along the
-    /// direction of gravity, with gravity in order 0, and the torque on the root in N m, if
-    /// there is a drive; [`SeriesLink::weight`] is at a gravity of one then. Where lengths do
-    /// not fit, all coefficients are NaN.
-    #[inline(always)]
-    pub fn expand(
-        &self,
-        [theta, omega]: [&[T]; 2],
-        drive: Option<&[Quad<T>]>,
-        coefficients: &mut [T],
-        work: &mut [Quad<T>],
-    ) {
-        let links = self.inertias.len();
-        let count = coefficients.len() / (2 * links).max(1);
-        let order = count.saturating_sub(1);
-        let fits = [theta.len(), omega.len()] == [links; 2]
-            && coefficients.len() == 2 * links * count
-            && work.len() >= self.workspace(order)
-            && drive.is_none_or(|drive| drive.len() >= count);
-        if !fits || links == 0 {
-            coefficients.fill(T::from_f64(f64::NAN));
-            return;
-        }
-        let mut halves = coefficients.chunks_exact_mut(links);
-        for angles in [theta, omega] {
-            // Velocities of order 1 follow.
-            if let (Some(own), Some(next)) = (halves.next(), halves.next()) {
-                own.copy_from_slice(angles);
-                next.copy_from_slice(omega);
-            }
-        }
-        let (work, rest) = work.split_at_mut(workspace(links, order));
-        let quads = links.div_ceil(4);
-        let (free, rest) = rest.split_at_mut(lent(links));
-        let (sines, rest) = rest.split_at_mut(quads);
-        let (cosines, rest) = rest.split_at_mut(quads);
-        let (first, laws) = rest.split_at_mut(quads);
-        turn(theta, sines, cosines);
-        let mut torques = TreeTorques {
-            tree: self,
-            drive,
-            laws,
-            room: law_room(order),
-        };
-        torques.start([theta, omega], first);
-        let expansion = Expansion {
-            links: &*self.hanging,
-            origin: Origin {
-                omega,
-                sines: &*sines,
-                cosines: &*cosines,
-                bias: &*first,
-            },
-            constants: Constants {
-                inertias: &self.inertias,
-                moments: &self.moments,
-                attachments: &self.attachments,
-                weights: &self.weights,
-                lateral_weights: &self.lateral_weights,
-            },
-            coefficients,
-            count,
-        };
-        T::by_kind(InRooms {
-            expansion,
-            free,
-            work,
-            torques,
-        });
-    }
-}
-
-/// Runs an expansion in the room that serves its numbers.
-struct InRooms<'a, 'w, T> {
-    expansion: Expansion<'w, T, &'a Hanging, &'w [Quad<T>]>,
-    free: &'w mut [Quad<T>],
-    work: &'w mut [Quad<T>],
-    torques: TreeTorques<'w, T>,
-}
-
-impl<T: Scalar> ByKind<T> for InRooms<'_, '_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn of_any(self) {
-        let links = self.expansion.links.count();
-        // Few plain numbers lie in registers. Others are too many for these, and compiling room
-        // for few of them apart would take twice the time.
-        if const { size_of::<T>() <= size_of::<f64>() } {
-            match links {
-                1..=4 => {
-                    let rooms = RoomsOfFew::<4, 1> { links };
-                    self.expansion.run(rooms, self.work, self.torques);
-                }
-                5..=8 => {
-                    let rooms = RoomsOfFew::<8, 2> { links };
-                    self.expansion.run(rooms, self.work, self.torques);
-                }
-                _ => self.in_lent_room(),
-            }
-        } else {
-            self.in_lent_room();
-        }
-    }
-
-    #[inline(always)]
-    fn of_wide<W: Scalar>(self)
-    where
-        T: Simd<W>,
-    {
-        self.in_lent_room();
-    }
-}
-
-impl<T: Scalar> InRooms<'_, '_, T> {
-    #[inline(always)]
-    fn in_lent_room(self) {
-        let links = self.expansion.links.count();
-        let free = self.free;
-        let rooms = LentRooms { free, links };
-        self.expansion.run(rooms, self.work, self.torques);
-    }
-}
-
-/// Writes sines and cosines of all links, zeros where there is no link.
-#[inline(always)]
-fn turn<T: Scalar>(theta: &[T], sines: &mut [Quad<T>], cosines: &mut [Quad<T>]) {
-    for ((four, sines), cosines) in theta.chunks(4).zip(sines).zip(cosines) {
-        let mut angles = [T::from_f64(0.0); 4];
-        for (angle, own) in angles.iter_mut().zip(four) {
-            *angle = *own;
-        }
-        (sines.0, cosines.0) = T::sin_cos_each(&angles);
     }
 }

@@ -1,4 +1,4 @@
-//! MassConstants of the Lagrangian of a tree, in absolute angles (physics (1.6), (1.7)).
+//! Constants of the Lagrangian of a tree, in absolute angles (physics (1.6), (1.7)).
 
 use alloc::vec::Vec;
 

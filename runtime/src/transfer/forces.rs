@@ -18,7 +18,7 @@ pub enum NonConservative<'a, T> {
     Torques(&'a [T]),
 }
 
-/// MassConstants of friction and of the drive.
+/// Constants of friction and of the drive.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Passive<T> {
     /// Friction in the pivot and drag of each link; empty where there are none.

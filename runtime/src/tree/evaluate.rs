@@ -14,6 +14,7 @@ use super::shared::Shared;
 use super::skeleton::Skeleton;
 use super::small::LinkStates;
 use super::sweep::{Sweep, View, Way};
+use crate::scalar::kind::compiled_once;
 use crate::scalar::{Scalar, at};
 use crate::simd::WIDEST;
 use crate::simd::dispatch::in_widest;
@@ -352,4 +353,25 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
             *place = acceleration;
         }
     }
+}
+
+/// [`accelerations`] by equations that are compiled with a model.
+type Accelerate<T> = fn(
+    &Skeleton<T>,
+    SweepFn<T>,
+    Option<RootDrive<T>>,
+    LinkStates<'_, T>,
+    Option<&[T]>,
+    &mut [T],
+    &mut Workspace<T>,
+);
+
+compiled_once! {
+    /// [`accelerations`] of a tree in one piece.
+    pub(super) InOnePiece<T> = accelerations::<_, false>: Accelerate<T>
+}
+
+compiled_once! {
+    /// [`accelerations`] of a tree that may be in blocks.
+    pub(super) InBlocks<T> = accelerations::<_, true>: Accelerate<T>
 }

@@ -3,7 +3,13 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::strips::SmallSubtrees;
+/// Small subtrees of a tree of any shape, side by side: links whose motions are formed at
+/// once, if they have not been before, and the strips that go up then.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SmallSubtrees {
+    pub(super) links: Range<usize>,
+    pub(super) strips: Range<usize>,
+}
 
 /// The links, from the root on, by height: the distance to the deepest leaf below.
 ///

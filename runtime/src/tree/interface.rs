@@ -1,6 +1,6 @@
 //! Values that blocks hand over to each other.
 
-use super::block::Generation;
+use super::generation::Generation;
 use super::memory::{Sizes, line, odd_lines};
 use super::shared::Shared;
 use super::sweep::Sweep;

@@ -34,12 +34,14 @@ mod columns;
 mod copies;
 mod equations;
 mod evaluate;
+mod generation;
 mod heights;
 mod held;
 mod interface;
 mod layout;
 mod memory;
 mod motion;
+mod output;
 mod partition;
 mod plan;
 mod prefetch;
@@ -75,9 +77,10 @@ use crate::simd::{Simd, wide_slice};
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
 use copies::links;
+use evaluate::{InBlocks, InOnePiece};
 use memory::Sizes;
 use partition::Policy;
-use skeleton::{ByGeneration, ByLink, InBlocks, InOnePiece, Skeleton};
+use skeleton::{ByGeneration, ByLink, Skeleton};
 
 /// Trees of at least so many links are computed on all cores, unless
 /// [`Tree::set_threads`] says otherwise: below, threads cost more than they save.

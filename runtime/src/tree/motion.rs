@@ -1,7 +1,8 @@
 //! Sines, cosines and joint motions that equations read, formed before the recursion.
 
-use super::block::{Generation, SubtreeBlock};
+use super::block::SubtreeBlock;
 use super::columns::{Columns, load_front};
+use super::generation::Generation;
 use super::prefetch::prefetch;
 use super::shared::Shared;
 use super::sweep::Sweep;

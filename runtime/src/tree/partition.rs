@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 
 use core::ops::Range;
 
-use super::block::{Generation, SubtreeBlock};
+use super::block::SubtreeBlock;
+use super::generation::Generation;
 use super::strips::Strips;
 use crate::simd::WIDEST;
 

@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::block::{Generation, SubtreeBlock, generations};
+use super::block::SubtreeBlock;
+use super::generation::{Generation, generations};
 use super::heights::Heights;
 use super::partition::{Partition, Policy};
 use super::strips::Strips;

@@ -4,8 +4,8 @@
 
 use core::marker::PhantomData;
 
+use super::output::Output;
 use super::prefetch::prefetch;
-use super::sweep::Output;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 

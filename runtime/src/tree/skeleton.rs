@@ -2,17 +2,13 @@
 
 use alloc::vec::Vec;
 
-use super::evaluate::{SweepFn, accelerations};
 use super::layout::EvaluationMemory;
 use super::memory::{Sizes, line, odd_lines};
 use super::partition::Policy;
 use super::plan::Plan;
-use super::root::RootDrive;
-use super::small::LinkStates;
 use crate::scalar::Scalar;
 use crate::scalar::kind::compiled_once;
 use crate::simd::WIDEST;
-use crate::system::Workspace;
 
 /// The shape of a tree, its constants, and how it is computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,25 +130,4 @@ compiled_once! {
     /// [`Skeleton::by_link`].
     pub(super) ByLink<T> = Skeleton::by_link:
         fn(&[u32], Sizes, &[T], [T; 2]) -> Skeleton<T>
-}
-
-/// [`accelerations`] by equations that are compiled with a model.
-type Accelerate<T> = fn(
-    &Skeleton<T>,
-    SweepFn<T>,
-    Option<RootDrive<T>>,
-    LinkStates<'_, T>,
-    Option<&[T]>,
-    &mut [T],
-    &mut Workspace<T>,
-);
-
-compiled_once! {
-    /// [`accelerations`] of a tree in one piece.
-    pub(super) InOnePiece<T> = accelerations::<_, false>: Accelerate<T>
-}
-
-compiled_once! {
-    /// [`accelerations`] of a tree that may be in blocks.
-    pub(super) InBlocks<T> = accelerations::<_, true>: Accelerate<T>
 }

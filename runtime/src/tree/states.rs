@@ -11,14 +11,16 @@
 
 use core::marker::PhantomData;
 
-use super::block::{Generation, SubtreeBlock};
+use super::block::SubtreeBlock;
 use super::copies::links;
 use super::equations::LinkEquations;
+use super::generation::Generation;
 use super::memory::{Room, Sizes, take};
+use super::output::Output;
 use super::partition::Policy;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
-use super::sweep::{Output, Passes, Sweep};
+use super::sweep::{Passes, Sweep};
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 

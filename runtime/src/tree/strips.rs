@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use super::block::{Generation, Position};
+use super::generation::{Generation, Position};
 use super::heights::Heights;
+use super::heights::SmallSubtrees;
 
 /// Neighbours of one generation, and their children.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,14 +56,6 @@ pub(super) struct Attachment {
     pub(super) length: usize,
     /// No child of these parents has been attached before.
     pub(super) first: bool,
-}
-
-/// Small subtrees of a tree of any shape, side by side: links whose motions are formed at
-/// once, if they have not been before, and the strips that go up then.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct SmallSubtrees {
-    pub(super) links: Range<usize>,
-    pub(super) strips: Range<usize>,
 }
 
 /// The links with children of a block, strip by strip from its first generation on.
@@ -286,7 +279,7 @@ impl Reach {
 mod tests {
     use super::*;
     use crate::simd::WIDEST;
-    use crate::tree::block::generations;
+    use crate::tree::generation::generations;
 
     /// Goes over the last place of every width in every copy, one number after the other.
     fn all_places_are_within_reach(copies: &[usize], first: usize, width: usize) {

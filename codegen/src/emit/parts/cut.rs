@@ -1,8 +1,9 @@
 //! The cut of a long function into parts, and the values that its parts hand to
 //! each other.
 
-use super::{FunctionPart, FunctionParts, Line, MOST_IN_PART};
+use super::{FunctionPart, FunctionParts, MOST_IN_PART};
 use crate::emit::Emission;
+use crate::emit::lines::Line;
 use crate::emit::names::Locals;
 use crate::functions::Argument;
 use crate::program::{Op, ValueId};

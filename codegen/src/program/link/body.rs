@@ -8,7 +8,7 @@ use crate::functions::{Argument, BodyFunction, Purpose};
 use crate::mechanics::expression::SymbolId;
 use crate::mechanics::{BodySymbols, LinkBalance, LinkBody};
 use crate::program::ValueId;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::lower::Lowering;
 use crate::scene::{FrictionPlace, Layout, Scene};
 

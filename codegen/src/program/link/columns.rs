@@ -1,20 +1,6 @@
-//! Names of what the functions of a link read: columns of constants, and elements of the
-//! other arguments.
+//! Columns of constants that the functions of a link read.
 
-use super::strips::LoopTree;
-use crate::functions::Argument;
 use crate::named_members::named_members;
-
-/// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
-pub const LINK_MOTION: [&str; 7] = [
-    "sine",
-    "cosine",
-    "omega",
-    "joint_angle",
-    "joint_rate",
-    "outside_torque",
-    "held",
-];
 
 named_members! {
     /// A constant in the equations of one link, in reduced units: m and l are those of the
@@ -66,67 +52,37 @@ named_members! {
     }
 }
 
-impl LoopTree {
-    /// Number of elements of an argument of the link functions.
-    pub fn length(&self, argument: Argument) -> usize {
-        let torque = usize::from(self.has_joint_torques);
-        match argument {
-            Argument::Constants => self.columns.len(),
-            Argument::Body => self.body_columns.len(),
-            Argument::Motion => {
-                5 + usize::from(self.has_outside_torques) + usize::from(self.has_held_links)
-            }
-            Argument::Response => 5 + torque,
-            Argument::Sums if self.has_several_places => 9 + torque,
-            Argument::Sums => 5 + torque,
-            Argument::Elimination => 3,
-            Argument::Carried if self.has_several_places => 4,
-            Argument::Given(names) => names.len(),
-            _ => 2,
+/// A unit of torques.
+#[derive(Clone, Copy)]
+pub(super) enum TorqueUnit {
+    /// m l² of the whole tree.
+    Reduced,
+    /// N m.
+    NewtonMetre,
+}
+
+impl TorqueUnit {
+    /// Columns of the spring, viscous friction and drag.
+    pub(super) fn viscous(self) -> [Column; 3] {
+        match self {
+            Self::Reduced => [Column::Spring, Column::Friction, Column::Drag],
+            Self::NewtonMetre => [Column::Stiffness, Column::PivotFriction, Column::GroundDrag],
         }
     }
 
-    /// Name of an element.
-    pub fn element(&self, argument: Argument, index: usize) -> &'static str {
-        const RESPONSE: [&str; 6] = [
-            "deficit_xx_child",
-            "deficit_xy_child",
-            "deficit_yy_child",
-            "bias_force_x_child",
-            "bias_force_y_child",
-            "joint_torque_child",
-        ];
-        const SUMS: [&str; 6] = [
-            "deficit_xx_below",
-            "deficit_xy_below",
-            "deficit_yy_below",
-            "bias_force_x_below",
-            "bias_force_y_below",
-            "joint_torque_below",
-        ];
-        const ATTACHED: [&str; 10] = [
-            "deficit_xx_below",
-            "deficit_xy_below",
-            "deficit_yy_below",
-            "moment_x_below",
-            "moment_y_below",
-            "inertia_below",
-            "force_x_below",
-            "force_y_below",
-            "torque_below",
-            "joint_torque_below",
-        ];
-        let names: &[&str] = match argument {
-            Argument::Constants => return self.columns[index].name(),
-            Argument::Body => return self.body_columns[index].name(),
-            Argument::Motion => &LINK_MOTION,
-            Argument::Response => &RESPONSE,
-            Argument::Sums if self.has_several_places => &ATTACHED,
-            Argument::Sums => &SUMS,
-            Argument::Elimination => &["gain_x", "gain_y", "offset"],
-            Argument::Given(names) => names,
-            _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
-        };
-        names[index]
+    /// Columns of Coulomb and quadratic friction and of quadratic drag.
+    pub(super) fn laws(self) -> [Column; 3] {
+        match self {
+            Self::Reduced => [
+                Column::Coulomb,
+                Column::QuadraticFriction,
+                Column::QuadraticDrag,
+            ],
+            Self::NewtonMetre => [
+                Column::PivotCoulomb,
+                Column::PivotQuadratic,
+                Column::GroundQuadratic,
+            ],
+        }
     }
 }

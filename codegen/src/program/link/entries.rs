@@ -2,10 +2,10 @@
 
 use super::columns::Column;
 use super::functions::Functions;
-use super::strips::LoopTree;
+use super::loop_tree::LoopTree;
 use crate::functions::{Argument, LinkFunction, Purpose, ResultShape};
 use crate::mechanics::Mechanics;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::{Entry, Op, ValueId};
 use crate::scene::Scene;
 

@@ -1,15 +1,14 @@
 //! The functions of one link in a tree in loops, formed of its equations on elements of
 //! arguments.
 
-use super::columns::Column;
+use super::columns::{Column, TorqueUnit};
 use super::deficit::{Deficit, Rest};
 use super::equations::{Attached, Elimination, ReducedLink, Response};
-use super::known::TorqueUnit;
 use super::strips::Table;
 use crate::functions::{Argument, LinkFunction};
 use crate::mechanics::{JointForces, LinkSymbols};
 use crate::program::ValueId;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::pair::Pair;
 use crate::scene::FrictionPlace;
 

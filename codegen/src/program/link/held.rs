@@ -8,7 +8,7 @@ use super::equations::{Attached, Elimination, ReducedLink, Response, passed_on};
 use super::functions::{Functions, Kind, Motion};
 use crate::program::ValueId;
 use crate::program::builder::Builder;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::pair::Pair;
 
 /// Choice between a given acceleration of a link and one that follows, as numbers: of

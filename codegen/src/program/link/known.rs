@@ -1,48 +1,13 @@
 //! Values of the symbols of one link: constants of its row, and its motion.
 
-use super::columns::Column;
+use super::columns::{Column, TorqueUnit};
 use super::functions::{Functions, Kind, Motion};
 use crate::mechanics::BodySymbols;
 use crate::mechanics::expression::SymbolId;
 use crate::program::ValueId;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::friction::Law;
 use crate::scene::FrictionPlace;
-
-/// A unit of torques.
-#[derive(Clone, Copy)]
-pub(super) enum TorqueUnit {
-    /// m l² of the whole tree.
-    Reduced,
-    /// N m.
-    NewtonMetre,
-}
-
-impl TorqueUnit {
-    /// Columns of the spring, viscous friction and drag.
-    fn viscous(self) -> [Column; 3] {
-        match self {
-            Self::Reduced => [Column::Spring, Column::Friction, Column::Drag],
-            Self::NewtonMetre => [Column::Stiffness, Column::PivotFriction, Column::GroundDrag],
-        }
-    }
-
-    /// Columns of Coulomb and quadratic friction and of quadratic drag.
-    fn laws(self) -> [Column; 3] {
-        match self {
-            Self::Reduced => [
-                Column::Coulomb,
-                Column::QuadraticFriction,
-                Column::QuadraticDrag,
-            ],
-            Self::NewtonMetre => [
-                Column::PivotCoulomb,
-                Column::PivotQuadratic,
-                Column::GroundQuadratic,
-            ],
-        }
-    }
-}
 
 impl Functions<'_> {
     /// Values of the symbols in the torques of a link but for friction that is not viscous.

@@ -15,6 +15,7 @@ mod equations;
 mod functions;
 mod held;
 mod known;
+mod loop_tree;
 mod quantities;
 mod reduced_units;
 mod root;
@@ -23,8 +24,8 @@ mod strips;
 mod torques;
 mod tree;
 
-pub use columns::{Column, LINK_MOTION};
-pub use strips::{LoopTree, StripConstants};
+pub use columns::Column;
+pub use loop_tree::{LINK_MOTION, LoopTree, StripConstants};
 
 use crate::scene::{LinkId, Scene};
 

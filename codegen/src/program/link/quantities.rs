@@ -1,10 +1,11 @@
 //! Quantities of links as constants of the model.
 
+use crate::functions::LINK_PROPERTIES;
 use crate::mechanics::Mechanics;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, Setup, ValueId};
 use crate::scene::QuantityAtom::{Exact, Parameter};
-use crate::scene::{LINK_PROPERTIES, Link, Offset, Quantity};
+use crate::scene::{Link, Offset, Quantity};
 
 impl Lowering<'_> {
     /// A quantity of the description as a constant.

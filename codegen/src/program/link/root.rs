@@ -3,7 +3,7 @@
 use super::strips::Table;
 use crate::functions::{Argument, Purpose};
 use crate::mechanics::{DriveTerms, Mechanics};
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::lower::Environment;
 
 impl EntryList<'_, '_> {

@@ -8,7 +8,7 @@ use crate::functions::{Argument, Purpose, ScaleFunction};
 use crate::mechanics::expression::{Expr, SymbolId};
 use crate::mechanics::{LinkBody, LinkScales};
 use crate::program::ValueId;
-use crate::program::entries::EntryList;
+use crate::program::entry_list::EntryList;
 use crate::program::pair::Pair;
 
 impl EntryList<'_, '_> {

@@ -2,6 +2,7 @@
 //! rule.
 
 use super::columns::Column;
+use super::loop_tree::{LoopTree, StripConstants};
 use super::reduced_units::{Unit, Units};
 use crate::exact::Rational;
 use crate::mechanics::expression::{Expr, SymbolId};
@@ -9,52 +10,7 @@ use crate::mechanics::{Joint, LinkBalance};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
-use crate::scene::{LINK_PROPERTIES, Layout, LinkId, Scene};
-
-/// Neighbours that share their constants.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StripConstants {
-    /// Name of the generation or link.
-    pub name: String,
-    /// True if nothing hangs from its links.
-    pub is_leaf: bool,
-    /// A constant for each of the columns that the equations read.
-    pub constants: Vec<ConstantId>,
-    /// A constant for each of the columns that energies and powers read.
-    pub body: Vec<ConstantId>,
-    /// [Properties](crate::scene::LINK_PROPERTIES) of the links, if positions are asked for.
-    pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
-}
-
-impl StripConstants {
-    /// All constants that it holds.
-    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
-        let properties = self.properties.iter().flatten();
-        let all = self.constants.iter().chain(&self.body);
-        all.chain(properties).copied()
-    }
-}
-
-/// A tree in loops.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LoopTree {
-    /// The constants that the equations read, by strip.
-    pub columns: Vec<Column>,
-    /// The constants that energies and powers read, likewise.
-    pub body_columns: Vec<Column>,
-    /// From the root outwards.
-    pub strips: Vec<StripConstants>,
-    /// True if children of one link hang at several places.
-    pub has_several_places: bool,
-    /// True if joints have torques.
-    pub has_joint_torques: bool,
-    /// True if torques from outside act on the links.
-    pub has_outside_torques: bool,
-    /// True if links may be held, with accelerations that are given.
-    pub has_held_links: bool,
-    /// True if a torque acts on the root.
-    pub has_drive_torque: bool,
-}
+use crate::scene::{Layout, LinkId, Scene};
 
 /// All columns of all orbits, before equations are formed of them.
 pub(super) struct Table {

@@ -4,8 +4,8 @@
 
 use super::field::SymmetricTree;
 use super::motion::{ConstantValues, Fields, Pose};
-use super::sector::SectorId;
 use super::series::TruncatedSeries;
+use super::tree::SectorId;
 use std::collections::BTreeMap;
 
 /// A state of motion, with the momenta and forces that belong to it.

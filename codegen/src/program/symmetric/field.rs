@@ -7,12 +7,9 @@
 //! couple each branching to those below it.
 
 use super::series::{SeriesArithmetic, TruncatedSeries};
-use super::tree::{Branch, OrbitLinks, structure, weight};
+use super::tree::{Branch, DifferenceId, OrbitLinks, structure, weight};
 use crate::exact::Rational;
 use std::collections::BTreeMap;
-
-/// A difference: index of the group, number of the difference from 1.
-pub(in crate::program) type DifferenceId = (usize, usize);
 
 /// One quantity of every link of an orbit: link = mean + Σ weight · difference.
 #[derive(Clone, Debug, PartialEq, Eq)]

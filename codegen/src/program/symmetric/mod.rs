@@ -27,7 +27,6 @@ pub(super) use budget::{Share, SymmetricMotion};
 pub(super) use field::{SymmetricField, SymmetricTree};
 pub(super) use friction::LawValues;
 pub(super) use motion::{ConstantValues, Fields, OrbitValues, Pose};
-pub(super) use sector::SectorId;
 pub(super) use series::{SeriesArithmetic, TruncatedSeries};
 pub(super) use solve::MassFactors;
-pub(super) use tree::{OrbitLinks, orbits};
+pub(super) use tree::{OrbitLinks, SectorId, orbits};

@@ -5,8 +5,8 @@ use super::budget::{Share, SymmetricMotion};
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields};
-use super::sector::SectorId;
 use super::series::TruncatedSeries;
+use super::tree::SectorId;
 
 /// A vector in the plane for every link of an orbit: x, y.
 type PlaneFields = [SymmetricField; 2];

@@ -5,8 +5,8 @@
 
 use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, Pose};
-use super::sector::SectorId;
 use super::series::TruncatedSeries;
+use super::tree::SectorId;
 use crate::exact::Rational;
 use std::collections::BTreeMap;
 

@@ -1,14 +1,11 @@
 //! Sectors: their share of a sum over links, their block of the mass matrix,
 //! their part of the potential energy.
 
-use super::field::{DifferenceId, SymmetricField, SymmetricTree};
+use super::field::{SymmetricField, SymmetricTree};
 use super::motion::{ConstantValues, Fields, MassEntry, Pose};
 use super::series::TruncatedSeries;
-use super::tree::{Branch, weight};
+use super::tree::{Branch, SectorId, weight};
 use std::collections::BTreeMap;
-
-/// A sector: one difference, or the means.
-pub(in crate::program) type SectorId = Option<DifferenceId>;
 
 /// Lower triangle of a symmetric matrix of the orbits in a sector.
 pub(super) type SectorMatrix = BTreeMap<(usize, usize), TruncatedSeries>;

@@ -1,11 +1,16 @@
 //! The branching of an orbit's links into copies.
 
-use super::sector::SectorId;
 use crate::exact::Rational;
 use crate::scene::Coordinate;
 use crate::scene::{LinkId, Scene};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+
+/// A difference: index of the group, number of the difference from 1.
+pub(in crate::program) type DifferenceId = (usize, usize);
+
+/// A sector: one difference, or the means.
+pub(in crate::program) type SectorId = Option<DifferenceId>;
 
 /// The links of one orbit.
 #[derive(Clone, Debug)]

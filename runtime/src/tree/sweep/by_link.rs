@@ -4,12 +4,13 @@
 #![allow(unsafe_code)]
 
 use super::passes::{Passes, add};
-use super::strip::{Output, VectorPlaces};
+use super::strip::VectorPlaces;
 use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
 use crate::tree::columns::Cells;
 use crate::tree::equations::{LinkEquations, Row};
+use crate::tree::output::Output;
 use crate::tree::strips::{Attachment, Strip};
 
 /// Where the numbers of links and their constants stand. A copy: compilers read what is

@@ -5,13 +5,14 @@
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use super::strip::{Output, StripView};
+use super::strip::StripView;
 use super::view::{LinkCells, Read, View};
 use crate::scalar::Scalar;
 use crate::simd::dispatch::in_widest;
 use crate::simd::{Kernel, Simd, WIDEST};
 use crate::tree::equations::{LinkEquations, LinkMotion, Row};
 use crate::tree::memory::Sizes;
+use crate::tree::output::Output;
 use crate::tree::shared::Shared;
 use crate::tree::strips::{Attachment, Strip};
 

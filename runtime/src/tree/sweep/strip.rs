@@ -5,6 +5,7 @@
 use super::view::LinkCells;
 use crate::scalar::Scalar;
 use crate::simd::Simd;
+use crate::tree::output::Output;
 use crate::tree::strips::Strip;
 
 /// The numbers of neighbours and of their children, from the first one's on. The
@@ -26,16 +27,6 @@ pub(super) struct StripView<T> {
     /// From one copy to the next.
     pub(super) apart: usize,
     whole_apart: usize,
-}
-
-/// Where accelerations go.
-pub(in crate::tree) trait Output<T> {
-    /// Takes the accelerations of `count` links from the one with number `at` in the
-    /// tree on: as many as `V` has lanes, or the first of these.
-    ///
-    /// # Safety
-    /// The links are within reach of the strips of the block that is being computed.
-    unsafe fn write<V: Simd<T>>(&mut self, at: usize, alpha: V, count: usize);
 }
 
 // Of all these: the numbers are the view's own for as long as it lives,

@@ -2,13 +2,15 @@
 //! methods without meaning, so that an editor shows the description's errors
 //! and no others.
 
-use super::shapes::{argument_type, result_type};
-use super::stub_sectors::{places, sector_count};
+mod sectors;
+
 use crate::description::Description;
+use crate::emit::shapes::{argument_type, result_type};
 use crate::functions::{Argument, Naming, Purpose, Signature, is_method};
 use crate::scene::is_keyword;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use sectors::{places, sector_count};
 use std::collections::BTreeSet;
 
 /// Stands for the number of links, which a wrong description need not tell.
@@ -262,7 +264,7 @@ fn taylor(description: &Description, runtime: &TokenStream) -> Option<TokenStrea
 }
 
 /// Returns true if a name may stand in a stub: no keyword, and spelt in one way only.
-pub(super) fn is_plain(name: &str) -> bool {
+fn is_plain(name: &str) -> bool {
     syn::parse_str::<Ident>(name).is_ok() && !is_keyword(name) && !name.starts_with("r#")
 }
 

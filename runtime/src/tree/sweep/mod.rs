@@ -10,7 +10,7 @@ use super::memory::Storage;
 #[cfg(test)]
 pub(super) use passes::SweepKernel;
 pub(super) use passes::{Passes, Way, add, sweep};
-pub(super) use strip::{Output, VectorPlaces};
+pub(super) use strip::VectorPlaces;
 pub(super) use view::View;
 
 /// A block with its state.

@@ -1,6 +1,6 @@
 //! Sectors of a wrong description, as far as it tells them.
 
-use super::stub::is_plain;
+use super::is_plain;
 use crate::description::{Description, Expression, ExpressionKind, Node, Value};
 use std::collections::BTreeSet;
 

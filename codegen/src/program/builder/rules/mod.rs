@@ -13,8 +13,8 @@ mod neutral;
 pub(super) mod sharing;
 mod signs;
 
-use super::builder::Builder;
-use super::{Op, Pass, ValueId};
+use super::Builder;
+use crate::program::{Op, Pass, ValueId};
 
 /// The value that an operation becomes, if the rule applies.
 type Rule = fn(&mut Builder, &Op) -> Option<ValueId>;

@@ -1,7 +1,7 @@
 //! Builds a program value by value; [`RULES`] say what becomes of an operation.
 
-use super::rules::RULES;
-use super::rules::sharing::KnownOperations;
+mod rules;
+
 use super::{
     ConstantId, ConstantOp, Definition, Entry, MOST_VALUES, Op, Pass, Program, Setup, SolveChoice,
     TooManyValues, ValueId,
@@ -9,6 +9,8 @@ use super::{
 use crate::exact::Rational;
 use crate::functions::Argument;
 use crate::scene::Scene;
+use rules::RULES;
+use rules::sharing::KnownOperations;
 
 /// A program in the making.
 #[derive(Clone, Default)]
@@ -66,7 +68,7 @@ impl Builder {
 
     /// The values that `outputs` depend on, themselves included, in order.
     pub(super) fn needed(&self, outputs: &[ValueId]) -> Vec<ValueId> {
-        super::dead::needed(&self.definitions, outputs)
+        crate::program::dead::needed(&self.definitions, outputs)
     }
 
     /// A value by this operation: what the rules make of it, or the operation.

@@ -8,7 +8,7 @@
 mod cut;
 
 use super::Emission;
-use super::function::Written;
+use super::lines::{Line, MOST_LINES, Written, is_whole};
 use super::names::Locals;
 use super::tokens::{Binding, ident, number_tokens};
 use crate::functions::{Argument, Purpose};
@@ -17,63 +17,12 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A function of about more lines than this is written in parts.
-const MOST_LINES: usize = 1000;
-
 /// Lines of a part, at most about, those included that take values from the
 /// array and put them there.
 const MOST_IN_PART: usize = 640;
 
-/// The parts of a function of about more lines than this are compiled one by
-/// one; those of a shorter one as the whole that they are, which runs faster.
-const MOST_INLINED: usize = 3000;
-
-/// Characters of tokens on a line of formatted code.
-const WIDTH: usize = 60;
-
 /// The array of the values that parts share.
 pub(super) const SHARED: &str = "shared_values";
-
-/// One `let` line.
-#[derive(Clone)]
-pub(super) struct Line {
-    /// The values that it names.
-    pub(super) defines: Vec<ValueId>,
-    /// Values that it is formed from, named or not.
-    pub(super) reads: Vec<ValueId>,
-    /// An argument that it reads as a whole.
-    pub(super) whole: Option<Argument>,
-    pub(super) tokens: TokenStream,
-    /// Estimated number of lines of formatted code.
-    height: usize,
-}
-
-impl Line {
-    pub(super) fn new(defines: Vec<ValueId>, reads: Vec<ValueId>, tokens: TokenStream) -> Self {
-        Self {
-            defines,
-            reads,
-            whole: None,
-            height: tokens.to_string().len().div_ceil(WIDTH),
-            tokens,
-        }
-    }
-}
-
-/// Returns true if these lines are too many for one function.
-pub(super) fn long(lines: &[Line]) -> bool {
-    height(lines) > MOST_LINES
-}
-
-/// Returns true if a function of these lines is compiled as a whole, in parts
-/// or not.
-pub(super) fn is_whole(lines: &[Line]) -> bool {
-    height(lines) <= MOST_INLINED
-}
-
-fn height(lines: &[Line]) -> usize {
-    lines.iter().map(|line| line.height).sum()
-}
 
 /// Some lines of a function, with what goes in and out.
 pub(super) struct FunctionPart {

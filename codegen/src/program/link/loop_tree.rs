@@ -1,0 +1,127 @@
+//! A tree in loops as data: its strips with their constants, and what the functions of its
+//! links read.
+
+use super::columns::Column;
+use crate::functions::{Argument, LINK_PROPERTIES};
+use crate::program::ConstantId;
+
+/// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
+pub const LINK_MOTION: [&str; 7] = [
+    "sine",
+    "cosine",
+    "omega",
+    "joint_angle",
+    "joint_rate",
+    "outside_torque",
+    "held",
+];
+
+/// Neighbours that share their constants.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StripConstants {
+    /// Name of the generation or link.
+    pub name: String,
+    /// True if nothing hangs from its links.
+    pub is_leaf: bool,
+    /// A constant for each of the columns that the equations read.
+    pub constants: Vec<ConstantId>,
+    /// A constant for each of the columns that energies and powers read.
+    pub body: Vec<ConstantId>,
+    /// [Properties](crate::functions::LINK_PROPERTIES) of the links, if positions are asked for.
+    pub properties: Option<[ConstantId; LINK_PROPERTIES.len()]>,
+}
+
+impl StripConstants {
+    /// All constants that it holds.
+    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+        let properties = self.properties.iter().flatten();
+        let all = self.constants.iter().chain(&self.body);
+        all.chain(properties).copied()
+    }
+}
+
+/// A tree in loops.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoopTree {
+    /// The constants that the equations read, by strip.
+    pub columns: Vec<Column>,
+    /// The constants that energies and powers read, likewise.
+    pub body_columns: Vec<Column>,
+    /// From the root outwards.
+    pub strips: Vec<StripConstants>,
+    /// True if children of one link hang at several places.
+    pub has_several_places: bool,
+    /// True if joints have torques.
+    pub has_joint_torques: bool,
+    /// True if torques from outside act on the links.
+    pub has_outside_torques: bool,
+    /// True if links may be held, with accelerations that are given.
+    pub has_held_links: bool,
+    /// True if a torque acts on the root.
+    pub has_drive_torque: bool,
+}
+
+impl LoopTree {
+    /// Number of elements of an argument of the link functions.
+    pub fn length(&self, argument: Argument) -> usize {
+        let torque = usize::from(self.has_joint_torques);
+        match argument {
+            Argument::Constants => self.columns.len(),
+            Argument::Body => self.body_columns.len(),
+            Argument::Motion => {
+                5 + usize::from(self.has_outside_torques) + usize::from(self.has_held_links)
+            }
+            Argument::Response => 5 + torque,
+            Argument::Sums if self.has_several_places => 9 + torque,
+            Argument::Sums => 5 + torque,
+            Argument::Elimination => 3,
+            Argument::Carried if self.has_several_places => 4,
+            Argument::Given(names) => names.len(),
+            _ => 2,
+        }
+    }
+
+    /// Name of an element.
+    pub fn element(&self, argument: Argument, index: usize) -> &'static str {
+        const RESPONSE: [&str; 6] = [
+            "deficit_xx_child",
+            "deficit_xy_child",
+            "deficit_yy_child",
+            "bias_force_x_child",
+            "bias_force_y_child",
+            "joint_torque_child",
+        ];
+        const SUMS: [&str; 6] = [
+            "deficit_xx_below",
+            "deficit_xy_below",
+            "deficit_yy_below",
+            "bias_force_x_below",
+            "bias_force_y_below",
+            "joint_torque_below",
+        ];
+        const ATTACHED: [&str; 10] = [
+            "deficit_xx_below",
+            "deficit_xy_below",
+            "deficit_yy_below",
+            "moment_x_below",
+            "moment_y_below",
+            "inertia_below",
+            "force_x_below",
+            "force_y_below",
+            "torque_below",
+            "joint_torque_below",
+        ];
+        let names: &[&str] = match argument {
+            Argument::Constants => return self.columns[index].name(),
+            Argument::Body => return self.body_columns[index].name(),
+            Argument::Motion => &LINK_MOTION,
+            Argument::Response => &RESPONSE,
+            Argument::Sums if self.has_several_places => &ATTACHED,
+            Argument::Sums => &SUMS,
+            Argument::Elimination => &["gain_x", "gain_y", "offset"],
+            Argument::Given(names) => names,
+            _ => &["gravity_x", "gravity_y", "end_x", "end_y"],
+        };
+        names[index]
+    }
+}

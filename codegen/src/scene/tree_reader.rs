@@ -1,0 +1,232 @@
+//! From description nodes to templates.
+
+use super::bodies::GivenProperties;
+use super::names::check_link;
+use super::passive::{PassiveTorques, check_idle};
+use super::properties::Properties;
+use super::rule::{Code, GenerationRule};
+use super::template::{MAX_LINKS, Template, TreeBuilder, WholeRule};
+use super::unequal::unequal_copies;
+use super::{Offset, Quantity};
+use crate::description::Node;
+use crate::report::{Faults, SizeMessage, TreeMessage};
+
+/// The joint from which a link hangs.
+struct Parent {
+    index: usize,
+    joint: Offset,
+}
+
+impl TreeBuilder {
+    /// Adds the root and all that hangs from it. After an error the templates
+    /// still have their names and numbers of copies, but no meaningful bodies.
+    pub(super) fn add_root(&mut self, node: &Node, report: &mut Faults) {
+        if let Some(copies) = node.copies.filter(|copies| copies.count > 1) {
+            report.error(copies.span, TreeMessage::RootCopies);
+        }
+        self.add(node, None, report);
+    }
+
+    /// Adds a link or a rule, and its children: once for all copies, or for each where
+    /// they differ.
+    fn add(&mut self, node: &Node, parent: Option<&Parent>, report: &mut Faults) {
+        // Too many already, which the check of the tree's size reports.
+        if self.templates.len() > MAX_LINKS {
+            return;
+        }
+        let before = report.diagnostics().len();
+        check_link(&node.name, report);
+        if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
+            report.error(copies.span, TreeMessage::ZeroCopies);
+        }
+        check_idle(node, report);
+        let shape = node.shape.as_ref();
+        let is_rule = shape.is_some_and(|shape| shape == "generations");
+        let right = |report: &Faults| report.diagnostics().len() == before;
+        let unequal = match right(report) {
+            true => unequal_copies(node, is_rule, report),
+            false => None,
+        };
+        let mut links = Vec::new();
+        for copy in unequal.as_deref().unwrap_or(std::slice::from_ref(node)) {
+            let (mut template, properties) = self.described(copy, is_rule, parent, report);
+            template.name = node.name.to_string();
+            template.node.clone_from(&template.name);
+            links.push((template, properties));
+            // Further copies would say the same again.
+            if !right(report) {
+                break;
+            }
+        }
+        let differ = |pair: &[(Template, _)]| !pair[0].0.is_like(&pair[1].0);
+        if !links.windows(2).any(differ) {
+            links.truncate(1);
+        }
+        let (start, several) = (self.templates.len(), links.len() > 1);
+        for (index, (mut template, properties)) in links.into_iter().enumerate() {
+            if several {
+                template.copies = 1;
+                template.number = Some(index + 1);
+            }
+            let own = self.templates.len();
+            self.add_link(node, template, &properties, report);
+            for later in own..self.templates.len() {
+                let first = self.templates.get(later - own + start);
+                if let Some(origin) = first.map(|first| first.origin) {
+                    self.templates[later].origin = origin;
+                }
+            }
+            if !right(report) {
+                break;
+            }
+        }
+    }
+
+    /// The template of a link without those below it.
+    fn described(
+        &mut self,
+        node: &Node,
+        is_rule: bool,
+        parent: Option<&Parent>,
+        report: &mut Faults,
+    ) -> (Template, Properties) {
+        let properties = Properties::read(node, is_rule, &mut self.values, report);
+        let template = Template {
+            name: node.name.to_string(),
+            node: node.name.to_string(),
+            span: node.name.span(),
+            parent: parent.map(|parent| parent.index),
+            copies: node.copies.map_or(1, |copies| copies.count as usize),
+            number: None,
+            origin: self.templates.len(),
+            body: properties.body.clone(),
+            pivot: self.pivot(node, parent, &properties.given, report),
+            passive: PassiveTorques::of(&properties.given),
+        };
+        (template, properties)
+    }
+
+    /// Adds a link or a rule of known properties, and its children.
+    fn add_link(
+        &mut self,
+        node: &Node,
+        mut first: Template,
+        properties: &Properties,
+        report: &mut Faults,
+    ) {
+        first.origin = self.templates.len();
+        if let Some(rule) = &properties.rule {
+            match first.parent {
+                None => {
+                    self.whole = Some(WholeRule {
+                        branching: rule.branching,
+                        code: rule.code,
+                        span: first.span,
+                    });
+                }
+                Some(_) if rule.code == Some(Code::Loops) => {
+                    let what = "a rule below other links".to_owned();
+                    report.error(first.span, SizeMessage::NoLoops { what });
+                }
+                Some(_) => {}
+            }
+            if let Some(child) = node.children.first() {
+                report.error(child.name.span(), TreeMessage::RuleChildren);
+            }
+            self.add_generations(node, first, properties, rule, report);
+            return;
+        }
+        let joint = first.body.joint.clone();
+        let names_pivot = |child: &Node| child.properties.iter().any(|p| p.name == "at");
+        if joint.is_none() && !node.damaged && !node.children.iter().all(names_pivot) {
+            missing_joint(node, report);
+        }
+        let parent = Parent {
+            index: self.templates.len(),
+            joint: joint.unwrap_or_else(origin),
+        };
+        self.templates.push(first);
+        for child in &node.children {
+            self.add(child, Some(&parent), report);
+        }
+    }
+
+    /// Attachment of a link to its parent.
+    fn pivot(
+        &self,
+        node: &Node,
+        parent: Option<&Parent>,
+        given: &GivenProperties,
+        report: &mut Faults,
+    ) -> Offset {
+        match (parent, given.point("at")) {
+            (Some(_), Some(at)) => at.clone(),
+            (Some(parent), None) => parent.joint.clone(),
+            (None, None) => origin(),
+            (None, Some(_)) => {
+                let at = node.properties.iter().find(|p| p.name == "at");
+                let span = at.map_or(node.name.span(), |at| at.name.span());
+                report.error(span, TreeMessage::RootPivot);
+                origin()
+            }
+        }
+    }
+
+    /// Adds the generations of a rule, the first of which is given.
+    fn add_generations(
+        &mut self,
+        node: &Node,
+        first: Template,
+        properties: &Properties,
+        rule: &GenerationRule,
+        report: &mut Faults,
+    ) {
+        let span = first.span;
+        // The templates alone may be too many, before any copies.
+        if self.templates.len().saturating_add(rule.count) > MAX_LINKS {
+            report.error(span, SizeMessage::TooManyLinks { limit: MAX_LINKS });
+            return;
+        }
+        if first.body.joint.is_none() && rule.count > 1 && !node.damaged {
+            missing_joint(node, report);
+        }
+        for generation in 0..rule.count {
+            let values = &mut self.values;
+            let found = properties.of_generation(generation, node, values, report);
+            let Some((body, given)) = found else {
+                return;
+            };
+            let above = generation.checked_sub(1).map(|_| self.templates.len() - 1);
+            let hanging = above.and_then(|above| self.templates.get(above)?.body.joint.clone());
+            self.templates.push(Template {
+                name: format!("{}_{}", first.name, generation + 1),
+                node: first.node.clone(),
+                span,
+                parent: above.or(first.parent),
+                copies: if above.is_some() {
+                    rule.branching
+                } else {
+                    first.copies
+                },
+                number: None,
+                origin: self.templates.len(),
+                body,
+                pivot: hanging.unwrap_or_else(|| first.pivot.clone()),
+                passive: PassiveTorques::of(&given),
+            });
+        }
+    }
+}
+
+fn missing_joint(node: &Node, report: &mut Faults) {
+    let link = node.name.to_string();
+    report.error(node.name.span(), TreeMessage::MissingJoint { link });
+}
+
+/// The pivot itself.
+fn origin() -> Offset {
+    Offset {
+        along: Quantity::zero(),
+        lateral: Quantity::zero(),
+    }
+}
