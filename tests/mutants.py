@@ -55,7 +55,7 @@ EXPRESSIONS = [
     ("friction against the ground instead of the parent", f"{C}/mechanics/lagrangian.rs",
      "self.joint_rate(index, velocities)", "Formula::symbol(velocities[index])",
      MECHANICS, CARTESIAN),
-    ("sign of rest angles", f"{C}/mechanics/joint.rs",
+    ("sign of rest angles", f"{C}/mechanics/meaning.rs",
      "minus(self.rest.clone())", "self.rest.clone()", MECHANICS, CARTESIAN),
     ("sign of lateral levers", f"{C}/mechanics/positions.rs",
      "&(along * &sin) + &(across * &cos)", "&(along * &sin) - &(across * &cos)",

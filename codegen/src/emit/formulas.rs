@@ -48,36 +48,13 @@ impl Emission<'_> {
             Purpose::SymmetricMomenta => symmetric
                 .map(|frame| self.momenta(frame))
                 .unwrap_or_default(),
-            Purpose::SubHamiltonian(n) => {
-                let energy = &mechanics.transfers[n].energy;
-                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
-                simple("H_d", &sum)
-            }
-            Purpose::TruncatedTransfer(n, counting, order) if order == counting.bracket_order() => {
-                self.transfer(mechanics.transfers[n].truncated(counting, order))
-            }
-            Purpose::ExactTransfer(n, _) => self.transfer(mechanics.transfers[n].exact.as_ref()),
-            Purpose::SplitTransfer(n, cause, _) => match &mechanics.transfers[n].split {
-                Some([growth, forcing]) => Self::transfer_parts(match cause {
-                    Cause::MeanTree => growth,
-                    Cause::Mismatch => forcing,
-                }),
-                None => Vec::new(),
-            },
-            Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
-                Some(form) => ["a_pp", "a_pq", "a_qq"]
-                    .iter()
-                    .zip(form)
-                    .map(|(&name, expr)| {
-                        NamedFormula::new(name, format!("a_{{{}}}", &name[2..]), expr)
-                    })
-                    .chain(self.written_out())
-                    .collect(),
-                None => Vec::new(),
-            },
-            Purpose::AntiphaseDrivePower(n, _) => {
-                self.power_formulas(&mechanics.transfers[n].drive)
-            }
+            Purpose::SubHamiltonian(_)
+            | Purpose::TruncatedTransfer(..)
+            | Purpose::ExactTransfer(..)
+            | Purpose::SplitTransfer(..)
+            | Purpose::QuadraticForm(_)
+            | Purpose::AntiphaseDrivePower(..)
+            | Purpose::AntiphaseFrictionPower(..) => self.transfer_formulas(purpose),
             Purpose::Drive | Purpose::RootDrive => self.drive_formulas(),
             Purpose::DrivePower => match mechanics.drive.as_ref().and_then(|d| d.power.as_ref()) {
                 Some(power) => self.power_formulas(power),
@@ -91,7 +68,6 @@ impl Emission<'_> {
                 }
                 None => Vec::new(),
             },
-            Purpose::AntiphaseFrictionPower(n, _) => simple("P", &mechanics.transfers[n].friction),
             Purpose::Scale(function) => self.scale_formulas(function),
             Purpose::Body(function) => match &mechanics.body {
                 Some(body) => body.formulas(&mechanics.symbols, function),
@@ -119,7 +95,6 @@ impl Emission<'_> {
             | Purpose::SectorTransfers(_)
             | Purpose::TruncatedSectorTransfers(..)
             | Purpose::TransferMatrix(_)
-            | Purpose::TruncatedTransfer(..)
             | Purpose::StiffnessMatrix
             | Purpose::ToSymmetric
             | Purpose::FromSymmetric
@@ -129,6 +104,50 @@ impl Emission<'_> {
             | Purpose::LinkProperties
             | Purpose::Link(_)
             | Purpose::RootGravity => Vec::new(),
+        }
+    }
+
+    /// Formulas of H_d, W and the powers on them.
+    fn transfer_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {
+        let mechanics = self.mechanics;
+        match purpose {
+            Purpose::SubHamiltonian(n) => {
+                let energy = &mechanics.transfers[n].energy;
+                let sum = Expr::Sum(vec![energy.kinetic.clone(), energy.potential.clone()]);
+                vec![NamedFormula::of_letter("H_d", &sum)]
+            }
+            Purpose::TruncatedTransfer(n, counting, order) if order == counting.bracket_order() => {
+                self.transfer(mechanics.transfers[n].truncated(counting, order))
+            }
+            Purpose::ExactTransfer(n, _) => self.transfer(mechanics.transfers[n].exact.as_ref()),
+            Purpose::SplitTransfer(n, cause, _) => match &mechanics.transfers[n].split {
+                Some([growth, forcing]) => Self::transfer_parts(match cause {
+                    Cause::MeanTree => growth,
+                    Cause::Mismatch => forcing,
+                }),
+                None => Vec::new(),
+            },
+            Purpose::QuadraticForm(n) => match &mechanics.transfers[n].quadratic_form {
+                Some(form) => ["a_pp", "a_pq", "a_qq"]
+                    .iter()
+                    .zip(form)
+                    .map(|(&name, expr)| {
+                        NamedFormula::new(name, format!("a_{{{}}}", &name[2..]), expr)
+                    })
+                    .chain(self.written_out())
+                    .collect(),
+                None => Vec::new(),
+            },
+            Purpose::AntiphaseDrivePower(n, _) => {
+                self.power_formulas(&mechanics.transfers[n].drive)
+            }
+            Purpose::AntiphaseFrictionPower(n, _) => {
+                vec![NamedFormula::of_letter(
+                    "P",
+                    &mechanics.transfers[n].friction,
+                )]
+            }
+            _ => Vec::new(),
         }
     }
 

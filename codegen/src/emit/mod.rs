@@ -15,6 +15,7 @@ mod gather;
 mod latex;
 mod lines;
 mod links;
+mod meanings;
 mod model;
 mod names;
 mod observables;

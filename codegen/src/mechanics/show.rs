@@ -3,26 +3,14 @@
 use super::expression::{Expr, SymbolId};
 use super::{
     DriveTerms, EnergyParts, Frame, LinkBalance, LinkPositions, MatrixEntry, MeanTree, Mechanics,
-    OrbitMechanics, RelativePosition, Temporal, constant_text, text,
+    OrbitMechanics, RelativePosition, Temporal, TransferFormulas, constant_text, text,
 };
 use crate::scene::CoordinateKind;
 use std::fmt;
 
 impl fmt::Display for Mechanics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.constants.is_empty() {
-            writeln!(f, "constants")?;
-        }
-        for constant in &self.constants {
-            writeln!(
-                f,
-                "  {} = {} [{}]: {}",
-                self.name(constant.symbol),
-                constant_text(&constant.value, &self.symbols),
-                constant.unit,
-                constant.meaning
-            )?;
-        }
+        self.constants(f)?;
         if !self.joints.is_empty() {
             writeln!(f, "joints")?;
         }
@@ -53,6 +41,41 @@ impl fmt::Display for Mechanics {
         if let Some(sectors) = &self.sectors {
             self.sectors(f, sectors)?;
         }
+        self.expansion(f)?;
+        if let Some(MeanTree { frame, added }) = &self.mean_tree {
+            writeln!(f, "mean tree, and velocities u that the mismatch adds")?;
+            self.matrix(f, "M̃₀", &frame.mass)?;
+            for (&symbol, value) in added.unknowns.iter().zip(&added.right) {
+                writeln!(f, "  (M̃₀ {}) = {}", self.name(symbol), self.text(value))?;
+            }
+        }
+        for transfer in &self.transfers {
+            self.transfer(f, transfer)?;
+        }
+        self.observables(f)
+    }
+}
+
+impl Mechanics {
+    fn constants(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.constants.is_empty() {
+            writeln!(f, "constants")?;
+        }
+        for constant in &self.constants {
+            writeln!(
+                f,
+                "  {} = {} [{}]: {}",
+                self.name(constant.symbol),
+                constant_text(&constant.value, &self.symbols),
+                constant.unit,
+                constant.meaning
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The inverse mass matrix in orders of the differences.
+    fn expansion(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(expansion) = &self.expansion {
             writeln!(f, "in-phase velocities: M⁽⁰⁾ w = p")?;
             self.matrix(f, "M⁽⁰⁾", &expansion.leading)?;
@@ -77,46 +100,39 @@ impl fmt::Display for Mechanics {
                 self.line(f, &self.name(*symbol), value)?;
             }
         }
-        if let Some(MeanTree { frame, added }) = &self.mean_tree {
-            writeln!(f, "mean tree, and velocities u that the mismatch adds")?;
-            self.matrix(f, "M̃₀", &frame.mass)?;
-            for (&symbol, value) in added.unknowns.iter().zip(&added.right) {
-                writeln!(f, "  (M̃₀ {}) = {}", self.name(symbol), self.text(value))?;
-            }
-        }
-        for transfer in &self.transfers {
-            let name = &self.coordinates[transfer.coordinate].name;
-            writeln!(f, "transfer into {name}")?;
-            self.line(f, "T", &transfer.energy.kinetic)?;
-            self.line(f, "V", &transfer.energy.potential)?;
-            for truncated in &transfer.truncated {
-                let name = format!("{} order {}", truncated.counting.name(), truncated.order);
-                self.parts(f, &name, &truncated.parts)?;
-            }
-            if let Some(form) = &transfer.quadratic_form {
-                for (name, value) in ["a_pp", "a_pq", "a_qq"].iter().zip(form) {
-                    self.line(f, name, value)?;
-                }
-            }
-            if let Some(exact) = &transfer.exact {
-                self.parts(f, "exact", exact)?;
-            }
-            if let Some([growth, forcing]) = &transfer.split {
-                self.parts(f, "growth", growth)?;
-                self.parts(f, "forcing", forcing)?;
-            }
-            if !transfer.friction.is_zero() {
-                self.line(f, "power of friction", &transfer.friction)?;
-            }
-            if !transfer.drive.is_zero() {
-                self.line(f, "power of the drive", &transfer.drive)?;
-            }
-        }
-        self.observables(f)
+        Ok(())
     }
-}
 
-impl Mechanics {
+    fn transfer(&self, f: &mut fmt::Formatter<'_>, transfer: &TransferFormulas) -> fmt::Result {
+        let name = &self.coordinates[transfer.coordinate].name;
+        writeln!(f, "transfer into {name}")?;
+        self.line(f, "T", &transfer.energy.kinetic)?;
+        self.line(f, "V", &transfer.energy.potential)?;
+        for truncated in &transfer.truncated {
+            let name = format!("{} order {}", truncated.counting.name(), truncated.order);
+            self.parts(f, &name, &truncated.parts)?;
+        }
+        if let Some(form) = &transfer.quadratic_form {
+            for (name, value) in ["a_pp", "a_pq", "a_qq"].iter().zip(form) {
+                self.line(f, name, value)?;
+            }
+        }
+        if let Some(exact) = &transfer.exact {
+            self.parts(f, "exact", exact)?;
+        }
+        if let Some([growth, forcing]) = &transfer.split {
+            self.parts(f, "growth", growth)?;
+            self.parts(f, "forcing", forcing)?;
+        }
+        if !transfer.friction.is_zero() {
+            self.line(f, "power of friction", &transfer.friction)?;
+        }
+        if !transfer.drive.is_zero() {
+            self.line(f, "power of the drive", &transfer.drive)?;
+        }
+        Ok(())
+    }
+
     /// Each point from the pivot that it is measured from, with its rates.
     fn positions(&self, f: &mut fmt::Formatter<'_>, links: &[LinkPositions]) -> fmt::Result {
         writeln!(f, "positions from the pivot of the link that they are on")?;

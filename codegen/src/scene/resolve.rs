@@ -1,22 +1,22 @@
 //! Description to scene, on one page.
 
 use super::drive::resolve_drive;
-use super::expand::{check_names, check_pairs, check_size, expand};
+use super::expand::{ExpandedTree, check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
 use super::prescribed::resolve_prescribed;
 use super::reduction::reduce;
 use super::requests::{check_symmetry, resolve_requests};
-use super::rule::resolve_code;
+use super::rule::{Code, resolve_code};
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
 use super::symbols::check_meanings;
-use super::template::TreeBuilder;
+use super::template::{Template, TreeBuilder, WholeRule};
 use super::values::{Usage, Values, check_used};
 use super::{Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 
 /// Checks a description and writes it out link by link.
 ///
@@ -52,31 +52,11 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         values,
         whole,
     } = builder;
-    let mut code = resolve_code(description.code.as_ref(), report);
-    if let Some(rule) = whole {
-        code = rule.code.map(|code| (code, rule.span)).or(code);
-    }
-    let by_rule = match whole {
-        Some(mut rule) => {
-            rule.code = code.map(|(code, _)| code);
-            Some(layout::of_rule(rule, &mut templates, &asked, report).ok()?)
-        }
-        None => None,
-    };
-    if !check_size(&templates, report) {
-        return None;
-    }
-    let expansion = expand(&templates);
-    let links = expansion.links.len();
-    let layout =
-        by_rule.unwrap_or_else(|| layout::of_links(code, links, &templates, &asked, report));
-    let by_scale = resolved
-        .requests
-        .scales()
-        .then_some(resolved.budget)
-        .flatten();
+    let code = resolve_code(description.code.as_ref(), report);
+    let (expansion, layout) = lay_out(&mut templates, whole, code, &asked, report)?;
     let branches = matches!(layout, Layout::Generations { branching: 2.., .. });
-    if let Some(span) = by_scale
+    if let Some(span) = resolved.budget
+        && resolved.requests.scales()
         && readable
         && !(branches && reduction.is_none())
     {
@@ -120,15 +100,8 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         layout,
     };
     if readable {
-        if scene.requests.transverse && scene.transverse_sectors().is_empty() {
-            let acting = resolved.acting.as_ref().map(|(span, _)| (*span, "small"));
-            let plain = resolved.transverse.map(|span| (span, "transverse"));
-            for (span, request) in plain.into_iter().chain(acting) {
-                report.error(span, OutputMessage::NoTransverse { request });
-            }
-        } else {
-            resolve_acting(&resolved.acting, &mut scene, report);
-        }
+        let acting = resolved.acting.as_ref();
+        resolve_differences(acting, resolved.transverse, &mut scene, report);
         if !scene.groups.is_empty() {
             resolve_small(&resolved.small, &mut scene, report);
         }
@@ -142,6 +115,52 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         check_regular(&templates, report);
     }
     report.is_empty().then_some(scene)
+}
+
+/// Returns the tree with all of its copies, and how the code takes the equations through it;
+/// none of a tree that is too large.
+fn lay_out(
+    templates: &mut [Template],
+    whole: Option<WholeRule>,
+    mut code: Option<(Code, Span)>,
+    asked: &Asked<'_>,
+    report: &mut Faults,
+) -> Option<(ExpandedTree, Layout)> {
+    if let Some(rule) = whole {
+        code = rule.code.map(|code| (code, rule.span)).or(code);
+    }
+    let by_rule = match whole {
+        Some(mut rule) => {
+            rule.code = code.map(|(code, _)| code);
+            Some(layout::of_rule(rule, templates, asked, report).ok()?)
+        }
+        None => None,
+    };
+    if !check_size(templates, report) {
+        return None;
+    }
+    let expansion = expand(templates);
+    let links = expansion.links.len();
+    let layout = by_rule.unwrap_or_else(|| layout::of_links(code, links, templates, asked, report));
+    Some((expansion, layout))
+}
+
+/// Resolves the requests about small differences, which only copies have.
+fn resolve_differences(
+    acting: Option<&(Span, Vec<Ident>)>,
+    transverse: Option<Span>,
+    scene: &mut Scene,
+    report: &mut Faults,
+) {
+    if !scene.requests.transverse || !scene.transverse_sectors().is_empty() {
+        resolve_acting(acting, scene, report);
+        return;
+    }
+    let acting = acting.map(|(span, _)| (*span, "small"));
+    let plain = transverse.map(|span| (span, "transverse"));
+    for (span, request) in plain.into_iter().chain(acting) {
+        report.error(span, OutputMessage::NoTransverse { request });
+    }
 }
 
 /// The gravitational acceleration.

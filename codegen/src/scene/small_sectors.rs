@@ -38,7 +38,7 @@ pub(super) fn acting(
 
 /// Finds the sectors whose differences act back; what is wrong goes to `report`.
 pub(super) fn resolve_acting(
-    resolved: &Option<(Span, Vec<Ident>)>,
+    resolved: Option<&(Span, Vec<Ident>)>,
     scene: &mut Scene,
     report: &mut Faults,
 ) {

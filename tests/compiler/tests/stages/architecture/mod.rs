@@ -78,6 +78,7 @@ const TOGETHER: &[(&str, &str, &[&str])] = &[
         &["events", "integrator", "run", "stepper"],
     ),
     ("runtime", "integrate::explicit", &["pair", "stages"]),
+    ("runtime", "scalar", &["kind", "lanes"]),
     ("runtime", "scalar::sincos", &["fused", "tail"]),
     ("runtime", "system", &["function", "fused"]),
     // A model becomes one on other numbers, which is a pendulum; a pendulum is a model.
