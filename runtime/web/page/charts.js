@@ -80,8 +80,8 @@ export function curves(canvas, history, lines, isLogarithmic) {
   const end = Math.max(rows.at(-1).time, span);
   const x = (time) => LEFT + ((width - LEFT - 4) * (time - end + span)) / span;
   axes({ context, width, height }, ticks, x, end, span);
-  context.lineWidth = 1.6;
-  context.lineJoin = "round";
+  context.lineWidth = 1.5;
+  context.lineJoin = "bevel";
   for (const line of lines) {
     context.strokeStyle = line.colour;
     context.setLineDash(line.dash ?? []);

@@ -83,22 +83,30 @@ export class EnergyPanel {
     this.history.push(time, { energy, ...budget });
   }
 
+  /** The scales of the differences. */
+  get differences() {
+    return Array.from({ length: Math.max(this.scales - 1, 0) }, (_, index) => index + 1);
+  }
+
+  /** Draws energies and budget. */
   draw() {
-    const differences = Array.from({ length: Math.max(this.scales - 1, 0) }, (_, index) => index + 1);
     const whole = { colour: ofScale(0), dash: [5, 4], of: (values) => values.energy };
-    const energies = differences.map((scale) => ({
+    const energies = this.differences.map((scale) => ({
       colour: ofScale(scale),
       of: (values) => values.energies[scale],
     }));
     curves(element("energies"), this.history, [whole, ...energies], true);
-    if (this.scales > 1) {
-      const received = differences.map((scale) => ({
-        colour: ofScale(scale),
-        of: (values) => 1000 * values.received[scale],
-      }));
-      curves(element("transfers"), this.history, received, false);
-    }
     if (this.budget) this.drawBudget(this.budget);
+  }
+
+  /** Draws the transfers. */
+  drawTransfers() {
+    if (this.scales < 2) return;
+    const received = this.differences.map((scale) => ({
+      colour: ofScale(scale),
+      of: (values) => 1000 * values.received[scale],
+    }));
+    curves(element("transfers"), this.history, received, false);
   }
 
   drawBudget({ energies, received, powers }) {

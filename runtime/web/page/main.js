@@ -7,6 +7,7 @@ import { EnergyPanel } from "./energy.js";
 import { showLinks } from "./links.js";
 import { coloursOf } from "./palette.js";
 import { Recorder } from "./recorder.js";
+import { areDifferent, onEnter, readRelease, writeRelease } from "./release-fields.js";
 import { ReleaseMapPanel } from "./release-map.js";
 import { savePicture } from "./save.js";
 import { reshaped, shapeOf } from "./shape.js";
@@ -26,17 +27,17 @@ const LONGEST_FRAME = 0.05;
 /** Length of a single step before the speed, s. */
 const STEP = 1 / 60;
 
-/** Frames between two drawings of curves and numbers, and of two points of the curves of a tree with so many links. */
+/** Frames between two drawings of curves and numbers, and of two points of the curves. */
 const FRAMES_A_DRAWING = 6;
-const framesAPoint = (links) => (links > 63 ? 3 : 1);
+const FRAMES_A_POINT = 3;
+
+/** Frames between two rows of the table of a tree with so many links. */
+const framesARow = (links) => (links > 63 ? FRAMES_A_POINT : 1);
 
 /** Milliseconds without a change after which the map begins anew. */
 const CALM = 400;
 
 const element = (id) => document.getElementById(id);
-
-/** Fields of a release by the names that a state has for them. */
-const FIELDS = { root: "root", others: "rest", apart: "difference" };
 
 try {
   await start();
@@ -81,6 +82,7 @@ const memory = new Memory(state, apply, (undos, redos) => {
   element("whole").href = addressOf(state());
 });
 const energy = new EnergyPanel(() => {
+  recorder.begin(links.names, energy.definition);
   begin();
   memory.changed();
 });
@@ -130,11 +132,11 @@ function apply(next, again = false) {
   if (energy.definition !== next.definition) {
     energy.definition = next.definition;
     energy.begin();
+    recorder.begin(links.names, energy.definition);
   }
   showSpeed(next.speed);
-  const isOther = Object.keys(FIELDS).some((name) => next.release[name] !== released?.[name]);
-  if (!again && !isOther) return;
-  for (const [name, id] of Object.entries(FIELDS)) element(id).value = next.release[name];
+  if (!again && !areDifferent(next.release, released)) return;
+  writeRelease(next.release);
   release();
 }
 
@@ -172,9 +174,9 @@ function replaceTree(text, values) {
   const [names, parents] = [pendulum.names(), [...pendulum.parents()]];
   links = { names, parents, colours: coloursOf(parents) };
   traces.begin(parents);
-  recorder.begin(names);
   element("link").replaceChildren(...names.map((name, link) => new Option(name, link)));
   energy.offer(!pendulum.has_unequal_copies());
+  recorder.begin(names, energy.definition);
   choose(Math.min(chosen, names.length - 1));
   begin();
   waitForMap(0, text, values);
@@ -205,33 +207,24 @@ function begin() {
   record();
   drawPendulum();
   drawNumbers();
+  drawTransfers();
 }
 
 /** Releases the tree from rest at the angles of root and all others, rad. */
 function releaseAt(root, rest) {
-  element("root").value = (root / DEGREE).toFixed(1);
-  element("rest").value = (rest / DEGREE).toFixed(1);
+  const [rounded, others] = [root, rest].map((angle) => Number((angle / DEGREE).toFixed(1)));
+  writeRelease({ ...released, root: rounded, others });
   release();
-}
-
-/** Number of a field within its bounds; what is no number is what it was. */
-function angleOf(name) {
-  const field = element(FIELDS[name]);
-  const typed = field.valueAsNumber;
-  const known = Number.isFinite(typed) ? typed : released?.[name] ?? 0;
-  const value = Math.min(Math.max(known, Number(field.min)), Number(field.max));
-  field.value = value;
-  return value;
 }
 
 /** Releases the tree at the angles that are written on the page. */
 function release() {
-  released = Object.fromEntries(Object.keys(FIELDS).map((name) => [name, angleOf(name)]));
-  const [root, others, apart] = Object.keys(FIELDS).map((name) => released[name] * DEGREE);
+  released = readRelease(released);
+  const [root, others, apart] = [released.root, released.others, released.apart].map((angle) => angle * DEGREE);
   pendulum.release(root, others, apart);
   view.settle();
   traces.begin(links.parents);
-  recorder.begin(links.names);
+  recorder.begin(links.names, energy.definition);
   map?.mark(root, others);
   energy.begin();
   begin();
@@ -250,19 +243,24 @@ export function frame(duration) {
   }
   accuracy.count(duration, performance.now() - begun, pendulum.evaluations() - evaluations);
   frames += 1;
-  if (frames % framesAPoint(links.names.length) === 0) record();
+  if (frames % framesARow(links.names.length) === 0) record(frames % FRAMES_A_POINT === 0);
   drawPendulum();
+  // Not both charts in one frame: it has 16 ms.
   if (frames % FRAMES_A_DRAWING === 0) drawNumbers();
+  if (frames % FRAMES_A_DRAWING === FRAMES_A_DRAWING / 2) drawTransfers();
 }
 
-function record() {
+/** Adds a row to the table, and a point to the curves if it is asked for. */
+function record(isPoint = true) {
   const budget = pendulum.budget(energy.definition === "parseval");
   const { energies, received, powers } = budget ?? {};
   const known = budget && { energies, received, powers };
   budget?.free();
-  energy.take(energies?.length ?? 0);
   const time = pendulum.time();
-  energy.record(time, pendulum.energy(), known);
+  if (isPoint) {
+    energy.take(energies?.length ?? 0);
+    energy.record(time, pendulum.energy(), known);
+  }
   const [angles, rates] = [pendulum.angles(), pendulum.rates()];
   recorder.add({ time, angles, rates, energy: pendulum.energy(), budget: known });
 }
@@ -296,8 +294,14 @@ function drawPendulum() {
   });
 }
 
+const isEnergySeen = () => !isEmbedded && element("energy-panel").open;
+
+function drawTransfers() {
+  if (isEnergySeen()) energy.drawTransfers();
+}
+
 function drawNumbers() {
-  if (element("energy-panel").open) energy.draw();
+  if (isEnergySeen()) energy.draw();
   accuracy.draw(pendulum.energy_error());
   element("clock").textContent = `${pendulum.time().toFixed(2)} s`;
   const turned = Math.round((pendulum.angles()[chosen] / DEGREE) * 10) / 10;
@@ -323,6 +327,7 @@ function step() {
   frame(STEP * Number(element("speed").value));
   record();
   drawNumbers();
+  drawTransfers();
 }
 
 const clicks = {
@@ -338,14 +343,15 @@ const clicks = {
   "motion-csv": () => recorder.save(),
 };
 for (const [id, act] of Object.entries(clicks)) element(id).addEventListener("click", act);
-for (const id of Object.values(FIELDS)) {
-  element(id).addEventListener("keydown", ({ key }) => key === "Enter" && release());
-}
+onEnter(release);
 element("link").addEventListener("change", (event) => choose(event.target.selectedIndex));
 element("speed").addEventListener("change", () => memory.changed());
 element("ghost").addEventListener("change", drawPendulum);
-element("map-panel").addEventListener("toggle", () => waitForMap(0));
-element("energy-panel").addEventListener("toggle", drawNumbers);
+element("map-panel").addEventListener("toggle", ({ target }) => (target.open ? waitForMap(0) : map?.stop()));
+element("energy-panel").addEventListener("toggle", () => {
+  drawNumbers();
+  drawTransfers();
+});
 addEventListener("keydown", (event) => {
   const isStep = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
   if (!isStep || event.target.matches("textarea, input:not([type=range]):not([type=checkbox])")) return;
@@ -371,6 +377,7 @@ run(beginning.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches);
 new ResizeObserver(() => {
   drawPendulum();
   drawNumbers();
+  drawTransfers();
   comparison.draw();
   map?.draw();
 }).observe(document.body);

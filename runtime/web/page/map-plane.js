@@ -17,6 +17,9 @@ export const anglesOf = ({ column, row }) => ({
   rest: angle(PLANE.rest, column, PLANE.columns),
 });
 
+/** The number of a point. */
+export const indexOf = ({ column, row }) => row * PLANE.columns + column;
+
 /** The points, coarse ones first, that worker `own` of `count` has to compute. */
 export function* pointsOf({ own, count }) {
   let number = 0;

@@ -1,7 +1,7 @@
 // Growth rates over the plane of releases: coarse first, then finer, and begun anew whenever a
 // message asks for another tree.
 
-import { anglesOf, pointsOf } from "./map-plane.js";
+import { anglesOf, indexOf, pointsOf } from "./map-plane.js";
 import { start } from "./start.js";
 import { Pendulum } from "./wasm/branched_pendulum_web.js";
 
@@ -33,7 +33,9 @@ async function compute(task) {
   }
   let cells = [];
   let begun = performance.now();
+  const known = new Set(task.known);
   for (const point of pointsOf(task)) {
+    if (known.has(indexOf(point))) continue;
     const { root, rest } = anglesOf(point);
     const [rate, difference] = map.rate(root, rest);
     cells.push({ ...point, rate, difference });

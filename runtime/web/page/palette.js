@@ -27,7 +27,10 @@ export function coloursOf(parents) {
 /** The tint of a child on a link: its own where it is the only one. */
 function tint(above, place, count) {
   if (count === 1) return above;
-  if (above.saturation < 50) return { ...above, hue: HUES[place % HUES.length], saturation: 70 };
+  if (above.saturation < 50) {
+    const hue = count > HUES.length ? HUES[0] + (360 * place) / count : HUES[place];
+    return { ...above, hue, saturation: 70 };
+  }
   const part = place / (count - 1) - 0.5;
   return {
     ...above,

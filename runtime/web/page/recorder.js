@@ -5,21 +5,23 @@ import { saveTable } from "./save.js";
 /** Most numbers that are kept; the oldest rows go. */
 const MOST_NUMBERS = 2_000_000;
 
+/** How energies are formed, in words, by the name of the definition. */
+const FORMED = { momenta: "from momenta", parseval: "by Parseval" };
+
 /** Names of the columns of a tree with these links and so many scales. */
-const columnsOf = (names, scales) => [
+const columnsOf = ({ names, definition, scales }) => [
   "time (s)",
   ...names.map((name) => `theta ${name} (rad)`),
   ...names.map((name) => `omega ${name} (rad/s)`),
   "energy (J)",
   ...[["energy", "J"], ["W", "W"], ["work", "W"]].flatMap(([what, unit]) =>
-    Array.from({ length: scales }, (_, scale) => `${what} of scale ${scale} (${unit})`)),
+    Array.from({ length: scales }, (_, scale) => `${what} of scale ${scale} ${FORMED[definition]} (${unit})`)),
 ];
 
 export class Recorder {
-  /** Begins with the links of a tree. */
-  begin(names) {
-    this.names = names;
-    this.rows = [];
+  /** Begins with the names of a tree's links, and the definition of its energies. */
+  begin(names, definition) {
+    Object.assign(this, { names, definition, rows: [] });
   }
 
   /** Adds what is known of the motion now. */
@@ -35,6 +37,6 @@ export class Recorder {
   }
 
   save() {
-    saveTable(columnsOf(this.names, this.scales), this.rows, "branched-pendulum-motion.csv");
+    saveTable(columnsOf(this), this.rows, "branched-pendulum-motion.csv");
   }
 }

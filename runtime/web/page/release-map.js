@@ -1,7 +1,7 @@
 // The plane of releases, as workers compute it: maps are kept, so that a tree that comes again has
 // its own at once, and while a new one is computed the one before is seen through it.
 
-import { anglesOf, PLANE } from "./map-plane.js";
+import { anglesOf, indexOf, PLANE } from "./map-plane.js";
 import { drawMap, hatchOn, placeIn, releaseIn, shade } from "./map-drawing.js";
 import { savePicture, saveTable } from "./save.js";
 
@@ -34,7 +34,7 @@ class Plane {
   }
 
   fill(point) {
-    this.points.set(point.row * PLANE.columns + point.column, point);
+    this.points.set(indexOf(point), point);
     for (let row = point.row; row < point.row + point.stride; row += 1) {
       for (let column = point.column; column < point.column + point.stride; column += 1) {
         this.cells[row * PLANE.columns + column] = point;
@@ -87,10 +87,9 @@ export class ReleaseMapPanel {
     const key = JSON.stringify([text, ...values]);
     // A tree without a map is none that another's is seen through.
     if (this.plane.points.size > 0 && this.plane.isDone) this.before = this.plane;
-    const { number } = this;
     if (!hasCopies) {
       [this.plane, this.before] = [new Plane(), null];
-      this.workers.forEach((worker) => worker.postMessage({ number }));
+      this.stop();
       this.state = "No two branches of this tree are equal: there is nothing to grow.";
       return this.draw();
     }
@@ -98,17 +97,26 @@ export class ReleaseMapPanel {
     this.kept.delete(key);
     this.kept.set(key, this.plane);
     if (this.kept.size > MOST_MAPS) this.kept.delete(this.kept.keys().next().value);
-    if (this.plane.isDone) {
-      this.workers.forEach((worker) => worker.postMessage({ number }));
-    } else {
-      const task = { number, text, names: [...values.keys()], values: [...values.values()] };
-      const { length: count } = this.workers;
-      this.workers.forEach((worker, own) => {
-        worker.postMessage({ ...task, span: SPAN, tolerance: TOLERANCE, own, count });
-      });
-    }
+    if (this.plane.isDone) this.stop();
+    else this.compute(text, values);
     this.tell();
     this.draw();
+  }
+
+  /** Asks the workers for the points of the map that are not known yet. */
+  compute(text, values) {
+    const { number, workers: { length: count } } = this;
+    const known = [...this.plane.points.keys()];
+    const task = { number, text, names: [...values.keys()], values: [...values.values()], known };
+    this.workers.forEach((worker, own) => {
+      worker.postMessage({ ...task, span: SPAN, tolerance: TOLERANCE, own, count });
+    });
+  }
+
+  /** Computes no more. */
+  stop() {
+    this.number += 1;
+    this.workers.forEach((worker) => worker.postMessage({ number: this.number }));
   }
 
   take({ number, cells, refused }) {
