@@ -12,6 +12,8 @@ chromium="${CHROMIUM:-$(command -v chromium || command -v chromium-browser || co
     echo "no Chromium: install it, or give its path as CHROMIUM" >&2
     exit 1
 }
+# Not the port of the run before.
+: > target/server.log
 python3 -u -m http.server --bind 127.0.0.1 --directory target/page 0 > target/server.log 2>&1 &
 server=$!
 trap 'kill "$server"' EXIT

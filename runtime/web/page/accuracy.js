@@ -25,12 +25,12 @@ export class AccuracyPanel {
     this.begin();
   }
 
-  /** Takes a method by its name; one that there is not changes nothing. */
+  /** Takes a method by its name, with the setting that it begins with if none is given; one that there is not changes nothing. */
   show(name, setting) {
     if (!this.methods.some((method) => method.name === name)) return;
     element("method").value = name;
     this.takeKind();
-    this.apply(setting);
+    this.apply(setting ?? 10 ** this.kind.first);
   }
 
   takeKind() {

@@ -88,10 +88,14 @@ const energy = new EnergyPanel(() => {
 });
 const map = isEmbedded ? null : new ReleaseMapPanel(releaseAt);
 const accuracy = new AccuracyPanel((name, setting) => {
-  method = [name, setting];
-  pendulum?.set_method(name, setting);
-  tell("");
-  memory.changed();
+  try {
+    pendulum.set_method(name, setting);
+    method = [name, setting];
+    tell("");
+    memory.changed();
+  } catch (error) {
+    tell(String(error));
+  }
 });
 const tree = new TreePanel({
   replace: replaceTree,

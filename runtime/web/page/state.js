@@ -8,6 +8,9 @@ const CALM = 400;
 /** Most steps that are remembered. */
 const MOST_STEPS = 100;
 
+/** Least and largest speed. */
+const SPEEDS = [0.01, 10];
+
 /** What an address leaves out where it is so. */
 export const USUAL = { speed: 1, method: "dop853", setting: 1e-6, definition: "momenta", plays: true };
 
@@ -34,7 +37,9 @@ export function written(state) {
   });
   for (const name of RELEASE) entries.push([name, state.release[name]]);
   for (const name of ["speed", "method", "setting", "definition"]) {
-    if (state[name] !== USUAL[name]) entries.push([name, state[name]]);
+    // What is usual of a setting is so of one method.
+    const isUsual = state[name] === USUAL[name] && (name !== "setting" || state.method === USUAL.method);
+    if (!isUsual) entries.push([name, state[name]]);
   }
   if (!state.plays) entries.push(["play", 0]);
   return entries.map(([name, value]) => `${name}=${escaped(String(value))}`).join("&");
@@ -61,9 +66,10 @@ export function read(hash) {
   for (const name of RELEASE) {
     state.release[name] = number(entries, name, state.release[name]);
   }
-  state.speed = number(entries, "speed", USUAL.speed);
+  state.speed = Math.min(Math.max(number(entries, "speed", USUAL.speed), SPEEDS[0]), SPEEDS[1]);
   state.method = entries.get("method") ?? USUAL.method;
-  state.setting = number(entries, "setting", USUAL.setting);
+  // Another method without its setting has the one that it begins with.
+  state.setting = number(entries, "setting", state.method === USUAL.method ? USUAL.setting : null);
   state.definition = entries.get("definition") ?? USUAL.definition;
   state.plays = entries.get("play") !== "0";
   return state;

@@ -1,6 +1,8 @@
 //! What copies do against each other: at a release, in the energies, and in the ghost.
 
-use branched_pendulum::sectors::{Normalisation, Sectors};
+use std::f64::consts::TAU;
+
+use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::{Model, Positions, Workspace};
 use branched_pendulum::transfer::{
     EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
@@ -99,18 +101,32 @@ pub(crate) fn set_apart(tree: &PendulumTree, difference: f64, angles: &mut [f64]
     }
 }
 
-/// Returns the angles of the in-phase motion: of all copies the mean.
+/// Returns the angles of the in-phase motion: of copies the mean, whole turns left out.
 pub(crate) fn in_phase_part(tree: &PendulumTree, theta: &[f64]) -> Vec<f64> {
-    let plain = Normalisation::Plain;
-    let (mut coordinates, mut angles) = (vec![0.0; theta.len()], vec![0.0; theta.len()]);
-    tree.symmetric_from_absolute(plain, theta, &mut coordinates);
-    let means = tree.sectors().first();
-    let means = means.map_or(0, |sector| sector.coordinates().len());
-    for difference in coordinates.iter_mut().skip(means) {
-        *difference = 0.0;
+    let mut angles = theta.to_vec();
+    let means = tree.sectors().iter().take(1);
+    for coordinate in means.flat_map(|sector| sector.coordinates()) {
+        let links = coordinate.weights().iter().map(|(link, _)| *link);
+        let own: Vec<f64> = links
+            .clone()
+            .filter_map(|link| theta.get(link).copied())
+            .collect();
+        let Some(&first) = own.first() else {
+            continue;
+        };
+        let apart = own.iter().map(|angle| within_half_a_turn(angle - first));
+        let mean = first + apart.sum::<f64>() / own.len() as f64;
+        for link in links {
+            if let Some(angle) = angles.get_mut(link) {
+                *angle = mean;
+            }
+        }
     }
-    tree.absolute_from_symmetric(plain, &coordinates, &mut angles);
     angles
+}
+
+fn within_half_a_turn(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
 }
 
 /// A number for each link, from that of the link that it hangs from and its pivot on it.

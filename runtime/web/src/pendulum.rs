@@ -137,8 +137,8 @@ impl Pendulum {
         flat(self.tree().points(LinkPoint::End, self.theta_omega().0))
     }
 
-    /// Pivot and end of each link (x, y, x, y, m) if all copies had the mean of their angles: the
-    /// motion in phase. Empty where nothing is a copy.
+    /// Pivot and end of each link (x, y, x, y, m) if all copies had the mean of their angles, whole
+    /// turns left out: the motion in phase. Empty where nothing is a copy.
     pub fn ghost(&self) -> Vec<f64> {
         if self.differences.is_none() {
             return Vec::new();

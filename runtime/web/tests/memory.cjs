@@ -36,6 +36,15 @@ module.exports = {
     assert.match(await wrong.textContent("#message"), /did you mean `mass`/);
     assert.equal((await motion(wrong)).names.length, 3);
     await wrong.close();
+    const odd = await opened(browser, {}, "#tree=nothing&root=x&others=1e9&speed=1e9&method=dop853&setting=-1&set.nothing=1");
+    assert.deepEqual(
+      await Promise.all(["#root", "#rest", "#speed", "#setting-number"].map((id) => odd.inputValue(id))),
+      ["47.8", "180", "10", "1.0e-6"],
+    );
+    assert.equal((await motion(odd)).names.length, 3);
+    await odd.evaluate(() => { location.hash = "#tree=paper&method=rk4"; });
+    await odd.waitForFunction(() => document.querySelector("#setting-number").value === "1.0e-2");
+    await odd.close();
   },
 
   async "undo, redo and reset"(page) {

@@ -278,6 +278,14 @@ fn the_ghost_is_the_motion_in_phase() {
         assert!((end - expected).abs() < 1e-12, "{end}");
     }
     assert_eq!(ends[1], ends[2]);
+    // A turn of one child against the other is no difference.
+    let turn = std::f64::consts::PI;
+    pendulum
+        .release(0.0, 0.3 + turn, turn + 0.2)
+        .expect("a release");
+    for (again, before) in pendulum.ghost().iter().zip(ghost) {
+        assert!((again - before).abs() < 1e-12, "{again} {before}");
+    }
 }
 
 #[test]
