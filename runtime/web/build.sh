@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 target=wasm32-unknown-unknown
+builds="${CARGO_TARGET_DIR:-target}"
 # The versions of the workspace, where it has them.
 [ -f Cargo.lock ] || cp ../../Cargo.lock .
 
@@ -25,9 +26,10 @@ else
 fi
 
 rm -rf target/page
+mkdir -p target
 cp -r page target/page
-cargo run --quiet --package bindings --target-dir target/host -- \
-    "target/$target/release/branched_pendulum_web.wasm" target/page/wasm
+cargo run --quiet --package bindings --target-dir "$builds/host" -- \
+    "$builds/$target/release/branched_pendulum_web.wasm" target/page/wasm
 # Packed: page/start.js unpacks it. No name ending that a server takes for an encoding.
 gzip -9 --no-name --to-stdout target/page/wasm/branched_pendulum_web_bg.wasm \
     > target/page/wasm/branched_pendulum_web.packed

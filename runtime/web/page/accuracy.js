@@ -6,7 +6,7 @@ const element = (id) => document.getElementById(id);
 
 /** Tolerances and steps (s) by their logarithms: range and beginning. */
 const TOLERANCE = { name: "tolerance", from: -12, to: -2, first: -6 };
-const STEP = { name: "step", from: -4, to: -1, first: -2 };
+const STEP = { name: "step, s", from: -4, to: -1, first: -2 };
 
 const readable = (value) => value.toExponential(1).replace("e-", "e−").replace("e+", "e");
 
@@ -17,30 +17,41 @@ export class AccuracyPanel {
     this.methods = methods();
     const options = this.methods.map(({ name, title }) => new Option(title, name));
     element("method").replaceChildren(...options);
-    element("method").value = "dop853";
     element("method").addEventListener("change", () => this.changeMethod());
-    element("setting").addEventListener("input", () => this.apply());
+    element("setting").addEventListener("input", ({ target }) => this.apply(10 ** Number(target.value)));
+    element("setting-number").addEventListener("change", ({ target }) => {
+      this.apply(target.valueAsNumber > 0 ? target.valueAsNumber : this.setting);
+    });
     this.begin();
-    this.changeMethod();
+  }
+
+  /** Takes a method by its name, with the setting that it begins with if none is given; one that there is not changes nothing. */
+  show(name, setting) {
+    if (!this.methods.some((method) => method.name === name)) return;
+    element("method").value = name;
+    this.takeKind();
+    this.apply(setting ?? 10 ** this.kind.first);
+  }
+
+  takeKind() {
+    const { adaptive } = this.methods.find(({ name }) => name === element("method").value);
+    const kind = adaptive ? TOLERANCE : STEP;
+    if (this.kind === kind) return false;
+    this.kind = kind;
+    [element("setting").min, element("setting").max] = [kind.from, kind.to];
+    element("setting-name").textContent = kind.name;
+    return true;
   }
 
   changeMethod() {
-    const { adaptive } = this.methods.find(({ name }) => name === element("method").value);
-    const kind = adaptive ? TOLERANCE : STEP;
-    const setting = element("setting");
-    if (this.kind !== kind) {
-      this.kind = kind;
-      [setting.min, setting.max, setting.value] = [kind.from, kind.to, kind.first];
-      element("setting-name").textContent = kind.name;
-    }
-    this.apply();
+    this.apply(this.takeKind() ? 10 ** this.kind.first : this.setting);
   }
 
-  /** Takes the chosen method with its setting. */
-  apply() {
-    const setting = 10 ** Number(element("setting").value);
-    const unit = this.kind === STEP ? " s" : "";
-    element("setting-value").textContent = readable(setting) + unit;
+  /** Takes the chosen method with a setting. */
+  apply(setting) {
+    this.setting = setting;
+    element("setting").value = Math.log10(setting);
+    element("setting-number").value = setting.toExponential(1);
     this.begin();
     this.choose(element("method").value, setting);
   }

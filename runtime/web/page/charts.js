@@ -5,9 +5,13 @@ import { cleared, colour } from "./canvas.js";
 /** Seconds that a chart shows. */
 export const SPAN = 20;
 
+/** Most powers of ten that a logarithmic axis shows. */
+const DECADES = 10;
+
 /** Numbers over time: what is older than a chart shows is left out. */
 export class History {
-  constructor() {
+  constructor(span = SPAN) {
+    this.span = span;
     this.rows = [];
   }
 
@@ -15,79 +19,104 @@ export class History {
     if (time < this.rows.at(-1)?.time) this.rows = [];
     if (time === this.rows.at(-1)?.time) this.rows.pop();
     this.rows.push({ time, values });
-    while (this.rows[0].time < time - SPAN) this.rows.shift();
+    while (this.rows[0].time < time - this.span) this.rows.shift();
   }
 }
 
 const LEFT = 52;
 const BELOW = 16;
+const ABOVE = 6;
+
+/** Height of the band in which zero stands below a logarithmic axis. */
+const ZERO = 14;
 
 const power = (exponent) => `10${[...String(exponent)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("")}`;
 
-/** Ticks and the way from values to the part of the height, of positive numbers. */
-function logarithmic(values) {
+/**
+ * Ticks and the way from values to pixels of a logarithmic axis. Zero has a place of its own below;
+ * what is smaller than the axis shows, or negative, has none.
+ */
+function logarithmic(values, height) {
   const positive = values.filter((value) => value > 0);
+  const hasZero = values.includes(0);
+  const inner = height - BELOW - ABOVE - (hasZero ? ZERO : 0);
   const top = Math.ceil(Math.log10(Math.max(...positive, 1e-12)));
   const low = Math.log10(Math.min(...positive, 10 ** top));
-  const bottom = Math.max(Math.floor(low), top - 9);
-  const [from, to] = [Math.min(bottom, top - 1), top];
-  const step = Math.ceil((to - from) / 5);
+  const from = Math.min(Math.max(Math.floor(low), top - DECADES), top - 1);
+  const step = Math.ceil((top - from) / 5);
+  const at = (exponent) => ABOVE + (inner * (top - exponent)) / (top - from);
   const ticks = [];
-  for (let exponent = to; exponent >= from; exponent -= step) {
-    ticks.push({ value: 10 ** exponent, text: power(exponent) });
+  for (let exponent = top; exponent >= from; exponent -= step) {
+    ticks.push({ y: at(exponent), text: power(exponent) });
   }
-  const part = (value) => (Math.max(Math.log10(Math.max(value, 1e-300)), from) - from) / (to - from);
-  return { ticks, part };
+  const zero = height - BELOW - 2;
+  if (hasZero) ticks.push({ y: zero, text: "0" });
+  const y = (value) => {
+    if (value === 0) return zero;
+    const exponent = Math.log10(value);
+    return exponent >= from ? at(exponent) : Number.NaN;
+  };
+  return { ticks, y };
 }
 
 /** Those of numbers of either sign. */
-function linear(values) {
-  const largest = Math.max(...values.map(Math.abs), 1e-9);
-  const size = 10 ** Math.floor(Math.log10(largest));
+function linear(values, height) {
+  const largest = Math.max(...values.map(Math.abs));
+  const size = 10 ** Math.floor(Math.log10(largest || 1));
   const round = [1, 2, 5, 10].map((factor) => factor * size).find((value) => value >= largest);
   const text = (value) => String(Number(value.toPrecision(1))).replaceAll("-", "−");
-  const ticks = [-round, 0, round].map((value) => ({ value, text: text(value) }));
-  return { ticks, part: (value) => 0.5 + (0.5 * value) / round };
+  const inner = height - BELOW - ABOVE;
+  const y = (value) => ABOVE + inner * (0.5 - (0.5 * value) / round);
+  return { ticks: [-round, 0, round].map((value) => ({ y: y(value), text: text(value) })), y };
 }
 
 /** Draws the rows of a history: `lines` are { colour, dash, of(values) }. */
 export function curves(canvas, history, lines, isLogarithmic) {
   const { context, width, height } = cleared(canvas);
-  const rows = history.rows;
+  const { rows, span } = history;
   if (rows.length < 2) return;
   const all = lines.flatMap((line) => rows.map((row) => line.of(row.values)));
-  const known = all.filter(Number.isFinite);
-  const { ticks, part } = isLogarithmic ? logarithmic(known) : linear(known);
-  const inner = height - BELOW - 6;
-  const y = (value) => 6 + inner * (1 - part(value));
-  const end = Math.max(rows.at(-1).time, SPAN);
-  const x = (time) => LEFT + ((width - LEFT - 4) * (time - end + SPAN)) / SPAN;
+  const { ticks, y } = (isLogarithmic ? logarithmic : linear)(all.filter(Number.isFinite), height);
+  const end = Math.max(rows.at(-1).time, span);
+  const x = (time) => LEFT + ((width - LEFT - 4) * (time - end + span)) / span;
+  axes({ context, width, height }, ticks, x, end, span);
+  context.lineWidth = 1.5;
+  context.lineJoin = "bevel";
+  for (const line of lines) {
+    context.strokeStyle = line.colour;
+    context.setLineDash(line.dash ?? []);
+    context.beginPath();
+    let isDrawn = false;
+    for (const row of rows) {
+      const value = line.of(row.values);
+      const height = y(value);
+      // From zero to a positive number there is no way on a logarithmic axis.
+      const goesOn = isDrawn && !(isLogarithmic && (value === 0) !== isDrawn.isZero);
+      if (Number.isFinite(height)) context[goesOn ? "lineTo" : "moveTo"](x(row.time), height);
+      isDrawn = Number.isFinite(height) && { isZero: value === 0 };
+    }
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
+function axes({ context, width, height }, ticks, x, end, span) {
   context.font = "11px system-ui, sans-serif";
   context.fillStyle = colour("faint");
   context.strokeStyle = colour("line");
   context.lineWidth = 1;
   context.textAlign = "right";
   context.textBaseline = "middle";
-  for (const tick of ticks) {
+  for (const { y, text } of ticks) {
     context.beginPath();
-    context.moveTo(LEFT, y(tick.value));
-    context.lineTo(width - 4, y(tick.value));
+    context.moveTo(LEFT, y);
+    context.lineTo(width - 4, y);
     context.stroke();
-    context.fillText(tick.text, LEFT - 5, y(tick.value));
+    context.fillText(text, LEFT - 5, y);
   }
   context.textAlign = "center";
   context.textBaseline = "bottom";
-  for (let time = Math.ceil((end - SPAN) / 5) * 5; time <= end - 0.5; time += 5) {
+  for (let time = Math.ceil((end - span) / 5) * 5; time <= end - 0.5; time += 5) {
     if (x(time) > LEFT) context.fillText(`${time} s`, x(time), height);
   }
-  context.lineWidth = 1.6;
-  context.lineJoin = "round";
-  for (const line of lines) {
-    context.strokeStyle = line.colour;
-    context.setLineDash(line.dash ?? []);
-    context.beginPath();
-    for (const row of rows) context.lineTo(x(row.time), y(line.of(row.values)));
-    context.stroke();
-  }
-  context.setLineDash([]);
 }

@@ -2,9 +2,19 @@
 
 import { Pendulum, with_branch, without_branch } from "./wasm/branched_pendulum_web.js";
 import { AccuracyPanel } from "./accuracy.js";
+import { Comparison } from "./compare.js";
 import { EnergyPanel } from "./energy.js";
+import { showLinks } from "./links.js";
+import { coloursOf } from "./palette.js";
+import { Recorder } from "./recorder.js";
+import { areDifferent, onEnter, readRelease, writeRelease } from "./release-fields.js";
 import { ReleaseMapPanel } from "./release-map.js";
+import { savePicture } from "./save.js";
+import { reshaped, shapeOf } from "./shape.js";
+import { sharing } from "./share.js";
 import { start } from "./start.js";
+import { addressOf, beginningOf, Memory, read } from "./state.js";
+import { Traces } from "./traces.js";
 import { TreePanel } from "./tree.js";
 import { examples } from "./examples.js";
 import { View } from "./view.js";
@@ -14,24 +24,47 @@ const DEGREE = Math.PI / 180;
 /** Longest frame that is followed: after a pause the motion goes on where it stood, s. */
 const LONGEST_FRAME = 0.05;
 
+/** Length of a single step before the speed, s. */
+const STEP = 1 / 60;
+
 /** Frames between two drawings of curves and numbers, and of two points of the curves. */
 const FRAMES_A_DRAWING = 6;
 const FRAMES_A_POINT = 3;
+
+/** Frames between two rows of the table of a tree with so many links. */
+const framesARow = (links) => (links > 63 ? FRAMES_A_POINT : 1);
 
 /** Milliseconds without a change after which the map begins anew. */
 const CALM = 400;
 
 const element = (id) => document.getElementById(id);
 
-await start();
+try {
+  await start();
+} catch (error) {
+  element("not-started").hidden = false;
+  element("not-started").textContent = `The page could not be loaded: ${error}. A browser of 2023 or later is needed.`;
+  throw error;
+}
+
+const isEmbedded = document.body.classList.contains("embed");
+const isNarrow = matchMedia("(max-width: 59.99rem)").matches;
+for (const panel of ["map-panel", "tree-panel", "accuracy-panel"]) element(panel).open = !isNarrow;
 
 let pendulum;
+// Names of the links, what they hang from, and their colours.
+let links;
 let method = ["dop853", 1e-6];
 let chosen = 0;
-let isRunning = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+let released;
+let beginning;
+let isRunning = false;
 let frames = 0;
 let mapTimer;
 
+const traces = new Traces();
+const recorder = new Recorder();
+const comparison = new Comparison();
 const view = new View(element("pendulum"), {
   grab(link, x, y) {
     choose(link);
@@ -39,15 +72,87 @@ const view = new View(element("pendulum"), {
   },
   pull: (x, y) => pendulum.pull(x, y),
   letGo: () => pendulum.let_go(),
+  choose: (by) => choose((chosen + by + links.names.length) % links.names.length),
+  chosen: () => chosen,
+  pause: () => run(!isRunning),
 });
-const energy = new EnergyPanel();
-const map = new ReleaseMapPanel(releaseAt);
+const memory = new Memory(state, apply, (undos, redos) => {
+  element("undo").disabled = undos === 0;
+  element("redo").disabled = redos === 0;
+  element("whole").href = addressOf(state());
+});
+const energy = new EnergyPanel(() => {
+  recorder.begin(links.names, energy.definition);
+  begin();
+  memory.changed();
+});
+const map = isEmbedded ? null : new ReleaseMapPanel(releaseAt);
 const accuracy = new AccuracyPanel((name, setting) => {
-  method = [name, setting];
-  pendulum?.set_method(name, setting);
-  tell("");
+  try {
+    pendulum.set_method(name, setting);
+    method = [name, setting];
+    tell("");
+    memory.changed();
+  } catch (error) {
+    tell(String(error));
+  }
 });
-const tree = new TreePanel(replaceTree, changeParameter);
+const tree = new TreePanel({
+  replace: replaceTree,
+  change: changeParameter,
+  begin(example) {
+    beginning = beginningOf(example);
+    apply(beginning, true);
+  },
+});
+
+/** The state that the address has. */
+function state() {
+  const [name, setting] = method;
+  return {
+    text: tree.text,
+    values: tree.values,
+    release: { ...released },
+    speed: Number(element("speed").value),
+    method: name,
+    setting,
+    definition: energy.definition,
+    plays: beginning.plays,
+  };
+}
+
+/** Takes a state: goes on moving, unless the release is another or is asked for `again`. */
+function apply(next, again = false) {
+  const isKnown = next.text === tree.text && [...next.values].every(([name, value]) => tree.values.get(name) === value);
+  if (!isKnown && !tree.write(next.text, next.values) && !pendulum) {
+    const message = element("message").textContent;
+    apply(beginningOf(examples[0]), true);
+    element("message").textContent = message;
+    element("description").value = next.text;
+    element("tree-panel").open = true;
+    return;
+  }
+  if (method[0] !== next.method || method[1] !== next.setting) accuracy.show(next.method, next.setting);
+  if (energy.definition !== next.definition) {
+    energy.definition = next.definition;
+    energy.begin();
+    recorder.begin(links.names, energy.definition);
+  }
+  showSpeed(next.speed);
+  if (!again && !areDifferent(next.release, released)) return;
+  writeRelease(next.release);
+  release();
+}
+
+/** Chooses the speed, one that the page does not offer too. */
+function showSpeed(speed) {
+  const select = element("speed");
+  select.value = String(speed);
+  if (select.selectedIndex < 0) {
+    select.add(new Option(String(speed)));
+    select.value = String(speed);
+  }
+}
 
 /** Says what went wrong; nothing, if the text is empty. */
 function tell(text) {
@@ -57,6 +162,7 @@ function tell(text) {
 function choose(link) {
   chosen = link;
   element("link").selectedIndex = link;
+  drawPendulum();
 }
 
 /** Takes another tree, which goes on as the one before moves. */
@@ -68,18 +174,34 @@ function replaceTree(text, values) {
     pendulum.free();
   }
   pendulum = next;
-  const names = pendulum.names();
+  view.held = null;
+  const [names, parents] = [pendulum.names(), [...pendulum.parents()]];
+  links = { names, parents, colours: coloursOf(parents) };
+  traces.begin(parents);
   element("link").replaceChildren(...names.map((name, link) => new Option(name, link)));
+  energy.offer(!pendulum.has_unequal_copies());
+  recorder.begin(names, energy.definition);
   choose(Math.min(chosen, names.length - 1));
   begin();
-  map.begin(text, values, pendulum.has_copies());
+  waitForMap(0, text, values);
+  memory.changed();
 }
 
 function changeParameter(name, value) {
   pendulum.set_parameter(name, value);
+  reshaped(pendulum);
   begin();
+  waitForMap(CALM);
+  memory.changed();
+}
+
+/** Begins the map of the tree after so many milliseconds without another, if it is seen. */
+function waitForMap(wait, text = tree.text, values = tree.values) {
   clearTimeout(mapTimer);
-  mapTimer = setTimeout(() => map.begin(tree.text, tree.values, pendulum.has_copies()), CALM);
+  if (!map || !element("map-panel").open) return;
+  const start = () => map.begin(text, values, pendulum.has_copies());
+  if (wait === 0) start();
+  else mapTimer = setTimeout(() => map.begin(tree.text, tree.values, pendulum.has_copies()), wait);
 }
 
 /** Begins the sums anew. */
@@ -89,78 +211,105 @@ function begin() {
   record();
   drawPendulum();
   drawNumbers();
+  drawTransfers();
 }
 
 /** Releases the tree from rest at the angles of root and all others, rad. */
 function releaseAt(root, rest) {
-  element("root").value = (root / DEGREE).toFixed(1);
-  element("rest").value = (rest / DEGREE).toFixed(1);
+  const [rounded, others] = [root, rest].map((angle) => Number((angle / DEGREE).toFixed(1)));
+  writeRelease({ ...released, root: rounded, others });
   release();
 }
 
 /** Releases the tree at the angles that are written on the page. */
 function release() {
-  const [root, rest, difference] = ["root", "rest", "difference"].map(
-    (id) => Number(element(id).value) * DEGREE,
-  );
-  pendulum.release(root, rest, difference);
-  map.mark(root, rest);
+  released = readRelease(released);
+  const [root, others, apart] = [released.root, released.others, released.apart].map((angle) => angle * DEGREE);
+  pendulum.release(root, others, apart);
+  view.settle();
+  traces.begin(links.parents);
+  recorder.begin(links.names, energy.definition);
+  map?.mark(root, others);
   energy.begin();
   begin();
+  memory.changed();
 }
 
-/** Moves the pendulum by a frame (s) and draws it: the page's whole work between two frames. */
+/** Moves the pendulum by so much motion (s) and draws it: the page's whole work between two frames. */
 export function frame(duration) {
   const evaluations = pendulum.evaluations();
   const begun = performance.now();
   try {
     pendulum.advance(duration);
   } catch (error) {
-    tell(`${error}. Choose a smaller step or another method, or release again.`);
+    tell(`${error}. Choose a smaller step or another method, or start again.`);
     run(false);
   }
   accuracy.count(duration, performance.now() - begun, pendulum.evaluations() - evaluations);
   frames += 1;
-  if (frames % FRAMES_A_POINT === 0) record();
+  if (frames % framesARow(links.names.length) === 0) record(frames % FRAMES_A_POINT === 0);
   drawPendulum();
+  // Not both charts in one frame: it has 16 ms.
   if (frames % FRAMES_A_DRAWING === 0) drawNumbers();
+  if (frames % FRAMES_A_DRAWING === FRAMES_A_DRAWING / 2) drawTransfers();
 }
 
-function record() {
-  const budget = pendulum.budget();
+/** Adds a row to the table, and a point to the curves if it is asked for. */
+function record(isPoint = true) {
+  const budget = pendulum.budget(energy.definition === "parseval");
   const { energies, received, powers } = budget ?? {};
-  energy.take(energies?.length ?? 0);
-  energy.record(pendulum.time(), pendulum.energy(), budget && { energies, received, powers });
+  const known = budget && { energies, received, powers };
   budget?.free();
+  const time = pendulum.time();
+  if (isPoint) {
+    energy.take(energies?.length ?? 0);
+    energy.record(time, pendulum.energy(), known);
+  }
+  const [angles, rates] = [pendulum.angles(), pendulum.rates()];
+  recorder.add({ time, angles, rates, energy: pendulum.energy(), budget: known });
 }
 
 /** What the page knows of the motion now. */
 export function motion() {
   return {
     time: pendulum.time(),
-    names: pendulum.names(),
+    names: links.names,
     angles: [...pendulum.angles()],
     ends: [...pendulum.ends()],
     energy: pendulum.energy(),
     energyError: pendulum.energy_error(),
-    reach: pendulum.reach(),
   };
 }
 
+/** Where a place (m) is on the picture, and a release (rad) on the map, CSS pixels from their corners. */
+export const pictureOf = (x, y) => view.frame().toPixels(x, y);
+export const mapPlaceOf = (root, rest) => map.placeOf(root, rest);
+
 function drawPendulum() {
-  const shape = {
-    pivots: pendulum.pivots(),
-    ends: pendulum.ends(),
-    masses: pendulum.masses(),
-    reach: pendulum.reach(),
-  };
-  view.draw(shape, chosen, pendulum.hand());
+  const shape = shapeOf(pendulum);
+  traces.add(pendulum.time(), shape.ends);
+  view.draw({
+    shape,
+    chosen,
+    traces,
+    colours: links.colours,
+    hand: pendulum.hand(),
+    ghost: element("ghost").checked ? pendulum.ghost() : [],
+  });
+}
+
+const isEnergySeen = () => !isEmbedded && element("energy-panel").open;
+
+function drawTransfers() {
+  if (isEnergySeen()) energy.drawTransfers();
 }
 
 function drawNumbers() {
-  energy.draw();
+  if (isEnergySeen()) energy.draw();
   accuracy.draw(pendulum.energy_error());
-  element("clock").textContent = `${pendulum.time().toFixed(1)} s`;
+  element("clock").textContent = `${pendulum.time().toFixed(2)} s`;
+  const turned = Math.round((pendulum.angles()[chosen] / DEGREE) * 10) / 10;
+  element("angle").textContent = `${turned.toFixed(1)}°`.replace("-", "−");
 }
 
 /** Lets the pendulum swing, or stand still. */
@@ -170,36 +319,80 @@ export function run(on) {
 }
 
 function branch(change) {
-  const names = pendulum.names();
   try {
-    tree.write(change(tree.text, names[chosen]));
+    tree.write(change(tree.text, links.names[chosen]));
   } catch (error) {
     tell(String(error));
   }
 }
 
-element("play").addEventListener("click", () => run(!isRunning));
-element("release").addEventListener("click", release);
+function step() {
+  run(false);
+  frame(STEP * Number(element("speed").value));
+  record();
+  drawNumbers();
+  drawTransfers();
+}
+
+const clicks = {
+  play: () => run(!isRunning),
+  step,
+  release,
+  more: () => branch(with_branch),
+  less: () => branch(without_branch),
+  undo: () => memory.undo(),
+  redo: () => memory.redo(),
+  reset: () => apply(beginning, true),
+  picture: () => savePicture(element("pendulum"), "branched-pendulum.png"),
+  "motion-csv": () => recorder.save(),
+};
+for (const [id, act] of Object.entries(clicks)) element(id).addEventListener("click", act);
+onEnter(release);
 element("link").addEventListener("change", (event) => choose(event.target.selectedIndex));
-element("more").addEventListener("click", () => branch(with_branch));
-element("less").addEventListener("click", () => branch(without_branch));
+element("speed").addEventListener("change", () => memory.changed());
+element("ghost").addEventListener("change", drawPendulum);
+element("map-panel").addEventListener("toggle", ({ target }) => (target.open ? waitForMap(0) : map?.stop()));
+element("energy-panel").addEventListener("toggle", () => {
+  drawNumbers();
+  drawTransfers();
+});
+addEventListener("keydown", (event) => {
+  const isStep = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
+  if (!isStep || event.target.matches("textarea, input:not([type=range]):not([type=checkbox])")) return;
+  event.preventDefault();
+  if (event.shiftKey) memory.redo();
+  else memory.undo();
+});
+addEventListener("hashchange", () => {
+  beginning = read(location.hash);
+  apply(beginning, true);
+});
+
+sharing(() => {
+  memory.settle();
+  return state();
+});
+showLinks(element("links"));
+beginning = read(location.hash);
+apply(beginning, true);
+accuracy.show(...method);
+memory.begin();
+run(beginning.plays && !matchMedia("(prefers-reduced-motion: reduce)").matches);
 new ResizeObserver(() => {
   drawPendulum();
   drawNumbers();
-  map.draw();
+  drawTransfers();
+  comparison.draw();
+  map?.draw();
 }).observe(document.body);
-
-tree.show(examples[0]);
-[element("root").value, element("rest").value, element("difference").value] = [47.8, 0, 0.6];
-release();
-run(isRunning);
 
 let last;
 function animate(now) {
   const duration = Math.min((now - (last ?? now)) / 1000, LONGEST_FRAME);
   last = now;
+  if (duration > 0) comparison.frame(duration);
   // A hand moves the pendulum even where it is paused.
-  if (duration > 0 && (isRunning || view.held !== null)) frame(duration);
+  if (duration > 0 && (isRunning || view.held !== null)) frame(duration * Number(element("speed").value));
   requestAnimationFrame(animate);
 }
 requestAnimationFrame(animate);

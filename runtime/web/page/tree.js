@@ -1,11 +1,11 @@
-// The tree: examples, sliders for its parameters, its description.
+// The tree: examples, sliders with numbers for its parameters, its description.
 
 import { parameters } from "./wasm/branched_pendulum_web.js";
 import { examples } from "./examples.js";
 
 const element = (id) => document.getElementById(id);
 
-/** Value with which a parameter begins that no example names, by its unit. */
+/** Value with which a parameter begins that nothing else names, by its unit. */
 const FIRST = { kg: 0.1, m: 0.3, "m/s²": 9.81 };
 
 /** Range of a slider about the value with which it begins. */
@@ -13,28 +13,38 @@ function range(unit, value) {
   switch (unit) {
     case "kg": return [value / 10, value * 6];
     case "m": return [value / 3, value * 3];
-    case "m/s²": return [0, 2.5 * value];
+    case "m/s²": return [Math.min(0, 2.5 * value), Math.max(0, 2.5 * value)];
     case "N m s": return [0, Math.max(4 * value, 0.004)];
     default: return value === 0 ? [0, 1] : [Math.min(0, 3 * value), Math.max(0, 3 * value)];
   }
 }
 
-/** The unit, if the words about a parameter end with one. */
-const unit = (meaning) => meaning.split(", ").at(-1);
+/** The words about a parameter without the unit that they may have, and the unit. */
+function wordsAndUnit(meaning) {
+  const words = meaning.replaceAll("`", "");
+  const place = words.lastIndexOf(", ");
+  if (place < 0) return [words, ""];
+  const unit = words.slice(place + 2);
+  return [words.replaceAll(`, ${unit}`, ""), unit];
+}
 
 const readable = (value) => Number(value.toPrecision(4)).toString();
 
 export class TreePanel {
-  /** `replace(text, values)` takes a tree and throws its mistakes, `change(name, value)` a value. */
-  constructor(replace, change) {
-    this.replace = replace;
-    this.change = change;
+  /**
+   * `replace(text, values)` takes a tree and throws its mistakes, `change(name, value)` a value,
+   * `begin(example)` an example.
+   */
+  constructor({ replace, change, begin }) {
+    Object.assign(this, { replace, change });
     this.values = new Map();
     // Values of names that a text has had, for when they come again.
     this.remembered = new Map();
     const options = examples.map(({ title }, index) => new Option(title, index));
-    element("example").replaceChildren(...options);
-    element("example").addEventListener("change", (event) => this.show(examples[event.target.value]));
+    const own = new Option("one of your own", "own");
+    own.hidden = true;
+    element("example").replaceChildren(...options, own);
+    element("example").addEventListener("change", (event) => begin(examples[event.target.value]));
     let waiting;
     element("description").addEventListener("input", (event) => {
       clearTimeout(waiting);
@@ -46,17 +56,12 @@ export class TreePanel {
     return this.shown;
   }
 
-  /** Takes an example. */
-  show({ text, values }) {
-    this.remembered = new Map(Object.entries(values));
+  /** Takes a text that the page has made, with values of its parameters (those that it had before). */
+  write(text, values = new Map()) {
+    values.forEach((value, name) => this.remembered.set(name, value));
+    if (!this.describe(text)) return false;
     element("description").value = text;
-    this.describe(text);
-  }
-
-  /** Takes a text that the page has made. */
-  write(text) {
-    if (!this.describe(text)) return;
-    element("description").value = text;
+    return true;
   }
 
   /** Reads a description; a mistake is told, and the tree before goes on. */
@@ -64,7 +69,7 @@ export class TreePanel {
     try {
       const known = parameters(text).map(({ name, meaning }) => ({ name, meaning }));
       const values = new Map(known.map(({ name, meaning }) => {
-        const value = this.remembered.get(name) ?? FIRST[unit(meaning)] ?? 0;
+        const value = this.remembered.get(name) ?? FIRST[wordsAndUnit(meaning)[1]] ?? 0;
         return [name, value];
       }));
       this.replace(text, values);
@@ -72,6 +77,8 @@ export class TreePanel {
       this.values = values;
       values.forEach((value, name) => this.remembered.set(name, value));
       this.sliders(known);
+      const index = examples.findIndex((example) => example.text === text);
+      element("example").value = index < 0 ? "own" : index;
       element("message").textContent = "";
       return true;
     } catch (error) {
@@ -81,27 +88,36 @@ export class TreePanel {
   }
 
   sliders(known) {
-    const rows = known.map(({ name, meaning }) => {
-      const row = document.createElement("div");
-      row.className = "parameter";
-      row.innerHTML = `<label></label><input type="range" step="any"><output></output><small></small>`;
-      const [label, slider, output, words] = row.children;
-      const value = this.values.get(name);
-      slider.id = `parameter-${name}`;
-      label.htmlFor = slider.id;
-      label.textContent = name;
-      [slider.min, slider.max] = range(unit(meaning), value);
-      slider.value = value;
-      const shown = () => `${readable(Number(slider.value))} ${unit(meaning)}`;
-      output.textContent = shown();
-      words.textContent = meaning.replaceAll("`", "");
-      slider.addEventListener("input", () => {
-        output.textContent = shown();
-        this.set(name, Number(slider.value));
-      });
-      return row;
+    element("parameters").replaceChildren(...known.map((parameter) => this.row(parameter)));
+  }
+
+  /** A slider and a field for the number, which may lie beyond the slider's range. */
+  row({ name, meaning }) {
+    const row = document.createElement("div");
+    row.className = "parameter";
+    row.innerHTML = `<label><span></span> <code></code></label>
+      <input type="range" step="any"><input type="number" step="any"><span class="unit"></span>`;
+    const [label, slider, field, units] = row.children;
+    const value = this.values.get(name);
+    const [words, unit] = wordsAndUnit(meaning);
+    slider.id = `parameter-${name}`;
+    label.htmlFor = slider.id;
+    [label.children[0].textContent, label.children[1].textContent] = [words, name];
+    field.setAttribute("aria-label", `${words} ${name}, number`);
+    units.textContent = unit;
+    [slider.min, slider.max] = range(unit, value);
+    slider.value = value;
+    field.value = readable(value);
+    slider.addEventListener("input", () => {
+      field.value = readable(Number(slider.value));
+      this.set(name, Number(slider.value));
     });
-    element("parameters").replaceChildren(...rows);
+    field.addEventListener("change", () => {
+      const typed = field.valueAsNumber;
+      if (Number.isFinite(typed) && this.set(name, typed)) slider.value = typed;
+      else field.value = readable(this.values.get(name));
+    });
+    return row;
   }
 
   set(name, value) {
@@ -110,8 +126,10 @@ export class TreePanel {
       this.values.set(name, value);
       this.remembered.set(name, value);
       element("message").textContent = "";
+      return true;
     } catch (error) {
       element("message").textContent = String(error);
+      return false;
     }
   }
 }

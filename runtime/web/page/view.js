@@ -1,33 +1,42 @@
-// The pendulum as it is drawn, and the pointer on it.
+// The pendulum on the page: pointer and keys on it.
 
-import { cleared, colour } from "./canvas.js";
+import { drawPendulum, frameOf, Height } from "./drawing.js";
 
 /** Distance (CSS pixels) from which a pointer takes hold of a link. */
 const NEAR = 28;
 
+/** How far a key pulls, over the reach of the tree; with Shift. */
+const PULL = 0.06;
+const SMALL_PULL = 0.015;
+
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+const isCalm = matchMedia("(prefers-reduced-motion: reduce)");
+
 export class View {
-  /** `on` has `grab(link, x, y)`, `pull(x, y)`, `letGo()` with places in metres. */
+  /**
+   * `on` has `grab(link, x, y)`, `pull(x, y)`, `letGo()` with places in metres, `choose(by)`,
+   * `chosen()` and `pause()`.
+   */
   constructor(canvas, on) {
-    this.canvas = canvas;
-    this.on = on;
-    this.shape = { pivots: [], ends: [], masses: [], reach: 1 };
+    Object.assign(this, { canvas, on, height: new Height() });
+    this.shape = { pivots: [], ends: [], reach: 1 };
+    // What holds a link: the number of a pointer, "keys" or null; and the place of the keys' hand.
     this.held = null;
+    this.place = null;
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, (event) => this.up(event));
     }
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("blur", () => this.letKeysGo());
   }
 
   /** Pixels from the corner of the canvas of a place in metres, and back. */
-  frame(width = this.canvas.clientWidth, height = this.canvas.clientHeight) {
-    const scale = (0.46 * Math.min(width, height)) / this.shape.reach;
-    const middle = [width / 2, height / 2];
-    return {
-      scale,
-      toPixels: (x, y) => [middle[0] + scale * x, middle[1] - scale * y],
-      toMetres: (x, y) => [(x - middle[0]) / scale, (middle[1] - y) / scale],
-    };
+  frame() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return frameOf({ width, height, reach: this.shape.reach, high: this.height.high });
   }
 
   /** The link nearest to a point in pixels, if one is near. */
@@ -69,41 +78,56 @@ export class View {
 
   up(event) {
     if (event.pointerId !== this.held) return;
-    this.held = null;
     this.canvas.classList.remove("held");
+    this.letGo();
+  }
+
+  letGo() {
+    this.held = null;
     this.on.letGo();
   }
 
-  /** Draws pivots, ends, masses and reach of `shape`, the chosen link and the hand. */
-  draw(shape, chosen, hand) {
-    this.shape = shape;
-    const { context, width, height } = cleared(this.canvas);
-    const { toPixels } = this.frame(width, height);
-    const heaviest = Math.max(...shape.masses);
-    context.lineCap = "round";
-    shape.masses.forEach((mass, link) => {
-      context.strokeStyle = colour(link === chosen ? "accent" : "rod");
-      context.lineWidth = 3 + 7 * Math.sqrt(mass / heaviest);
-      context.beginPath();
-      context.moveTo(...toPixels(shape.pivots[2 * link], shape.pivots[2 * link + 1]));
-      context.lineTo(...toPixels(shape.ends[2 * link], shape.ends[2 * link + 1]));
-      context.stroke();
-    });
-    context.fillStyle = colour("panel");
-    for (let link = 0; link < shape.masses.length; link += 1) {
-      context.beginPath();
-      context.arc(...toPixels(shape.pivots[2 * link], shape.pivots[2 * link + 1]), 2.5, 0, 7);
-      context.fill();
+  letKeysGo() {
+    if (this.held === "keys") this.letGo();
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const arrow = ARROWS[event.key];
+    if (arrow) this.pullBy(arrow, event.shiftKey ? SMALL_PULL : PULL);
+    else if (event.key === "PageUp" || event.key === "PageDown") {
+      this.letKeysGo();
+      this.on.choose(event.key === "PageUp" ? -1 : 1);
+    } else if (event.key === "Enter" || event.key === "Escape") this.letKeysGo();
+    else if (event.key === " ") this.on.pause();
+    else return;
+    event.preventDefault();
+  }
+
+  /** Pulls the chosen link by its end in a direction. */
+  pullBy([x, y], part) {
+    if (typeof this.held === "number") return;
+    if (this.held === null) {
+      const link = this.on.chosen();
+      this.place = [this.shape.ends[2 * link], this.shape.ends[2 * link + 1]];
+      this.held = "keys";
+      this.on.grab(link, ...this.place);
     }
-    if (hand.length === 4) {
-      context.strokeStyle = colour("warn");
-      context.lineWidth = 2;
-      context.setLineDash([5, 4]);
-      context.beginPath();
-      context.moveTo(...toPixels(hand[0], hand[1]));
-      context.lineTo(...toPixels(hand[2], hand[3]));
-      context.stroke();
-      context.setLineDash([]);
-    }
+    const way = part * this.shape.reach;
+    this.place = [this.place[0] + way * x, this.place[1] + way * y];
+    this.on.pull(...this.place);
+  }
+
+  /** Nothing is held any more, and the pivot stands where it does at a beginning. */
+  settle() {
+    this.held = null;
+    this.height.settle();
+  }
+
+  /** Draws a picture as `drawPendulum` knows it, but for the height. */
+  draw(picture) {
+    this.shape = picture.shape;
+    this.height.see(picture.shape.ends, picture.shape.reach, isCalm.matches);
+    drawPendulum(this.canvas, { ...picture, high: this.height.high });
   }
 }

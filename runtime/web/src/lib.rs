@@ -6,8 +6,10 @@
 
 mod branches;
 mod description;
+mod differences;
 mod hand;
 mod methods;
+mod outline;
 mod pendulum;
 mod release_map;
 mod swing;

@@ -3,12 +3,15 @@
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::integrate::{AnyIntegrator, Integrator, Stepper};
 use branched_pendulum::system::{Energy, LinkPoint, Model, Positions, RatesOnly, State};
+use branched_pendulum::transfer::{EnergyDefinition, NonConservative};
 use branched_pendulum_trees::PendulumTree;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::description;
+use crate::differences::{Differences, in_phase_part, set_apart};
 use crate::hand::Hand;
 use crate::methods::integrator;
+use crate::outline;
 use crate::release_map::{ReleaseMap, copies, in_phase};
 use crate::swing::{Swing, parts};
 
@@ -20,6 +23,7 @@ pub struct Pendulum {
     motion: Stepper<AnyIntegrator<f64>, RatesOnly<Swing>>,
     /// Components in which the first two equal branches differ.
     copies: Option<Copies>,
+    differences: Option<Differences>,
     /// Energy at which the account of the work began, and the largest since, J.
     begun: f64,
     largest: f64,
@@ -28,14 +32,15 @@ pub struct Pendulum {
 }
 
 /// Energies by scale and what changes them: scale 0 is what all copies do together, scale s what
-/// those of generation s do against each other.
+/// those of generation s do against each other. Copies may differ, and links of one generation.
 #[wasm_bindgen(getter_with_clone)]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
-    /// Energies by Parseval, J; their sum is the energy of the tree.
+    /// Energies, J: those by Parseval sum to the energy of the tree; of those from momenta that of
+    /// the paper's pendulum at scale 1 is H_d.
     #[wasm_bindgen(readonly)]
     pub energies: Vec<f64>,
-    /// Power that each scale receives from the others, W.
+    /// Power that each scale receives from the others, W: the transfer of that name.
     #[wasm_bindgen(readonly)]
     pub received: Vec<f64>,
     /// Power of friction, drag, drive and the hand on each scale, W.
@@ -63,13 +68,14 @@ impl Pendulum {
         let (name, setting) = FIRST_METHOD;
         let method = integrator(name, setting)?;
         let state = vec![0.0; 2 * tree.links() + 1];
-        let copies = copies(&tree);
+        let (copies, differences) = (copies(&tree), Differences::of(&tree));
         let ode = RatesOnly(Swing { tree, hand: None });
         let motion = start(&method, ode, &State::new(0.0, state))?;
         let mut pendulum = Self {
             method,
             motion,
             copies,
+            differences,
             begun: 0.0,
             largest: 0.0,
             evaluations: 0,
@@ -83,26 +89,22 @@ impl Pendulum {
         self.tree().names().to_vec()
     }
 
-    /// Masses of the links, kg.
-    pub fn masses(&self) -> Vec<f64> {
-        let tree = self.tree();
-        let links = (0..tree.links()).filter_map(|link| tree.properties_of(link));
-        links.map(|link| link.mass).collect()
+    /// The link that each hangs from; -1 for the root.
+    pub fn parents(&self) -> Vec<i32> {
+        let links = (0..self.tree().links()).map(|link| self.tree().properties_of(link));
+        let parents = links.map(|link| link.and_then(|link| i32::try_from(link.parent?).ok()));
+        parents.map(|parent| parent.unwrap_or(-1)).collect()
     }
 
-    /// Numbers of links between each link and the root.
-    pub fn generations(&self) -> Vec<u32> {
-        self.down_the_tree(0, |above, _| above + 1)
+    /// Width of each link and radius of the disc at its centre (m) as they are drawn: of plates cut
+    /// from one sheet for all; a link has one of them, and zero for the other.
+    pub fn widths_and_radii(&self) -> Vec<f64> {
+        flat(outline::widths_and_radii(self.tree()))
     }
 
     /// Largest distance (m) from the root's pivot that the end of a link can have.
     pub fn reach(&self) -> f64 {
-        let length = |[x, y]: [f64; 2]| x.hypot(y);
-        let pivots = self.down_the_tree(0.0, |above, pivot| above + length(pivot));
-        let ends = pivots.iter().enumerate().filter_map(|(link, pivot)| {
-            Some(pivot + length(self.tree().properties_of(link)?.end))
-        });
-        ends.fold(0.0, f64::max)
+        outline::reach(self.tree())
     }
 
     /// Time, s.
@@ -115,14 +117,38 @@ impl Pendulum {
         self.theta_omega().0.to_vec()
     }
 
+    /// Angular velocities of the links, rad/s.
+    pub fn rates(&self) -> Vec<f64> {
+        self.theta_omega().1.to_vec()
+    }
+
     /// Pivots of the links, x and y of one after the other (m), y upwards.
     pub fn pivots(&self) -> Vec<f64> {
         flat(self.tree().points(LinkPoint::Pivot, self.theta_omega().0))
     }
 
+    /// Centres of mass of the links, likewise.
+    pub fn centres(&self) -> Vec<f64> {
+        flat(self.tree().points(LinkPoint::Centre, self.theta_omega().0))
+    }
+
     /// Ends of the links, likewise.
     pub fn ends(&self) -> Vec<f64> {
         flat(self.tree().points(LinkPoint::End, self.theta_omega().0))
+    }
+
+    /// Pivot and end of each link (x, y, x, y, m) if all copies had the mean of their angles, whole
+    /// turns left out: the motion in phase. Empty where nothing is a copy.
+    pub fn ghost(&self) -> Vec<f64> {
+        if self.differences.is_none() {
+            return Vec::new();
+        }
+        let angles = in_phase_part(self.tree(), self.theta_omega().0);
+        let of = |point| self.tree().points(point, &angles).into_iter();
+        let both = of(LinkPoint::Pivot).zip(of(LinkPoint::End));
+        both.flat_map(|(pivot, end)| [pivot, end])
+            .flatten()
+            .collect()
     }
 
     /// Moves on by a time (s).
@@ -158,6 +184,7 @@ impl Pendulum {
         let mut swing = self.swing().clone();
         swing.tree = tree.map_err(|error| error.to_string())?;
         self.copies = copies(&swing.tree);
+        self.differences = Differences::of(&swing.tree);
         self.restart(swing, self.time(), self.theta_omega_values())
     }
 
@@ -186,14 +213,18 @@ impl Pendulum {
         self.restart(self.swing().clone(), other.time(), [theta, omega].concat())
     }
 
-    /// Releases the tree from rest, with the root and all other links at these angles, the first
-    /// two equal branches by `difference` to either side of theirs (rad): θ_d of the paper.
+    /// Releases the tree from rest, with the root and all other links at these angles, copies set
+    /// apart by `difference` to either side at every branching (rad): θ_d of the paper. Where
+    /// nothing is written as a copy it is that of the first two equal branches.
     ///
     /// # Errors
     /// Angles that are not finite.
     pub fn release(&mut self, root: f64, rest: f64, difference: f64) -> Result<(), String> {
-        let mut state = in_phase(self.tree().links(), root, rest).values;
-        if let Some(copies) = &self.copies {
+        let links = self.tree().links();
+        let mut state = in_phase(links, root, rest).values;
+        if self.differences.is_some() {
+            set_apart(self.tree(), difference, &mut state);
+        } else if let Some(copies) = &self.copies {
             let apart = copies.opposite(state.len());
             for (value, apart) in state.iter_mut().zip(apart) {
                 *value += difference * apart;
@@ -258,18 +289,27 @@ impl Pendulum {
         (self.evaluations + self.motion.report().evaluations) as f64
     }
 
-    /// Energies by scale; none where links of one generation differ.
-    pub fn budget(&self) -> Option<Budget> {
-        let (theta, omega) = self.theta_omega();
-        let torques = self.swing().torques(theta, omega).unwrap_or_default();
-        let given = [theta, omega, &torques];
-        let budget = self.tree().budget_by_scale(self.time(), given)?;
-        let each = |of: &dyn Fn(usize) -> f64| (0..budget.scales()).map(of).collect();
-        Some(Budget {
-            energies: each(&|scale| budget.energy(scale)),
-            received: each(&|scale| budget.received(scale)),
-            powers: each(&|scale| budget.power(scale)),
-        })
+    /// Energies by scale, by Parseval or from momenta as the paper's H_d; none where nothing is a
+    /// copy. Copies that differ have none by Parseval: they are NaN.
+    pub fn budget(&mut self, by_parseval: bool) -> Option<Budget> {
+        let differences = self.differences.as_mut()?;
+        let Swing { tree, hand } = &self.motion.ode().0;
+        let (theta, omega, _) = parts(self.motion.state())?;
+        let torques = hand.as_ref().map(|hand| hand.torques(tree, theta, omega));
+        let mut acting = vec![NonConservative::Friction];
+        acting.extend(tree.drive(self.motion.time()).map(NonConservative::Drive));
+        acting.extend(torques.as_deref().map(NonConservative::Torques));
+        let definition = match by_parseval {
+            true => EnergyDefinition::Parseval,
+            false => EnergyDefinition::Canonical,
+        };
+        Some(differences.budget(definition, &acting, [theta, omega]))
+    }
+
+    /// Returns true if copies differ from each other.
+    pub fn has_unequal_copies(&self) -> bool {
+        let differences = self.differences.as_ref();
+        differences.is_some_and(Differences::are_of_unequal_copies)
     }
 
     /// Returns true if the tree has two equal branches: without them it has no map.
@@ -319,17 +359,6 @@ impl Pendulum {
     fn begin_account(&mut self) {
         self.begun = self.energy();
         self.largest = self.begun.abs();
-    }
-
-    /// A number for each link, from that of the link that it hangs from and its pivot on it.
-    fn down_the_tree<T: Copy>(&self, root: T, next: impl Fn(T, [f64; 2]) -> T) -> Vec<T> {
-        let mut numbers: Vec<T> = Vec::new();
-        for link in 0..self.tree().links() {
-            let own = self.tree().properties_of(link);
-            let above = own.and_then(|own| Some((*numbers.get(own.parent?)?, own.pivot)));
-            numbers.push(above.map_or(root, |(above, pivot)| next(above, pivot)));
-        }
-        numbers
     }
 }
 

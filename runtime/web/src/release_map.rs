@@ -46,7 +46,8 @@ pub(crate) fn copies(tree: &PendulumTree) -> Option<Copies> {
         siblings.filter(|[one, other]| parents[*one].is_some() && parents[*one] == parents[*other]);
     siblings.find_map(|links| {
         let both = Copies::of_links(&parents, &[&links])?;
-        both.are_in_phase(&AbsoluteAngles(tree), &motion).then_some(both)
+        both.are_in_phase(&AbsoluteAngles(tree), &motion)
+            .then_some(both)
     })
 }
 

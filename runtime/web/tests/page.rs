@@ -61,7 +61,7 @@ fn the_account_knows_the_work_of_friction_and_of_the_hand() {
     }
     assert_eq!(pendulum.hand().len(), 4);
     // The powers on the scales are all that changes the energy.
-    let budget = pendulum.budget().expect("a tree with scales");
+    let budget = pendulum.budget(true).expect("a tree with copies");
     let (received, power): (f64, f64) = (budget.received.iter().sum(), budget.powers.iter().sum());
     assert!(received.abs() < 1e-12);
     let before = pendulum.energy();
@@ -98,12 +98,8 @@ fn a_change_keeps_the_motion() {
     let angles = pendulum.angles();
     pendulum.set_parameter("m", 0.3).expect("a mass");
     assert_eq!(pendulum.angles(), angles);
-    assert!(
-        pendulum
-            .set_parameter("m", -1.0)
-            .unwrap_err()
-            .contains("positive")
-    );
+    let error = pendulum.set_parameter("m", -1.0).unwrap_err();
+    assert!(error.contains("not negative"), "{error}");
 
     let more = with_branch(PAPER, "parent").expect("a branch more");
     let names = ["g", "m"].map(str::to_owned).to_vec();
@@ -187,6 +183,137 @@ fn the_map_knows_the_threshold() {
     let chain = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1)]";
     let chain = Pendulum::new(chain, vec![], vec![]).expect("a tree");
     assert!(!chain.has_copies() && chain.release_map(10.0, 1e-7).is_err());
-    assert_eq!(chain.generations(), [0, 1]);
+    assert_eq!(chain.parents(), [-1, 0]);
     assert!((chain.reach() - 2.0).abs() < 1e-15);
+}
+
+/// Three generations, three twigs on each limb.
+fn nested() -> Pendulum {
+    let text = "gravity = 9.81, trunk: rod(mass = 0.1, length = 0.3, friction = 1e-4) [
+        limb: rod(mass = 0.07, length = 0.2, friction = 1e-4) [
+            twig: rod(mass = 0.05, length = 0.15) * 3
+        ] * 2
+    ]";
+    Pendulum::new(text, vec![], vec![]).expect("a tree")
+}
+
+#[test]
+fn a_release_sets_every_branching_apart() {
+    let mut pendulum = paper();
+    pendulum.release(0.8, 0.1, 0.02).expect("a release");
+    let angles = pendulum.angles();
+    for (angle, expected) in angles.iter().zip([0.8, 0.12, 0.08]) {
+        assert!((angle - expected).abs() < 1e-15, "{angles:?}");
+    }
+    let mut pendulum = nested();
+    pendulum.release(0.8, 0.1, 0.02).expect("a release");
+    let budget = pendulum.budget(true).expect("a tree with copies");
+    assert_eq!(budget.energies.len(), 3);
+    assert!(
+        budget.energies.iter().all(|&energy| energy > 0.0),
+        "{budget:?}"
+    );
+    // Two that are equal without being written as copies.
+    let text = "gravity = 9.81, a: rod(mass = 1, length = 1) [
+        b: rod(mass = 1, length = 1), c: rod(mass = 1, length = 1)
+    ]";
+    let mut pair = Pendulum::new(text, vec![], vec![]).expect("a tree");
+    pair.release(0.8, 0.1, 0.02).expect("a release");
+    let angles = pair.angles();
+    assert!((angles[1] - angles[2] - 0.04).abs() < 1e-15, "{angles:?}");
+    assert!(pair.budget(true).is_none() && pair.ghost().is_empty());
+}
+
+#[test]
+fn the_budgets_close() {
+    let mut pendulum = nested();
+    pendulum.set_method("dop853", 1e-12).expect("a method");
+    pendulum.release(0.9, 0.3, 0.1).expect("a release");
+    pendulum.advance(0.8).expect("it moves");
+    for by_parseval in [true, false] {
+        let mut at = |duration: f64| {
+            pendulum.advance(duration).expect("it moves");
+            pendulum.budget(by_parseval).expect("a tree with copies")
+        };
+        let step = 1e-4;
+        let [before, now, after] = [at(step), at(step), at(step)];
+        for scale in 0..3 {
+            let rate = (after.energies[scale] - before.energies[scale]) / (2.0 * step);
+            let told = now.received[scale] + now.powers[scale];
+            let error = (rate - told).abs();
+            assert!(error < 1e-4 * told.abs(), "scale {scale}: {rate} {told}");
+        }
+    }
+    // By Parseval the scales have all of the energy.
+    let budget = pendulum.budget(true).expect("a tree with copies");
+    let (sum, energy) = (budget.energies.iter().sum::<f64>(), pendulum.energy());
+    assert!((sum / energy - 1.0).abs() < 1e-12, "{sum} {energy}");
+}
+
+#[test]
+fn copies_that_differ_have_a_budget() {
+    let text = PAPER.replace("0.516e-3) * 2", "each(0.516e-3, 0.5e-3)) * 2");
+    let names = ["g", "m"].map(str::to_owned).to_vec();
+    let mut pendulum = Pendulum::new(&text, names, vec![9.8, 0.1]).expect("a tree");
+    assert!(pendulum.has_unequal_copies() && !paper().has_unequal_copies());
+    pendulum.release(0.8, 0.1, 0.0).expect("a release");
+    pendulum.advance(0.5).expect("it moves");
+    let budget = pendulum.budget(false).expect("a tree with copies");
+    assert!(
+        budget.energies[1] > 0.0 && budget.received[1] != 0.0,
+        "{budget:?}"
+    );
+}
+
+#[test]
+fn the_ghost_is_the_motion_in_phase() {
+    let mut pendulum = paper();
+    pendulum.release(0.0, 0.3, 0.2).expect("a release");
+    let ghost = pendulum.ghost();
+    let ends: Vec<&[f64]> = ghost.chunks(4).map(|link| &link[2..]).collect();
+    // Children are drawn to their centre: they have no joint.
+    let expected = [0.043 * 0.3_f64.sin(), -0.27 - 0.043 * 0.3_f64.cos()];
+    assert_eq!(ends.len(), 3);
+    for (end, expected) in ends[1].iter().zip(expected) {
+        assert!((end - expected).abs() < 1e-12, "{end}");
+    }
+    assert_eq!(ends[1], ends[2]);
+    // A turn of one child against the other is no difference.
+    let turn = std::f64::consts::PI;
+    pendulum
+        .release(0.0, 0.3 + turn, turn + 0.2)
+        .expect("a release");
+    for (again, before) in pendulum.ghost().iter().zip(ghost) {
+        assert!((again - before).abs() < 1e-12, "{again} {before}");
+    }
+}
+
+#[test]
+fn bodies_are_cut_from_one_sheet() {
+    let text = "gravity = 9.81, a: rod(mass = 0.2, length = 0.4) [
+        b: rod(mass = 0.1, length = 0.1), c: point(mass = 0.05, length = 0.2)
+    ]";
+    let pendulum = Pendulum::new(text, vec![], vec![]).expect("a tree");
+    let [a, b, c]: [[f64; 2]; 3] = pendulum
+        .widths_and_radii()
+        .as_chunks()
+        .0
+        .try_into()
+        .expect("three links");
+    let area = [0.4 * a[0], 0.1 * b[0], std::f64::consts::PI * c[1] * c[1]];
+    for (area, mass) in area.iter().zip([0.2, 0.1, 0.05]) {
+        assert!(
+            (area / mass / (area_of(&a) / 0.2) - 1.0).abs() < 1e-12,
+            "{area}"
+        );
+    }
+    assert_eq!([a[1], b[1], c[0]], [0.0; 3]);
+    assert!((b[0] - 0.4 * 0.1).abs() < 1e-12);
+    let long = "gravity = 9.81, a: rod(mass = 0.2, length = 0.4)";
+    let long = Pendulum::new(long, vec![], vec![]).expect("a tree");
+    assert!((long.widths_and_radii()[0] - 0.11 * 0.4).abs() < 1e-12);
+}
+
+fn area_of(rod: &[f64; 2]) -> f64 {
+    0.4 * rod[0]
 }

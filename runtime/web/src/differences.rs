@@ -1,0 +1,145 @@
+//! What copies do against each other: at a release, in the energies, and in the ghost.
+
+use std::f64::consts::TAU;
+
+use branched_pendulum::sectors::Sectors;
+use branched_pendulum::system::{Model, Positions, Workspace};
+use branched_pendulum::transfer::{
+    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+};
+use branched_pendulum_trees::PendulumTree;
+
+use crate::pendulum::Budget;
+
+/// A tree with copies in its symmetric coordinates. Differences are counted by the generation of
+/// the copies that differ: scale s is what copies of generation s do against each other, scale 0
+/// what all do together.
+#[derive(Debug)]
+pub(crate) struct Differences {
+    symmetric: SymmetricTree<f64>,
+    /// The scale of each sector, and how many there are.
+    scales: Vec<usize>,
+    count: usize,
+    workspace: Workspace<f64>,
+    budget: SectorBudget<f64>,
+}
+
+impl Differences {
+    /// Returns the differences of a tree; none where nothing is a copy of anything.
+    pub(crate) fn of(tree: &PendulumTree) -> Option<Self> {
+        let symmetric = tree.symmetric().ok()?;
+        let generations = down_the_tree(tree, 0, |above, _| above + 1);
+        let sectors = symmetric.sectors().iter().enumerate();
+        let scales = sectors.map(|(number, sector)| {
+            let links = sector.coordinates().iter().flat_map(|own| own.weights());
+            let scales = links.filter_map(|(link, _)| generations.get(*link));
+            // Means of all links are no difference.
+            scales.min().copied().filter(|_| number > 0).unwrap_or(0)
+        });
+        let scales: Vec<usize> = scales.collect();
+        Some(Self {
+            count: scales.iter().max()? + 1,
+            scales,
+            symmetric,
+            workspace: Workspace::new(),
+            budget: SectorBudget::new(),
+        })
+    }
+
+    /// Returns true if copies differ: there are no energies by Parseval then.
+    pub(crate) fn are_of_unequal_copies(&self) -> bool {
+        self.symmetric.has_unequal_copies()
+    }
+
+    /// Returns the energies of the scales, what they receive from each other, and the powers of
+    /// what acts besides.
+    pub(crate) fn budget(
+        &mut self,
+        definition: EnergyDefinition,
+        acting: &[NonConservative<'_, f64>],
+        [theta, omega]: [&[f64]; 2],
+    ) -> Budget {
+        let given = Given::Absolute { theta, omega };
+        let sums = &mut self.budget;
+        self.symmetric
+            .budget(&mut self.workspace, definition, acting, given, sums);
+        let by_scale = |values: &[f64]| {
+            let mut sums = vec![0.0; self.count];
+            for (value, scale) in values.iter().zip(&self.scales) {
+                if let Some(sum) = sums.get_mut(*scale) {
+                    *sum += value;
+                }
+            }
+            sums
+        };
+        Budget {
+            energies: by_scale(&sums.energies),
+            received: by_scale(&sums.transfers),
+            powers: by_scale(&sums.powers),
+        }
+    }
+}
+
+/// Adds a difference to angles of copies in phase, at every branching: to the coordinates of
+/// every difference, so that of two copies one is turned by it and the other against it.
+pub(crate) fn set_apart(tree: &PendulumTree, difference: f64, angles: &mut [f64]) {
+    let coordinates = tree
+        .sectors()
+        .iter()
+        .skip(1)
+        .flat_map(|own| own.coordinates());
+    for coordinate in coordinates {
+        let weights = coordinate.weights();
+        let largest = weights
+            .iter()
+            .fold(0.0, |most: f64, own| most.max(own.1.abs()));
+        for &(link, weight) in weights {
+            if let Some(angle) = angles.get_mut(link) {
+                *angle += difference * weight / largest;
+            }
+        }
+    }
+}
+
+/// Returns the angles of the in-phase motion: of copies the mean, whole turns left out.
+pub(crate) fn in_phase_part(tree: &PendulumTree, theta: &[f64]) -> Vec<f64> {
+    let mut angles = theta.to_vec();
+    let means = tree.sectors().iter().take(1);
+    for coordinate in means.flat_map(|sector| sector.coordinates()) {
+        let links = coordinate.weights().iter().map(|(link, _)| *link);
+        let own: Vec<f64> = links
+            .clone()
+            .filter_map(|link| theta.get(link).copied())
+            .collect();
+        let Some(&first) = own.first() else {
+            continue;
+        };
+        let apart = own.iter().map(|angle| within_half_a_turn(angle - first));
+        let mean = first + apart.sum::<f64>() / own.len() as f64;
+        for link in links {
+            if let Some(angle) = angles.get_mut(link) {
+                *angle = mean;
+            }
+        }
+    }
+    angles
+}
+
+fn within_half_a_turn(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
+
+/// A number for each link, from that of the link that it hangs from and its pivot on it.
+pub(crate) fn down_the_tree<T: Copy>(
+    tree: &PendulumTree,
+    root: T,
+    next: impl Fn(T, [f64; 2]) -> T,
+) -> Vec<T> {
+    let mut numbers: Vec<T> = Vec::new();
+    for link in 0..tree.links() {
+        let own = tree.properties_of(link);
+        let above = own.and_then(|own| Some((*numbers.get(own.parent?)?, own.pivot)));
+        numbers.push(above.map_or(root, |(above, pivot)| next(above, pivot)));
+    }
+    numbers
+}
