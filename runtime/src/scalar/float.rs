@@ -1,11 +1,16 @@
 //! The machine's own numbers.
 
 use super::kind::{ByKind, Compiled};
-use super::lanes::{Lane, Lanes, Registers};
+use super::lanes::{Lane, Registers};
 use super::{Real, Scalar, sincos};
 use crate::simd::Fused;
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
 use crate::simd::{F32x4, F32x8, F32x16, F64x2, F64x4, F64x8};
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
+use crate::simd::{F32x4, F64x2};
 
 /// A register of this name, or as many lanes where there are none.
 #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
@@ -15,10 +20,27 @@ macro_rules! register {
     };
 }
 
-#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
+macro_rules! register {
+    ($name:ty, $lanes:literal of f64) => {
+        F64x2
+    };
+    ($name:ty, $lanes:literal of f32) => {
+        F32x4
+    };
+}
+
+#[cfg(not(any(
+    all(target_arch = "x86_64", target_feature = "sse2"),
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+)))]
 macro_rules! register {
     ($name:ty, $lanes:literal of $float:ident) => {
-        Lanes<$float, $lanes>
+        crate::scalar::Lanes<$float, $lanes>
     };
 }
 
@@ -127,7 +149,7 @@ implement_scalar!(
     F32x4,
     F32x8,
     F32x16,
-    Lanes<f32, 4>,
+    crate::scalar::Lanes<f32, 4>,
     of_f32
 );
 

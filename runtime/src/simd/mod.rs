@@ -22,6 +22,11 @@
 
 pub(crate) mod dispatch;
 mod known;
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
+mod narrow;
 mod one;
 mod part;
 mod permutation;
@@ -35,6 +40,11 @@ use core::mem::MaybeUninit;
 
 pub use dispatch::{InstructionSet, StateKernel};
 pub(crate) use known::Known;
+#[cfg(any(
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
+pub(crate) use narrow::{F32x4, F64x2};
 pub(crate) use one::Fused;
 pub use part::{Part, outlined};
 pub use quad::Quad;

@@ -1,6 +1,6 @@
 use crate::scalar::{Lanes, Scalar};
 use crate::simd::Quad;
-use crate::taylor::expand::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
+use crate::taylor::{Connectivity, KnownOrder, LinkConstants, Start, expand, workspace};
 
 struct Six;
 

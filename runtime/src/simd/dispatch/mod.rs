@@ -29,7 +29,7 @@ use crate::scalar::{Lane, Lanes, Scalar};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum InstructionSet {
-    /// Instructions that the build was made for: SSE2 for x86-64 by default.
+    /// Instructions that the build was made for: SSE2 for x86-64 by default, NEON for AArch64.
     Build,
     /// AVX2 and FMA, registers of 256 bits.
     Avx2,
