@@ -6,10 +6,8 @@
 
 pub mod advise;
 pub mod branched_double;
-pub mod cascade;
 pub mod critical_angle;
 pub mod integration_speed;
-pub mod quadrature;
 pub mod release_map;
 pub mod scenes;
 pub mod solvers;

@@ -6,12 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 mod branched_double;
-mod cascade;
 mod command_lines;
 mod growth;
 mod integration_speed;
-#[cfg(unix)]
-mod processes;
 mod solvers;
 mod swaying_branch;
 mod template;

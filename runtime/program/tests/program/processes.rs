@@ -1,9 +1,8 @@
-//! How the programs end: closed pipes, full disks, folders that cannot be
+//! How the subcommands end: closed pipes, full disks, folders that cannot be
 //! written, Ctrl-C at any moment, and runs repeated from their records. Each
 //! drives real processes.
 
 use std::fs::{self, File};
-use std::io::Read;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
@@ -15,77 +14,37 @@ use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use signal_hook::consts::SIGINT;
 
-use super::{folder, text};
+use super::{command, folder, text};
 
-/// A program in a short form.
-struct Program {
-    path: &'static str,
+/// A subcommand in a short form.
+struct Subcommand {
+    name: &'static str,
     arguments: &'static [&'static str],
 }
 
-const PROGRAMS: [Program; 11] = [
-    Program {
-        path: env!("CARGO_BIN_EXE_branched-double"),
-        arguments: &["--angles", "40:43:0.5", "--duration", "4", "--rate", "50"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_cascade"),
-        arguments: &["--onset", "1"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_advise"),
-        arguments: &["--horizon", "1", "--right", "angles:1e-3"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_transfer-orders"),
-        arguments: &["--states", "10"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_stability-map"),
-        arguments: &["--map", "friction"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_swaying-branch"),
-        arguments: &["--duration", "2", "--storm", "2"],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_work-precision"),
-        arguments: &[],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_integration-speed"),
-        arguments: &[],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_evaluation-speed"),
-        arguments: &[],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_critical-angle"),
-        arguments: &[
-            "--angles",
-            "43:45:0.5",
-            "--horizons",
-            "4",
-            "--quality",
-            "150",
-        ],
-    },
-    Program {
-        path: env!("CARGO_BIN_EXE_release-map"),
-        arguments: &["--step", "45", "--span", "1"],
-    },
+const fn subcommand(name: &'static str, arguments: &'static [&'static str]) -> Subcommand {
+    Subcommand { name, arguments }
+}
+
+const SUBCOMMANDS: [Subcommand; 8] = [
+    subcommand("simulate", &["--start", "40", "--duration", "4"]),
+    subcommand("cascade", &["--onset", "1"]),
+    subcommand("transfer", &["--start", "40", "--duration", "4"]),
+    subcommand("describe", &["--tree", "y"]),
+    subcommand("modes", &["--tree", "triple"]),
+    subcommand("methods", &["--start", "40", "--duration", "1"]),
+    subcommand("growth", &["--angles", "43,44", "--horizons", "4"]),
+    subcommand("map", &["--duration", "2"]),
 ];
 
-impl Program {
-    fn name(&self) -> &str {
-        Path::new(self.path).file_name().unwrap().to_str().unwrap()
+impl Subcommand {
+    fn words(&self) -> Vec<&'static str> {
+        [&[self.name], self.arguments].concat()
     }
 
     fn command(&self, folder: &Path) -> Command {
-        let mut command = Command::new(self.path);
-        command.args(self.arguments).arg("--output").arg(folder);
-        command.stdin(Stdio::null());
+        let mut command = command(&self.words());
+        command.arg("--output").arg(folder);
         command
     }
 }
@@ -153,8 +112,8 @@ fn interrupt(child: &Child) {
     assert!(sent.unwrap().success());
 }
 
-/// At ten moments of each program, from its first instant to its end. The ten runs of a
-/// program go side by side: most of their time is waiting.
+/// At ten moments of each subcommand, from its first instant to its end. The ten runs of
+/// one go side by side: most of their time is waiting.
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     // A shell's background jobs ignore Ctrl-C, and so do their children until they take it
@@ -162,10 +121,10 @@ fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     let shut_down = Arc::new(AtomicBool::new(true));
     signal_hook::flag::register_conditional_shutdown(SIGINT, 130, shut_down).unwrap();
     let mut random = SplitMix64::seed_from_u64(2026);
-    for program in &PROGRAMS {
+    for program in &SUBCOMMANDS {
         std::thread::scope(|scope| {
             for moment in 0..10 {
-                // Moments spread over many sizes: programs take from 0.1 s to minutes.
+                // Moments spread over many sizes: subcommands take from 0.1 s to minutes.
                 let share = random.next_u64() as f64 / u64::MAX as f64;
                 let after = Duration::from_secs_f64(0.02 * 60.0_f64.powf(share));
                 scope.spawn(move || interrupted(program, moment, after));
@@ -174,9 +133,9 @@ fn ctrl_c_keeps_what_is_finished_and_leaves_nothing_half_written() {
     }
 }
 
-/// Runs a program and interrupts it after a time.
-fn interrupted(program: &Program, moment: u32, after: Duration) {
-    let folder = folder(&format!("interrupted-{}-{moment}", program.name()));
+/// Runs a subcommand and interrupts it after a time.
+fn interrupted(program: &Subcommand, moment: u32, after: Duration) {
+    let folder = folder(&format!("interrupted-{}-{moment}", program.name));
     let mut command = program.command(&folder);
     command.stdout(Stdio::null()).stderr(Stdio::piped());
     let child = command.spawn().unwrap();
@@ -184,7 +143,7 @@ fn interrupted(program: &Program, moment: u32, after: Duration) {
     interrupt(&child);
     let output = child.wait_with_output().unwrap();
     let stderr = text(&output.stderr);
-    let case = format!("{} {moment}: {stderr}", program.name());
+    let case = format!("{} {moment}: {stderr}", program.name);
     match (output.status.code(), output.status.signal()) {
         // Done before.
         (Some(0), _) => assert_whole(&folder, &["finished"]),
@@ -192,7 +151,7 @@ fn interrupted(program: &Program, moment: u32, after: Duration) {
         (None, Some(2)) => assert!(names(&folder).is_empty(), "{case}"),
         (Some(130), _) => {
             assert_eq!(stderr.lines().count(), 1, "{case}");
-            let start = format!("{}: interrupted; ", program.name());
+            let start = format!("branched-pendulum {}: interrupted; ", program.name);
             assert!(stderr.starts_with(&start), "{case}");
             if folder.exists() {
                 assert!(names(&folder).contains(&"run.json".to_owned()), "{case}");
@@ -208,16 +167,16 @@ fn interrupted(program: &Program, moment: u32, after: Duration) {
     let _ = fs::remove_dir_all(&folder);
 }
 
-/// The programs that end within some seconds: the first ones.
-fn quick() -> impl Iterator<Item = &'static Program> {
-    PROGRAMS.iter().take(3)
+/// The subcommands that end within some seconds: the first ones.
+fn quick() -> impl Iterator<Item = &'static Subcommand> {
+    SUBCOMMANDS.iter().take(3)
 }
 
 /// `| head -1`: the first line is read, then the pipe is closed.
 #[test]
 fn a_closed_pipe_costs_no_file_and_one_line() {
     for program in quick() {
-        let folder = folder(&format!("pipe-{}", program.name()));
+        let folder = folder(&format!("pipe-{}", program.name));
         let mut command = program.command(&folder);
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
@@ -234,24 +193,10 @@ fn a_closed_pipe_costs_no_file_and_one_line() {
 }
 
 #[test]
-fn a_program_without_files_ends_with_its_reader() {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_integration-speed"));
-    command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = command.spawn().unwrap();
-    drop(child.stdout.take());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0));
-    assert_eq!(
-        stderr(&output),
-        "integration-speed: standard output was closed\n"
-    );
-}
-
-#[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_told_in_one_line() {
     for program in quick() {
-        let folder = folder(&format!("full-{}", program.name()));
+        let folder = folder(&format!("full-{}", program.name));
         let full = File::options().write(true).open("/dev/full").unwrap();
         let output = program.command(&folder).stdout(full).output().unwrap();
         assert_eq!(output.status.code(), Some(1));
@@ -263,8 +208,7 @@ fn a_full_disk_is_told_in_one_line() {
         );
         assert!(names(&folder).iter().all(|name| !name.ends_with(".part")));
         let help = File::options().write(true).open("/dev/full").unwrap();
-        let mut help = Command::new(program.path)
-            .arg("--help")
+        let mut help = command(&[program.name, "--help"])
             .stdout(help)
             .spawn()
             .unwrap();
@@ -276,10 +220,10 @@ fn a_full_disk_is_told_in_one_line() {
 #[test]
 fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
     for program in quick() {
-        let folder = folder(&format!("taken-{}", program.name()));
-        let name = match program.name() {
-            "branched-double" => "samples-40.0deg.csv",
-            "advise" => "advice.csv",
+        let folder = folder(&format!("taken-{}", program.name));
+        let name = match program.name {
+            "simulate" => "motion.csv",
+            "transfer" => "transfer.csv",
             _ => "onset.csv",
         };
         fs::create_dir_all(folder.join(name)).unwrap();
@@ -298,9 +242,8 @@ fn a_file_that_cannot_be_written_is_told_and_leaves_no_part() {
 fn two_runs_never_mix_in_a_folder() {
     const ANGLES: [&str; 2] = ["20", "30"];
     let run = |angle: &str, folder: &Path| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_branched-double"));
-        command.args(["--duration", "1", "--rate", "50", "--angles", angle]);
-        command.arg("--output").arg(folder).stdin(Stdio::null());
+        let mut command = command(&["simulate", "--duration", "1", "--start", angle]);
+        command.arg("--output").arg(folder);
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         command
     };
@@ -347,7 +290,7 @@ fn two_runs_never_mix_in_a_folder() {
 #[test]
 fn a_killed_run_gives_its_folder_back() {
     let folder = folder("killed");
-    let mut command = PROGRAMS[0].command(&folder);
+    let mut command = SUBCOMMANDS[0].command(&folder);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = command.spawn().unwrap();
     while !folder.join(".running").exists() {
@@ -355,75 +298,47 @@ fn a_killed_run_gives_its_folder_back() {
     }
     child.kill().unwrap();
     child.wait().unwrap();
-    let output = PROGRAMS[0].command(&folder).output().unwrap();
+    let output = SUBCOMMANDS[0].command(&folder).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     assert_whole(&folder, &["finished"]);
 }
 
 #[test]
 fn a_run_is_repeated_from_its_record() {
-    repeated(quick().take(4));
-    let other = Command::new(env!("CARGO_BIN_EXE_cascade"))
-        .arg("--repeat")
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("first-branched-double/run.json"))
-        .output()
-        .unwrap();
+    for program in quick() {
+        repeated(program);
+    }
+    let first = Path::new(env!("CARGO_TARGET_TMPDIR")).join("first-simulate/run.json");
+    let other = command(&["cascade", "--repeat"]).arg(first).output();
+    let other = other.unwrap();
     assert_eq!(other.status.code(), Some(2));
-    assert!(stderr(&other).contains("records a run of branched-double"));
+    assert!(stderr(&other).contains("records a run of branched-pendulum simulate"));
 }
 
-#[test]
-#[ignore = "takes minutes unoptimised: cargo test --release --test programs -- --ignored"]
-fn long_runs_are_repeated_from_their_records() {
-    repeated(PROGRAMS[4..6].iter());
-}
-
-/// Repeats runs. Same bytes in every file, the record included, but for times: what
-/// `advise` has measured, and costs in the legends of the charts of `transfer-orders`.
-fn repeated(programs: impl Iterator<Item = &'static Program>) {
-    for program in programs {
-        let (first, again) = (
-            folder(&format!("first-{}", program.name())),
-            folder(&format!("again-{}", program.name())),
-        );
-        let record = first.join("run.json");
-        let output = program.command(&first).output().unwrap();
-        assert!(output.status.success(), "{}", stderr(&output));
-        let repeat = |more: &[&str]| {
-            let mut command = Command::new(program.path);
-            command
-                .arg("--repeat")
-                .arg(&record)
-                .arg("--output")
-                .arg(&again);
-            command.args(more).output().unwrap()
-        };
-        let option = program.arguments[0];
-        let refused = repeat(&[option, program.arguments[1]]);
-        assert_eq!(refused.status.code(), Some(2));
-        let named = format!("`--repeat` takes the value of `{}`", &option[2..]);
-        assert!(stderr(&refused).contains(&named), "{}", stderr(&refused));
-        let output = repeat(&[]);
-        assert!(output.status.success(), "{}", stderr(&output));
-        assert_eq!(names(&first), names(&again));
-        for name in names(&first) {
-            let read = |folder: &Path| {
-                let mut bytes = Vec::new();
-                let mut file = File::open(folder.join(&name)).unwrap();
-                file.read_to_end(&mut bytes).unwrap();
-                bytes
-            };
-            let arguments = |bytes: Vec<u8>| {
-                let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
-                record["arguments"].clone()
-            };
-            let (one, other) = (read(&first), read(&again));
-            match (program.name(), name.as_str()) {
-                ("advise", "run.json") => assert_eq!(arguments(one), arguments(other)),
-                ("advise", _) => {}
-                ("transfer-orders", name) if !name.ends_with("csv") && name != "run.json" => {}
-                _ => assert!(one == other, "{name}"),
-            }
-        }
+/// Repeats a run: same bytes in every file, the record included.
+fn repeated(program: &Subcommand) {
+    let (first, again) = (
+        folder(&format!("first-{}", program.name)),
+        folder(&format!("again-{}", program.name)),
+    );
+    let record = first.join("run.json");
+    let output = program.command(&first).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    let repeat = |more: &[&str]| {
+        let mut command = command(&[program.name, "--repeat"]);
+        command.arg(&record).arg("--output").arg(&again);
+        command.args(more).output().unwrap()
+    };
+    let option = program.arguments[0];
+    let refused = repeat(&[option, program.arguments[1]]);
+    assert_eq!(refused.status.code(), Some(2));
+    let named = format!("`--repeat` takes the value of `{}`", &option[2..]);
+    assert!(stderr(&refused).contains(&named), "{}", stderr(&refused));
+    let output = repeat(&[]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(names(&first), names(&again));
+    for name in names(&first) {
+        let read = |folder: &Path| fs::read(folder.join(&name)).unwrap();
+        assert!(read(&first) == read(&again), "{name}");
     }
 }

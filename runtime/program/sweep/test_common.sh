@@ -1,15 +1,15 @@
 # What the tests of the engines share: a short sweep, in one process and cut into shards.
 #
-# Sourced; takes the arguments of the test. Leaves `cascade` (the program and its options, but
+# Sourced; takes the arguments of the test. Leaves `cascade` (the command and its options, but
 # for --output), `folder` (temporary) and the functions below.
 [ -n "${1:-}" ] && [ -x "$1" ] || {
-    echo "usage: $0 PROGRAM, the binary of cascade" >&2
+    echo "usage: $0 COMMAND, the binary branched-pendulum" >&2
     exit 2
 }
 shards=64
 folder=$(mktemp -d)
-cascade=("$(realpath "$1")" --generations 3 --starts "$shards" --duration "${DURATION:-100}"
-    --steps 128 --samples 8 --friction 1e-4 --threads 1 --checkpoint 0)
+cascade=("$(realpath "$1")" cascade --generations 3 --starts "$shards" --duration "${DURATION:-100}"
+    --steps 128 --samples 8 --set friction=1e-4 --threads 1 --checkpoint 0)
 sweep="$folder/sweep"
 
 # Number of finished shards.

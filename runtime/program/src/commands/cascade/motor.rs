@@ -21,10 +21,9 @@ pub struct Motor<T = f64> {
 
 impl Motor {
     /// The torque on the tree of a start: one line, or a random one with a flat spectrum
-    /// and the same mean square.
-    pub fn new(arguments: &Arguments, random: &mut Random) -> Self {
+    /// and the same mean square, of the amplitude `torque` (N m).
+    pub fn new(arguments: &Arguments, torque: f64, random: &mut Random) -> Self {
         let Arguments {
-            torque,
             frequency,
             bandwidth,
             ..

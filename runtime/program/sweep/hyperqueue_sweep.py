@@ -1,7 +1,7 @@
 """Shares a program out among HyperQueue's workers on this machine, then merges.
 
     pip install hyperqueue
-    python3 hyperqueue_sweep.py 64 --workers 2 -- target/release/cascade --starts 640 --threads 1 --output sweep
+    python3 hyperqueue_sweep.py 64 --workers 2 -- branched-pendulum cascade --starts 640 --threads 1 --output sweep
 
 Killed and started again, it computes what is missing. On a cluster, `hq server start` and
 `hq alloc add slurm` take the place of LocalCluster: Client(server_dir) finds them.

@@ -1,7 +1,7 @@
 """Shares a program out among Dask's workers, then merges.
 
     pip install "dask[distributed]"
-    python3 dask_sweep.py 64 -- target/release/cascade --starts 640 --threads 1 --output sweep
+    python3 dask_sweep.py 64 -- branched-pendulum cascade --starts 640 --threads 1 --output sweep
     python3 dask_sweep.py 64 --scheduler tcp://host:8786 -- …    (a cluster that is there)
 
 All workers must see the output folder. Killed and started again, it computes what is missing.

@@ -1,4 +1,4 @@
-//! The program `cascade`: its checkpoints, its shards.
+//! `cascade`: motions in lanes, checkpoints, shards, refusals.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -8,29 +8,32 @@ use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
+use branched_pendulum::analysis::SectorModes;
 use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::UnderTorques;
-use branched_pendulum_examples::cascade::Arguments;
-use branched_pendulum_examples::cascade::motor::{Motor, Random};
-use branched_pendulum_examples::cascade::onset::scene::{Tree, TreeParameters, modes};
-use branched_pendulum_examples::cascade::scene::{RodTree, binary_3};
-use clap::Parser;
+use branched_pendulum_program::commands::cascade::Arguments;
+use branched_pendulum_program::commands::cascade::motor::{Motor, Random};
+use branched_pendulum_program::frame::command_line::parse_line;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-use super::text;
+use super::{Folder, TRIPLE, UNEQUAL, Y, text};
+
+fn arguments(line: &str) -> Arguments {
+    parse_line(line).unwrap()
+}
 
 /// A pair of outermost rods moves against each other on a pivot at rest.
 #[test]
 fn the_outermost_sectors_have_the_frequency_of_a_rod() {
-    let still = TreeParameters {
-        torque: 0.0,
-        pace: 0.0,
-    };
-    let modes = modes(&Tree::new(still).unwrap()).unwrap();
+    let tree = arguments("--generations 4").read().unwrap().tree;
+    let hanging = [0.0; 15];
+    let (mass, stiffness) = (tree.mass_matrix(&hanging), tree.stiffness_matrix(&hanging));
+    let modes = SectorModes::new(tree.sectors(), &mass, &stiffness).unwrap();
     assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
     let length = 0.3 * 0.7_f64.powi(3);
-    let rod = (1.5 * 9.80665 / length).sqrt() / std::f64::consts::TAU;
+    let rod = (1.5 * 9.80665 / length).sqrt() / TAU;
     let outermost = modes
         .blocks
         .iter()
@@ -49,7 +52,9 @@ fn the_outermost_sectors_have_the_frequency_of_a_rod() {
 #[test]
 fn the_onset_leaves_table_and_charts() {
     let folder = folder("onset");
-    let output = command(&folder, &["--onset", "0.2"]).output().unwrap();
+    let output = command(&folder, &["--onset", "0.2", "--generations", "4"])
+        .output()
+        .unwrap();
     finished(&output);
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("| `in_phase` | 4 | 0."), "{text}");
@@ -65,39 +70,29 @@ fn the_onset_leaves_table_and_charts() {
 /// once more, and the error falls as that of a method of order four.
 #[test]
 fn starts_in_lanes_have_the_motion_of_another_method() {
-    let arguments = |steps: &str| {
-        let words = [
-            "cascade",
-            "--generations",
-            "3",
-            "--friction",
-            "1e-4",
-            "--steps",
-            steps,
-        ];
-        Arguments::parse_from(words)
-    };
-    let own = arguments("2048");
-    let tree = binary_3::Tree::of(&own.shape(), own.friction, own.friction_ratio).unwrap();
+    let arguments = |steps: u32| arguments(&format!("--generations 3 --steps {steps}"));
+    let own = arguments(2048);
+    let subject = own.read().unwrap();
+    let (tree, torque) = (&subject.tree, own.torque(&subject));
     let mut random = Random::of_start(1, 0);
     let starts: Vec<State<f64>> = (0..11)
         .map(|_| State::at_rest(0.0, &[(); 7].map(|()| random.within(0.5))))
         .collect();
     let pace = TAU * own.frequency;
     let pushed = UnderTorques::new(
-        &tree,
+        tree,
         |time: f64, _: &[f64], _: &[f64], torques: &mut [f64]| {
             torques.fill(0.0);
-            torques[0] = own.torque * (pace * time).cos();
+            torques[0] = torque * (pace * time).cos();
         },
     );
     let ensemble = Ensemble::new();
     let reference = Verner98::new(Options::with_tolerance(1e-13));
     let reference = ensemble.integrate(&reference, &pushed, &starts, 1.0);
-    let error = |steps: &str| {
+    let error = |steps: u32| {
         let arguments = arguments(steps);
-        let motor = Motor::new(&arguments, &mut Random::of_start(1, 0));
-        let system = UnderTorques::of(&tree, motor);
+        let motor = Motor::new(&arguments, torque, &mut Random::of_start(1, 0));
+        let system = UnderTorques::of(tree, motor);
         let method = Rk4::new(arguments.step());
         let ends = ensemble.integrate_in_lanes(&method, &system, &starts, 1.0);
         let mut largest = 0.0_f64;
@@ -109,7 +104,7 @@ fn starts_in_lanes_have_the_motion_of_another_method() {
         }
         largest
     };
-    let [coarse, fine] = ["2048", "4096"].map(error);
+    let [coarse, fine] = [2048, 4096].map(error);
     assert!(coarse < 2e-6, "{coarse:e}");
     let order = (coarse / fine).log2();
     assert!((3.5..4.5).contains(&order), "{coarse:e} {fine:e}");
@@ -125,8 +120,8 @@ const SHORT: &[&str] = &[
     "100",
     "--samples",
     "8",
-    "--friction",
-    "1e-4",
+    "--set",
+    "friction=1e-4",
     "--steps",
     "128",
     "--threads",
@@ -146,9 +141,8 @@ fn options<'a>(more: &[&'a str]) -> Vec<&'a str> {
 }
 
 fn command(folder: &Path, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cascade"));
+    let mut command = super::command(&["cascade"]);
     command.args(options(more)).arg("--output").arg(folder);
-    command.stdin(Stdio::null());
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     command
 }
@@ -227,7 +221,10 @@ fn a_checkpoint_of_another_run_is_refused() {
             "{stderr}"
         );
     };
-    refused(&["--duration", "100000", "--seed", "2"], "it is of cascade");
+    refused(
+        &["--duration", "100000", "--seed", "2"],
+        "it is of branched-pendulum cascade",
+    );
     let mut bytes = fs::read(&checkpoint).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
@@ -257,7 +254,7 @@ fn shards_make_the_tables_of_one_process() {
 }
 
 #[test]
-#[ignore = "a thousand processes: cargo test --test programs -- --ignored a_thousand"]
+#[ignore = "a thousand processes: cargo test --test program -- --ignored a_thousand"]
 fn a_thousand_shards_make_the_tables_of_one_process() {
     let starts = &["--starts", "1000", "--duration", "10"];
     shards("1000-shards", 1000, starts);
@@ -335,7 +332,8 @@ fn hyperqueue_makes_the_tables_of_one_process() {
         "--workers",
         "2",
         "--",
-        env!("CARGO_BIN_EXE_cascade"),
+        env!("CARGO_BIN_EXE_branched-pendulum"),
+        "cascade",
     ];
     words.extend(options(STARTS));
     words.extend(["--output", swept_path]);
@@ -368,7 +366,14 @@ fn hyperqueue_makes_the_tables_of_one_process() {
 fn what_is_asleep_is_called_so() {
     // Too much friction, and a tree that hangs still.
     for (number, more) in [
-        ["--starts", "4", "--torque", "0.05", "--friction", "1e-2"],
+        [
+            "--starts",
+            "4",
+            "--torque",
+            "0.05",
+            "--set",
+            "friction=1e-2",
+        ],
         ["--starts", "4", "--torque", "0", "--spread", "0"],
     ]
     .iter()
@@ -379,5 +384,84 @@ fn what_is_asleep_is_called_so() {
         finished(&output);
         let text = String::from_utf8(output.stdout).unwrap();
         assert!(text.contains("| 2 | 2 | asleep ("), "{text}");
+    }
+}
+
+/// Trees of files: scales where there are copies, else a refusal that says what to write.
+#[test]
+fn other_trees_are_followed_or_refused() {
+    let folder = Folder::new("cascade");
+    let y = folder.file("y.txt", Y);
+    let line = "--set stiffness=4 --duration 20 --starts 4 --steps 256 --samples 16";
+    let mut words = vec!["cascade", "--tree", &y];
+    words.extend(line.split_whitespace());
+    let told = folder.answer(&words);
+    let title = "y.txt: 3 links in 2 generations, 4 starts of 20.0 s each; torque 0.2 N m";
+    assert!(told.contains(title), "{told}");
+    let (names, rows) = folder.table("windows.csv");
+    assert_eq!(names[6], "energy 1 [J]");
+    assert_eq!((names.len(), rows.len()), (10, 4 * 12));
+    assert!(folder.read("results/tree.svg").contains("</svg>"));
+
+    let own = format!("{TRIPLE}, drive(torque = 0.1 * cos(4 * t))");
+    let fork = "gravity = 9.81, drive(torque = 0.1 * cos(4 * t)),
+        stem: rod(mass = 0.2, length = 0.3, friction = 1e-4) [
+            arm: rod(mass = 0.1, length = 0.2, friction = 1e-5) * 3]";
+    for (text, more, message) in [
+        (
+            TRIPLE,
+            "",
+            "`tree.txt` has no scales, since there are no copies: write equal",
+        ),
+        (
+            UNEQUAL,
+            "",
+            "`tree.txt` has no scales, since links of one generation differ",
+        ),
+        (own.as_str(), "--onset 1", "the tree has no copies"),
+        (
+            fork,
+            "--torque 0.1",
+            "`tree.txt` has a drive of its own: leave `--torque`",
+        ),
+        (
+            fork,
+            "--bandwidth 0.1",
+            "`tree.txt` has a drive of its own: leave `--torque`",
+        ),
+    ] {
+        let tree = folder.file("tree.txt", text);
+        let mut words = vec!["cascade", "--tree", &tree];
+        words.extend(more.split_whitespace());
+        let output = folder.run(&words);
+        let told = super::text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        assert!(told.contains(message), "{told}");
+    }
+    let tree = folder.file("tree.txt", fork);
+    let told = folder.answer(&["cascade", "--tree", &tree, "--onset", "1"]);
+    assert!(
+        told.contains("no torque but that of the description"),
+        "{told}"
+    );
+    assert!(told.contains("| `in_phase` | 2 |"), "{told}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    for (line, message) in [
+        ("--generations 11", "11 is not in 2..=10"),
+        ("--generations 3 --tree paper", "leave them or `--tree` out"),
+        ("--torque NaN", "must be from 0 to 100 N m"),
+        ("--bandwidth 1", "at most 0.9 of the frequency"),
+        (
+            "--samples 100",
+            "`--steps` must be a multiple of `--samples`",
+        ),
+        ("--shard 3/3", "must be I/N"),
+        ("--shard 0/3 --merge 3", "cannot be used with"),
+    ] {
+        let told = parse_line::<Arguments>(line).unwrap_err();
+        assert!(told.contains(message), "{line}: {told}");
     }
 }

@@ -6,38 +6,46 @@ use branched_pendulum_data::Column;
 use super::arguments::Arguments;
 use super::findings::{Balance, Findings, Scale};
 use super::motion::{Followed, QUANTITIES};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
-use branched_pendulum_program::frame::command_line::plain;
+use super::tree::DrivenTree;
+use crate::Failure;
+use crate::frame::Job;
+use crate::subject::Subject;
 
 /// Everything that is printed, as Markdown.
-pub fn report(arguments: &Arguments, starts: &[Followed], findings: &Findings) -> String {
-    let shape = arguments.shape();
-    let windows = arguments.windows();
+pub fn report(
+    arguments: &Arguments,
+    driven: &DrivenTree,
+    starts: &[Followed],
+    findings: &Findings,
+) -> String {
     let mut text = format!(
-        "{} rods in {} generations, {} starts of {:.1} s each; torque {} N m at {} Hz{} on the root, \
-         friction {} N m s in the youngest pivots{}; {} steps a period.\n\n",
-        shape.links(),
-        shape.generations,
+        "{}: {} links in {} generations, {} starts of {:.1} s each; {}; {} steps a period.\n\n",
+        driven.subject.name,
+        driven.links(),
+        driven.generations(),
         starts.len(),
-        windows as f64 / arguments.frequency,
-        arguments.torque,
-        arguments.frequency,
-        match arguments.bandwidth {
-            0.0 => String::new(),
-            width => format!(" ± {width} Hz"),
-        },
-        plain(arguments.friction),
-        match arguments.friction_ratio {
-            1e6.. => " alone".to_owned(),
-            ratio => format!(", {} times as much as in those above", plain(ratio)),
-        },
+        arguments.windows() as f64 / arguments.frequency,
+        drive(arguments, &driven.subject),
         arguments.steps,
     );
     text.push_str(&steadiness(arguments, findings));
-    text.push_str(&energies(arguments, findings));
+    text.push_str(&energies(arguments, driven, findings));
     text.push_str(&balance(arguments, findings));
     text
+}
+
+/// Says what drives the tree.
+pub fn drive(arguments: &Arguments, subject: &Subject) -> String {
+    let frequency = arguments.frequency;
+    if subject.tree.drive(0.0).is_some() {
+        return format!("driven as described, periods of {frequency} Hz");
+    }
+    let width = match arguments.bandwidth {
+        0.0 => String::new(),
+        width => format!(" ± {width} Hz"),
+    };
+    let torque = arguments.torque(subject);
+    format!("torque {torque} N m at {frequency} Hz{width} on the root")
 }
 
 /// Says if averages mean anything.
@@ -67,15 +75,14 @@ fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
 }
 
 /// Energies by scale.
-fn energies(arguments: &Arguments, findings: &Findings) -> String {
-    let shape = arguments.shape();
+fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> String {
     let mut text =
         "| scale | degrees of freedom | energy (J) | bar | per degree of freedom (J) | τ (s) |\n\
          |---|---:|---:|---:|---:|---:|\n"
             .to_owned();
     let mut missing = Missing::default();
     for (scale, state) in findings.scales.iter().enumerate() {
-        let freedoms = shape.degrees_of_freedom(scale);
+        let freedoms = driven.degrees_of_freedom(scale);
         text += &format!("| {} | {freedoms} |", name(scale));
         match state {
             Scale::Awake(energy) => {
@@ -101,7 +108,7 @@ fn energies(arguments: &Arguments, findings: &Findings) -> String {
         Some(law) => {
             text += &format!(
                 "\nEnergy per degree of freedom of the differences against the length of the oldest \
-                 rods that differ: exponent {:.3} ± {:.3}, χ² per point left over {:.1}: {}.\n\n",
+                 links that differ: exponent {:.3} ± {:.3}, χ² per point left over {:.1}: {}.\n\n",
                 law.exponent.value,
                 law.exponent.error,
                 law.misfit,
@@ -213,8 +220,12 @@ fn milli(average: &Average) -> String {
 ///
 /// # Errors
 /// [`Failure`].
-pub fn write_windows(job: &Job, arguments: &Arguments, starts: &[Followed]) -> Result<(), Failure> {
-    let scales = arguments.shape().generations;
+pub fn write_windows(
+    job: &Job,
+    arguments: &Arguments,
+    scales: usize,
+    starts: &[Followed],
+) -> Result<(), Failure> {
     let mut columns = vec![Column::new("start", ""), Column::new("time", "s")];
     for scale in 0..scales {
         for (quantity, unit) in [
@@ -245,8 +256,7 @@ pub fn write_windows(job: &Job, arguments: &Arguments, starts: &[Followed]) -> R
 ///
 /// # Errors
 /// [`Failure`].
-pub fn write_scales(job: &Job, arguments: &Arguments, findings: &Findings) -> Result<(), Failure> {
-    let shape = arguments.shape();
+pub fn write_scales(job: &Job, driven: &DrivenTree, findings: &Findings) -> Result<(), Failure> {
     let columns = [
         ("scale", ""),
         ("length", "m"),
@@ -276,8 +286,9 @@ pub fn write_scales(job: &Job, arguments: &Arguments, findings: &Findings) -> Re
                 (None, Ok(input), Ok(lost)) => [bar(input), bar(lost)],
                 _ => [none; 2],
             };
-            let mut row = vec![scale as f64, shape.length(scale)];
-            row.push(shape.degrees_of_freedom(scale) as f64);
+            let length = driven.lengths.get(scale).copied();
+            let mut row = vec![scale as f64, length.unwrap_or(f64::NAN)];
+            row.push(driven.degrees_of_freedom(scale) as f64);
             row.extend([energy, given, lost].concat());
             file.row(&row)?;
         }

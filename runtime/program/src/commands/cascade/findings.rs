@@ -6,7 +6,7 @@ use branched_pendulum::analysis::statistics::{
 
 use super::density::Density;
 use super::motion::{Followed, QUANTITIES};
-use super::scene::Shape;
+use super::tree::DrivenTree;
 
 /// A scale sleeps if a degree of freedom of it has less than this part of the energy of
 /// one of the means: too much friction, or too short a run to wake it.
@@ -66,7 +66,7 @@ pub struct Flux {
 /// A line through logarithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerLaw {
-    /// Slope of ln(energy per degree of freedom) against ln(length of the rods).
+    /// Slope of ln(energy per degree of freedom) against ln(length of the links).
     pub exponent: Estimate,
     /// Sum of the squares of the deviations from the line in units of their errors, over
     /// the number of points less two. Far above 1 there is no power law.
@@ -100,9 +100,9 @@ pub struct Findings {
 
 impl Findings {
     /// Evaluates the windows of all starts.
-    pub fn new(shape: &Shape, starts: &[Followed]) -> Self {
+    pub fn new(driven: &DrivenTree, starts: &[Followed]) -> Self {
         let series = Series {
-            scales: shape.generations,
+            scales: driven.generations(),
             starts,
             first: 0,
         };
@@ -123,10 +123,10 @@ impl Findings {
             series.sums(|row| sign * scales.clone().map(|s| at(row, s, quantity)).sum::<f64>())
         };
         let energy = of(Quantity::Energy, all.clone(), 1.0);
-        let per_mean = series.mean(0) / shape.degrees_of_freedom(0) as f64;
+        let per_mean = series.mean(0) / driven.degrees_of_freedom(0) as f64;
         let scales = all.clone().map(|scale| {
             let mean = series.mean(scale);
-            if mean <= ASLEEP * per_mean * shape.degrees_of_freedom(scale) as f64 {
+            if mean <= ASLEEP * per_mean * driven.degrees_of_freedom(scale) as f64 {
                 return Scale::Asleep(mean);
             }
             match Average::of(&of(Quantity::Energy, scale..scale + 1, 1.0)) {
@@ -169,7 +169,7 @@ impl Findings {
             })),
             dissipation: Average::of(&of(Quantity::Friction, all, -1.0)),
             fluxes: fluxes.collect(),
-            law: power_law(shape, &scales, &series),
+            law: power_law(driven, &scales, &series),
             transient,
             course,
             scales,
@@ -257,9 +257,9 @@ fn skewness(starts: &[Followed], flux: usize) -> Option<Estimate> {
     estimate.ok()
 }
 
-/// The law E/n ∝ ℓ^p of the differences that are awake, ℓ the length of the oldest rods that take
+/// The law E/n ∝ ℓ^p of the differences that are awake, ℓ the length of the oldest links that take
 /// part, if there are three.
-fn power_law(shape: &Shape, scales: &[Scale], series: &Series<'_>) -> Option<PowerLaw> {
+fn power_law(driven: &DrivenTree, scales: &[Scale], series: &Series<'_>) -> Option<PowerLaw> {
     let awake: Vec<(usize, Average)> = scales
         .iter()
         .enumerate()
@@ -269,18 +269,23 @@ fn power_law(shape: &Shape, scales: &[Scale], series: &Series<'_>) -> Option<Pow
             _ => None,
         })
         .collect();
-    if awake.len() < 3 || shape.length_ratio == 1.0 {
+    let lengths = awake
+        .iter()
+        .filter_map(|(scale, _)| driven.lengths.get(*scale));
+    let lengths: Vec<f64> = lengths.map(|length| length.ln()).collect();
+    let is_alike = lengths.windows(2).all(|pair| pair[0] == pair[1]);
+    let is_measured = lengths.len() == awake.len() && lengths.iter().all(|l| l.is_finite());
+    if awake.len() < 3 || is_alike || !is_measured {
         return None;
     }
     let weights: Vec<f64> = awake
         .iter()
         .map(|(_, a)| (a.mean / a.error).powi(2))
         .collect();
-    let lengths: Vec<f64> = awake.iter().map(|(s, _)| shape.length(*s).ln()).collect();
     let fit = |energies: &[f64]| {
         let logarithms = energies.iter().zip(&awake);
         let logarithms = logarithms
-            .map(|(energy, (scale, _))| (energy / shape.degrees_of_freedom(*scale) as f64).ln());
+            .map(|(energy, (scale, _))| (energy / driven.degrees_of_freedom(*scale) as f64).ln());
         line(&weights, &lengths, &logarithms.collect::<Vec<_>>())
     };
     let means: Vec<Vec<f64>> = awake

@@ -1,36 +1,42 @@
 //! The command line.
 
+use branched_pendulum::prelude::State;
 use clap::Parser;
 
-use super::scene::{Shape, TREES};
-use branched_pendulum_program::frame::Sharding;
-use branched_pendulum_program::frame::command_line::number;
-use branched_pendulum_program::frame::sweep::Shard;
+use super::tree;
+use crate::Failure;
+use crate::frame::Sharding;
+use crate::frame::command_line::number;
+use crate::frame::sweep::Shard;
+use crate::release::ReleaseArguments;
+use crate::subject::{Subject, TreeArguments};
 
-/// A motor turns the root of a tree of rods, friction brakes the youngest. Does the
-/// energy go down the generations, and what is there of it at each scale?
+/// A motor turns the root of a tree, friction brakes its links. Does the energy go down
+/// the generations, and what is there of it at each scale?
 ///
 /// Many independent starts are followed at once, until the tree forgets where it
 /// began; all averages have error bars. A run that is interrupted goes on from its
 /// checkpoint when the same command is given again.
 #[derive(Clone, Debug, Parser, PartialEq)]
-#[command(name = "cascade", version, verbatim_doc_comment)]
+#[command(name = "branched-pendulum cascade", version, verbatim_doc_comment)]
+#[command(mut_arg("tree", |tree| tree.default_value("cascade")))]
 pub struct Arguments {
-    /// generations of the tree, 3 to 8; of a ternary tree 3 to 5
-    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(3..=8))]
-    pub generations: u32,
-    /// rods that hang from each one, 2 or 3
-    #[arg(long, value_name = "K", default_value = "2", value_parser = clap::value_parser!(u32).range(2..=3))]
-    pub branching: u32,
-    /// mass of a rod over that of its parent, 0.05 to 1
-    #[arg(long, value_name = "R", default_value = "0.5", value_parser = number(0.05..=1.0, ""))]
-    pub mass_ratio: f64,
-    /// length of a rod over that of its parent, 0.2 to 1
-    #[arg(long, value_name = "R", default_value = "0.7", value_parser = number(0.2..=1.0, ""))]
-    pub length_ratio: f64,
-    /// amplitude of the torque on the root, N m from 0 to 100
-    #[arg(long, value_name = "NM", default_value = "0.2", value_parser = number(0.0..=1e2, "N m"))]
-    pub torque: f64,
+    #[command(flatten)]
+    tree: TreeArguments,
+    /// generations of a tree by rule in place of `--tree`, 2 to 10: rods with the parameters
+    /// mass_ratio, length_ratio, friction (of the youngest pivots) and friction_ratio (of a
+    /// generation over the one above; from 1e6 on nothing but the youngest brakes)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10), verbatim_doc_comment)]
+    generations: Option<u32>,
+    /// rods that hang from each one of a tree by rule, 2 to 5
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(2..=5))]
+    branching: Option<u32>,
+    #[command(flatten)]
+    release: ReleaseArguments,
+    /// amplitude of the torque on the root, N m from 0 to 100, 0.2 unless it is given; a tree
+    /// with a drive of its own has no other
+    #[arg(long, value_name = "NM", value_parser = number(0.0..=1e2, "N m"), verbatim_doc_comment)]
+    torque: Option<f64>,
     /// frequency of the torque, Hz from 0.01 to 100
     #[arg(long, value_name = "HZ", default_value = "0.6", value_parser = number(0.01..=1e2, "Hz"))]
     pub frequency: f64,
@@ -38,21 +44,15 @@ pub struct Arguments {
     /// 16 lines of random frequency and phase have the power of the torque; 0: one line
     #[arg(long, value_name = "HZ", default_value = "0", value_parser = number(0.0..=1e2, "Hz"), verbatim_doc_comment)]
     pub bandwidth: f64,
-    /// friction in the pivots of the youngest rods, N m s from 0 to 1
-    #[arg(long, value_name = "NMS", default_value = "1e-5", value_parser = number(0.0..=1.0, "N m s"))]
-    pub friction: f64,
-    /// friction of a generation over that of the one above, 0.01 to 1e9; from 1e6 on
-    /// nothing but the youngest generation brakes
-    #[arg(long, value_name = "R", default_value = "1e6", value_parser = number(1e-2..=1e9, ""), verbatim_doc_comment)]
-    pub friction_ratio: f64,
     /// independent starts, 4 to 100000
     #[arg(long, value_name = "N", default_value = "32", value_parser = clap::value_parser!(u32).range(4..=100_000))]
     pub starts: u32,
     /// time that each start is followed, s from 1 to 1e6
     #[arg(long, value_name = "S", default_value = "400", value_parser = number(1.0..=1e6, "s"))]
     pub duration: f64,
-    /// every angle of a start, at random on both sides of the vertical, rad from 0 to 3
-    #[arg(long, value_name = "RAD", default_value = "0.5", value_parser = number(0.0..=3.0, "rad"))]
+    /// how far each angle lies from that of `--start`, at random on both sides, degrees from 0
+    /// to 170
+    #[arg(long, value_name = "DEG", default_value = "30", value_parser = number(0.0..=170.0, "degrees"), verbatim_doc_comment)]
     pub spread: f64,
     /// samples of the budgets in a period of the torque, 4 to 1000
     #[arg(long, value_name = "N", default_value = "128", value_parser = clap::value_parser!(u32).range(4..=1000))]
@@ -70,8 +70,8 @@ pub struct Arguments {
     /// seconds between two checkpoints, 0 to 1e6
     #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.0..=1e6, "s"))]
     pub checkpoint: f64,
-    /// in place of all this, the onset in fifteen rods released almost in phase, sector by
-    /// sector, for so many s from 0.1 to 1000
+    /// in place of all this, the onset in the tree released almost in phase, sector by sector,
+    /// for so many s from 0.1 to 1000
     #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge"], verbatim_doc_comment)]
     pub onset: Option<f64>,
     /// Which part of the starts.
@@ -80,13 +80,48 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The tree.
-    pub fn shape(&self) -> Shape {
-        Shape {
-            generations: self.generations as usize,
-            branching: self.branching as usize,
-            mass_ratio: self.mass_ratio,
-            length_ratio: self.length_ratio,
+    /// Returns the state about which starts lie.
+    ///
+    /// # Errors
+    /// As [`ReleaseArguments::state`].
+    pub fn start(&self, subject: &Subject) -> Result<State<f64>, Failure> {
+        self.release.state(subject)
+    }
+
+    fn is_by_rule(&self) -> bool {
+        self.generations.is_some() || self.branching.is_some()
+    }
+
+    /// Reads the tree that is driven.
+    ///
+    /// # Errors
+    /// As [`TreeArguments::read`].
+    pub fn read(&self) -> Result<Subject, Failure> {
+        let subject = match self.is_by_rule() {
+            true => {
+                let (generations, branching) = (self.generations, self.branching);
+                let text = tree::by_rule(generations.unwrap_or(5), branching.unwrap_or(2));
+                self.tree.described_as(text)?.read()?
+            }
+            false => self.tree.read()?,
+        };
+        let asks = self.torque.is_some() || self.bandwidth > 0.0;
+        if asks && subject.tree.drive(0.0).is_some() {
+            return Err(Failure::Lacking {
+                what: format!(
+                    "`{}` has a drive of its own: leave `--torque` and `--bandwidth` out",
+                    subject.name
+                ),
+            });
+        }
+        Ok(subject)
+    }
+
+    /// Amplitude of the torque on the root of a tree, N m.
+    pub fn torque(&self, subject: &Subject) -> f64 {
+        match subject.tree.drive(0.0) {
+            Some(_) => 0.0,
+            None => self.torque.unwrap_or(0.2),
         }
     }
 
@@ -114,7 +149,7 @@ impl Arguments {
     }
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("cascade-output");
 
     fn shard(&self) -> Option<Shard> {
@@ -122,11 +157,11 @@ impl branched_pendulum_program::frame::Arguments for Arguments {
     }
 
     fn check(&self) -> Result<(), String> {
-        let (branching, generations) = (self.branching, self.generations);
-        if !TREES.contains(&(self.branching as usize, self.generations as usize)) {
-            return Err(format!(
-                "there is no tree of {generations} generations by {branching}"
-            ));
+        if self.is_by_rule() && self.tree.tree != "cascade" {
+            return Err(
+                "`--generations` and `--branching` make a tree by rule: leave them or `--tree` out"
+                    .to_owned(),
+            );
         }
         if !self.steps.is_multiple_of(self.samples) {
             return Err("`--steps` must be a multiple of `--samples`".to_owned());

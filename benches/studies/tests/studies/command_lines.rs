@@ -3,7 +3,6 @@
 
 use super::{run, text};
 
-const CASCADE: &str = env!("CARGO_BIN_EXE_cascade");
 const EVALUATION_SPEED: &str = env!("CARGO_BIN_EXE_evaluation-speed");
 const INTEGRATION_SPEED: &str = env!("CARGO_BIN_EXE_integration-speed");
 const STABILITY_MAP: &str = env!("CARGO_BIN_EXE_stability-map");
@@ -14,16 +13,6 @@ const WORK_PRECISION: &str = env!("CARGO_BIN_EXE_work-precision");
 #[test]
 fn mistakes_are_named() {
     for (program, line, message) in [
-        (CASCADE, "--generations 9", "9 is not in 3..=8"),
-        (
-            CASCADE,
-            "--generations 8 --branching 3",
-            "there is no tree of 8 generations by 3",
-        ),
-        (CASCADE, "--torque NaN", "must be from 0 to 100 N m"),
-        (CASCADE, "--bandwidth 1", "at most 0.9 of the frequency"),
-        (CASCADE, "--shard 3/3", "must be I/N"),
-        (CASCADE, "--shard 0/3 --merge 3", "cannot be used with"),
         (EVALUATION_SPEED, "--output", "a value is required"),
         (INTEGRATION_SPEED, "--output", "a value is required"),
         (

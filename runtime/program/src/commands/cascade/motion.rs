@@ -7,14 +7,15 @@ use branched_pendulum::ScaleBudget;
 use branched_pendulum::ensemble::Samples;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{UnderTorques, Workspace};
+use branched_pendulum_trees::PendulumTree;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::Arguments;
 use super::density::Density;
 use super::motor::{Motor, Random};
-use super::scene::RodTree;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::{Checkpoint, Job};
+use super::tree::DrivenTree;
+use crate::Failure;
+use crate::frame::{Checkpoint, Job};
 
 /// Quantities of each scale whose means over a window are kept.
 pub const QUANTITIES: usize = 4;
@@ -50,16 +51,16 @@ const TOGETHER: usize = 16;
 ///
 /// # Errors
 /// [`Failure`].
-pub fn follow<P: RodTree>(
+pub fn follow(
     arguments: &Arguments,
+    driven: &DrivenTree,
     job: &Job,
     items: &[usize],
 ) -> Result<Vec<Followed>, Failure> {
-    let shape = arguments.shape();
-    let tree = P::of(&shape, arguments.friction, arguments.friction_ratio)?;
+    let middle = arguments.start(&driven.subject)?;
     let (starts, motors): (Vec<_>, Vec<_>) = items
         .iter()
-        .map(|&item| Followed::new(arguments, item))
+        .map(|&item| Followed::new(arguments, driven, &middle, item))
         .unzip();
     let mut reached = Reached {
         items: items.to_vec(),
@@ -80,7 +81,7 @@ pub fn follow<P: RodTree>(
     while reached.windows < windows {
         let motion = WindowMotion {
             arguments,
-            tree: &tree,
+            driven,
             window: reached.windows,
             counts: 2 * reached.windows >= windows,
         };
@@ -100,7 +101,7 @@ pub fn follow<P: RodTree>(
         progress.within(0, reached.windows as f64 / windows as f64);
         progress.tell(&format!(
             "{:.4} J",
-            energy(&reached.starts, shape.generations)
+            energy(&reached.starts, driven.generations())
         ));
         checkpoint.save(&reached)?;
     }
@@ -108,9 +109,9 @@ pub fn follow<P: RodTree>(
 }
 
 /// One window of the motion.
-struct WindowMotion<'a, P> {
+struct WindowMotion<'a> {
     arguments: &'a Arguments,
-    tree: &'a P,
+    driven: &'a DrivenTree,
     /// Number of the window.
     window: usize,
     /// True if values of the fluxes are counted.
@@ -120,7 +121,7 @@ struct WindowMotion<'a, P> {
 /// A state at the end of a window, and the sums over it.
 type Moved = (Vec<f64>, Window);
 
-impl<P: RodTree> WindowMotion<'_, P> {
+impl WindowMotion<'_> {
     /// Moves starts through the window, in lanes: their states at its end, and sums over it.
     fn follow(
         &self,
@@ -134,7 +135,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
             .iter()
             .zip(motors)
             .map(|(start, motor)| {
-                let system = UnderTorques::of(self.tree, motor.clone());
+                let system = UnderTorques::of(&self.driven.subject.tree, motor.clone());
                 (system, State::new(time, start.state.clone()))
             })
             .collect();
@@ -144,7 +145,7 @@ impl<P: RodTree> WindowMotion<'_, P> {
         let moved = alone.sample_models_in_lanes(&method, &releases, &times);
         let mut budgets = StateBudgets::new(self);
         let sum = |(samples, motor): (Samples<f64>, &Motor)| {
-            let mut sums = Window::new(self.arguments.shape().generations);
+            let mut sums = Window::new(self.driven.generations());
             for (&time, state) in times.iter().zip(samples.states()) {
                 sums.add(budgets.at(time, state, motor), self.counts);
             }
@@ -155,19 +156,19 @@ impl<P: RodTree> WindowMotion<'_, P> {
 }
 
 /// Budgets of states of a tree, in memory that is kept.
-struct StateBudgets<'a, P> {
-    tree: &'a P,
+struct StateBudgets<'a> {
+    tree: &'a PendulumTree,
     workspace: Workspace<f64>,
     torques: Vec<f64>,
     budget: ScaleBudget<f64>,
 }
 
-impl<'a, P: RodTree> StateBudgets<'a, P> {
-    fn new(motion: &WindowMotion<'a, P>) -> Self {
+impl<'a> StateBudgets<'a> {
+    fn new(motion: &WindowMotion<'a>) -> Self {
         Self {
-            tree: motion.tree,
+            tree: &motion.driven.subject.tree,
             workspace: Workspace::new(),
-            torques: vec![0.0; motion.tree.links()],
+            torques: vec![0.0; motion.driven.links()],
             budget: ScaleBudget::new(),
         }
     }
@@ -176,31 +177,33 @@ impl<'a, P: RodTree> StateBudgets<'a, P> {
     fn at(&mut self, time: f64, state: &[f64], motor: &Motor) -> &ScaleBudget<f64> {
         let (theta, omega) = state.split_at(self.tree.links());
         self.torques[0] = motor.torque(time);
-        self.tree.budget_by_scale_under(
-            &mut self.workspace,
-            time,
-            theta,
-            omega,
-            &self.torques,
-            &mut self.budget,
-        );
+        let given = [theta, omega, &self.torques];
+        self.tree
+            .budget_by_scale_into(&mut self.workspace, time, given, &mut self.budget);
         &self.budget
     }
 }
 
 impl Followed {
-    /// The start of the number `item`, at rest, and its motor.
-    fn new(arguments: &Arguments, item: usize) -> (Self, Motor) {
-        let shape = arguments.shape();
+    /// The start of the number `item`, at random about `middle`, and its motor.
+    fn new(
+        arguments: &Arguments,
+        driven: &DrivenTree,
+        middle: &State<f64>,
+        item: usize,
+    ) -> (Self, Motor) {
         let mut random = Random::of_start(arguments.seed, item);
-        let angles: Vec<f64> = (0..shape.links())
-            .map(|_| random.within(arguments.spread))
-            .collect();
-        let motor = Motor::new(arguments, &mut random);
+        let spread = arguments.spread.to_radians();
+        let mut state = middle.values.clone();
+        for angle in state.iter_mut().take(driven.links()) {
+            *angle += random.within(spread);
+        }
+        let torque = arguments.torque(&driven.subject);
+        let motor = Motor::new(arguments, torque, &mut random);
         let start = Self {
-            state: State::at_rest(0.0, &angles).values,
+            state,
             windows: Vec::new(),
-            densities: vec![Density::default(); shape.generations - 1],
+            densities: vec![Density::default(); driven.generations() - 1],
         };
         (start, motor)
     }
@@ -239,8 +242,8 @@ impl Window {
             let values = [
                 budget.energy(scale),
                 budget.received(scale),
-                budget.friction_power(scale),
-                budget.outside_power(scale),
+                budget.friction_power(scale) + budget.drag_power(scale),
+                budget.drive_power(scale) + budget.outside_power(scale),
             ];
             for (sum, value) in sums.iter_mut().zip(values) {
                 *sum += value;
@@ -263,24 +266,25 @@ impl Window {
 ///
 /// # Errors
 /// [`Failure`].
-pub fn film<P: RodTree>(
+pub fn film(
     arguments: &Arguments,
+    driven: &DrivenTree,
     start: &Followed,
     frames: usize,
     interval: f64,
 ) -> Result<(Vec<Vec<f64>>, f64), Failure> {
-    let tree = P::of(
-        &arguments.shape(),
-        arguments.friction,
-        arguments.friction_ratio,
-    )?;
-    let (_, motor) = Followed::new(arguments, 0);
+    let middle = arguments.start(&driven.subject)?;
+    let (_, motor) = Followed::new(arguments, driven, &middle, 0);
     let stride = (interval / arguments.step()).round().max(1.0) as u32;
     let first = arguments.windows() as u64 * u64::from(arguments.steps);
     let release = State::new(arguments.time(first), start.state.clone());
     let times = arguments.times(first, stride, frames as u32 - 1);
     let moved = Rk4::new(arguments.step())
-        .sample_to_vec(&UnderTorques::of(&tree, motor), &release, &times)
+        .sample_to_vec(
+            &UnderTorques::of(&driven.subject.tree, motor),
+            &release,
+            &times,
+        )
         .map_err(|error| diverged(0, &error))?;
     let states = iter::once(release).chain(moved);
     let states = states.map(|state| state.values).collect();

@@ -1,32 +1,39 @@
 //! Tables: sectors, closure of the budgets, who gave what to whom.
 
+use std::fmt::Write;
+
 use branched_pendulum::analysis::SectorModes;
+use branched_pendulum::sectors::Sectors;
 use branched_pendulum_data::Column;
 
 use super::Release;
 use super::run::{DEFINITIONS, Onset, PARSEVAL};
-use super::scene::{Level, SECTORS, by_level, sectors};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use crate::Failure;
+use crate::frame::Job;
+use crate::subject::Subject;
 
 /// Everything that is printed, as Markdown.
-pub fn report(release: &Release, modes: &SectorModes, run: &Onset) -> String {
+pub fn report(release: &Release, driven: &Subject, modes: &SectorModes, run: &Onset) -> String {
     let Release {
+        start: _,
         duration,
         torque,
         frequency,
         difference,
         tolerance,
     } = release;
+    let drive = match torque {
+        0.0 => "no torque but that of the description".to_owned(),
+        torque => format!("torque {torque} N m · cos(2π {frequency} Hz t) on the root"),
+    };
     let mut text = format!(
-        "Fifteen rods, released from rest with differences of {difference} rad; torque\n\
-         {torque} N m · cos(2π {frequency} Hz t) on the root; {duration} s, Dop853 at {tolerance:e}: \
-         {} steps,\n{} evaluations.\n\n",
-        run.account.accepted, run.account.evaluations
+        "{}, released with differences of {difference} rad; {drive};\n{duration} s, Dop853 at \
+         {tolerance:e}: {} steps, {} evaluations.\n\n",
+        driven.name, run.account.accepted, run.account.evaluations
     );
     text.push_str(&sector_table(modes, run));
     text.push('\n');
-    text.push_str(&matrix_table(run));
+    text.push_str(&matrix_table(driven, run));
     text
 }
 
@@ -39,22 +46,25 @@ fn sector_table(modes: &SectorModes, run: &Onset) -> String {
         modes.mass_off_block, modes.stiffness_off_block
     );
     text.push_str("| sector | size | frequencies (Hz) |");
-    for name in DEFINITIONS {
-        text += &format!(" {name} |");
+    // Writing to a string cannot fail.
+    for (_, name) in DEFINITIONS {
+        let _ = write!(text, " {name} |");
     }
     text.push_str("\n|---|---|---|---|---|---|---|\n");
     let closures: [_; DEFINITIONS.len()] = std::array::from_fn(|index| run.closure(index));
     for (sector, block) in modes.blocks.iter().enumerate() {
         let frequencies = block.modes.frequencies_hz.iter();
         let frequencies: Vec<String> = frequencies.map(|f| format!("{f:.4}")).collect();
-        text += &format!(
+        let _ = write!(
+            text,
             "| `{}` | {} | {} |",
             block.name,
             block.coordinates.len(),
             frequencies.join(", ")
         );
         for closure in &closures {
-            text += &format!(" {:.0e} |", closure[sector]);
+            let gap = closure.get(sector).copied().unwrap_or(f64::NAN);
+            let _ = write!(text, " {gap:.0e} |");
         }
         text.push('\n');
     }
@@ -62,34 +72,38 @@ fn sector_table(modes: &SectorModes, run: &Onset) -> String {
 }
 
 /// The time-averaged transfer matrix, with the power of friction and drive.
-fn matrix_table(run: &Onset) -> String {
+fn matrix_table(driven: &Subject, run: &Onset) -> String {
     let Some(last) = run.samples.last() else {
         return String::new();
     };
+    let sectors = driven.tree.sectors();
     let mut text =
         "Mean transfer matrix (mW), energies by Parseval: what the sector of the column\n\
         gave that of the row; then the mean power of friction and drive and the mean\n\
         rate of its energy.\n\n|  |"
             .to_owned();
-    for sector in sectors() {
-        text += &format!(" `{}` |", sector.name());
+    // Writing to a string cannot fail.
+    for sector in sectors {
+        let _ = write!(text, " `{}` |", sector.name());
     }
     text.push_str(" friction, drive | dE/dt |\n|---|");
-    text.push_str(&"---:|".repeat(SECTORS + 2));
+    text.push_str(&"---:|".repeat(sectors.len() + 2));
     text.push('\n');
     let mean = |energy: f64| milli(energy / last.time);
-    for (row, sector) in sectors().iter().enumerate() {
-        text += &format!("| `{}` |", sector.name());
-        for column in 0..SECTORS {
+    let rows = last.flowed.transfers.chunks_exact(sectors.len());
+    let sums = last.flowed.power.iter().zip(&last.flowed.given[PARSEVAL]);
+    for (row, ((sector, given), (power, gained))) in sectors.iter().zip(rows).zip(sums).enumerate()
+    {
+        let _ = write!(text, "| `{}` |", sector.name());
+        for (column, given) in given.iter().enumerate() {
             let cell = if column == row {
                 "–".to_owned()
             } else {
-                mean(last.transfers[row][column])
+                mean(*given)
             };
-            text += &format!(" {cell} |");
+            let _ = write!(text, " {cell} |");
         }
-        let gained = last.flowed[PARSEVAL][row];
-        text += &format!(" {} | {} |\n", mean(last.power[row]), mean(gained));
+        let _ = writeln!(text, " {} | {} |", mean(*power), mean(*gained));
     }
     text
 }
@@ -105,22 +119,23 @@ fn milli(watts: f64) -> String {
 }
 
 /// Writes energies by Parseval, what friction and drive gave, and what each
-/// level got from the others, as CSV.
+/// sector got from the others, as CSV.
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write_samples(job: &Job, run: &Onset) -> Result<(), Failure> {
+pub fn write_samples(job: &Job, driven: &Subject, run: &Onset) -> Result<(), Failure> {
+    let sectors = driven.tree.sectors();
     let mut columns = vec![Column::new("time", "s")];
     for quantity in ["energy", "given by friction and drive", "given by sectors"] {
-        let names = sectors().iter().map(|sector| sector.name());
+        let names = sectors.iter().map(|sector| sector.name());
         columns.extend(names.map(|name| Column::new(format!("{quantity} {name}"), "J")));
     }
     job.csv("onset.csv", &columns, |file| {
         for sample in &run.samples {
             let mut row = vec![sample.time];
-            row.extend(sample.energies[PARSEVAL]);
-            row.extend(sample.power);
-            let given = sample.transfers.iter();
+            row.extend(&sample.energies[PARSEVAL]);
+            row.extend(&sample.flowed.power);
+            let given = sample.flowed.transfers.chunks_exact(sectors.len());
             row.extend(given.map(|given| given.iter().sum::<f64>()));
             file.row(&row)?;
         }
@@ -128,13 +143,25 @@ pub fn write_samples(job: &Job, run: &Onset) -> Result<(), Failure> {
     })
 }
 
-/// Energy that each level has given each other one by the end: rows receive,
-/// J, in the order of [`Level::ALL`].
-pub fn level_matrix(transfers: &[[f64; SECTORS]; SECTORS]) -> [[f64; 4]; 4] {
-    let mut sums = [[0.0; 4]; 4];
-    for (row, given) in transfers.iter().enumerate() {
-        let given = by_level(given);
-        for (sum, given) in sums[Level::of(row) as usize].iter_mut().zip(given) {
+/// Sums over the sectors of each scale.
+pub fn by_scale(scales: &[usize], values: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; 1 + scales.iter().max().unwrap_or(&0)];
+    for (&scale, value) in scales.iter().zip(values) {
+        sums[scale] += value;
+    }
+    sums
+}
+
+/// Energy that each scale has given each other one, row by row: rows receive, J.
+pub fn matrix_by_scale(scales: &[usize], transfers: &[f64]) -> Vec<f64> {
+    let count = 1 + scales.iter().max().unwrap_or(&0);
+    let mut sums = vec![0.0; count * count];
+    for (&scale, given) in scales
+        .iter()
+        .zip(transfers.chunks_exact(scales.len().max(1)))
+    {
+        let row = sums.iter_mut().skip(scale * count);
+        for (sum, given) in row.zip(by_scale(scales, given)) {
             *sum += given;
         }
     }
@@ -143,20 +170,18 @@ pub fn level_matrix(transfers: &[[f64; SECTORS]; SECTORS]) -> [[f64; 4]; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::{level_matrix, milli};
-    use crate::cascade::onset::scene::SECTORS;
+    use super::{matrix_by_scale, milli};
 
     #[test]
-    fn levels_sum_their_sectors() {
-        let mut transfers = [[0.0; SECTORS]; SECTORS];
-        // The sectors of one half of the tree follow each other: 2 and 5 part
-        // at the second branchings.
-        transfers[2][1] = 3.0;
-        transfers[5][1] = 4.0;
-        transfers[7][0] = 5.0;
-        let levels = level_matrix(&transfers);
-        assert_eq!(levels[2], [0.0, 7.0, 0.0, 0.0]);
-        assert_eq!(levels[3], [5.0, 0.0, 0.0, 0.0]);
+    fn scales_sum_their_sectors() {
+        // Seven links: the means, the first branching, and two second ones.
+        let scales = [0, 1, 2, 2];
+        let mut transfers = [0.0; 16];
+        transfers[2 * 4 + 1] = 3.0;
+        transfers[3 * 4 + 1] = 4.0;
+        transfers[3 * 4] = 5.0;
+        let sums = matrix_by_scale(&scales, &transfers);
+        assert_eq!(sums, [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 5.0, 7.0, 0.0]);
     }
 
     #[test]

@@ -2,14 +2,13 @@
 //! tree in motion.
 
 use branched_pendulum::analysis::statistics::Average;
-use branched_pendulum_charts::{
-    Axis, Chart, ChartError, Color, Dash, Film, FilmLink, Panel, Series,
-};
+use branched_pendulum_charts::{Axis, Chart, ChartError, Color, Dash, Film, Panel, Series};
 
 use super::arguments::Arguments;
 use super::findings::{Findings, Scale};
 use super::report::name;
-use super::scene::Shape;
+use super::tree::DrivenTree;
+use crate::film;
 
 /// Energies of the scales against time, averaged over the starts.
 pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
@@ -36,13 +35,12 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
 }
 
 /// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
-pub fn scales(arguments: &Arguments, findings: &Findings) -> Option<Chart> {
-    let shape = arguments.shape();
+pub fn scales(driven: &DrivenTree, findings: &Findings) -> Option<Chart> {
     let energies = (0..).zip(&findings.scales).filter_map(|(scale, state)| {
         let Scale::Awake(average) = state else {
             return None;
         };
-        let freedoms = shape.degrees_of_freedom(scale) as f64;
+        let freedoms = driven.degrees_of_freedom(scale) as f64;
         Some([
             scale as f64,
             average.mean / freedoms,
@@ -120,20 +118,10 @@ pub fn densities(findings: &Findings) -> Chart {
 ///
 /// # Errors
 /// [`ChartError`] if there is nothing to be seen.
-pub fn film(shape: &Shape, states: &[Vec<f64>], interval: f64) -> Result<Film, ChartError> {
-    let mut links = Vec::new();
-    for generation in 0..shape.generations {
-        for place in 0..shape.width(generation) {
-            let above = generation.checked_sub(1);
-            let joint = above.map_or(0.0, |above| shape.length(above));
-            links.push(FilmLink {
-                parent: above.map(|above| shape.link(above, place % shape.width(above))),
-                pivot: [joint, 0.0],
-                end: [shape.length(generation), 0.0],
-            });
-        }
-    }
-    let pictures: Vec<&[f64]> = states.iter().map(|state| &state[..links.len()]).collect();
-    let title = format!("{} rods, the root driven by a motor", links.len());
-    Film::new(title, interval).tree("", &links, &pictures)
+pub fn film(driven: &DrivenTree, states: &[Vec<f64>], interval: f64) -> Result<Film, ChartError> {
+    let tree = &driven.subject.tree;
+    let angles = |state: &Vec<f64>| film::angles(tree, &state[..driven.links()]);
+    let pictures: Vec<Vec<f64>> = states.iter().map(angles).collect();
+    let title = format!("{}, driven", driven.subject.name);
+    Film::new(title, interval).tree("", &film::links(tree), &pictures)
 }
