@@ -21,7 +21,7 @@ use branched_pendulum::integrate::LaneMethod;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{LaneOde, TransverseOde};
 use branched_pendulum::{Pendulum, Scalar, Transverse};
-use branched_pendulum_examples::scenes::BranchedDouble;
+use branched_pendulum_studies::scenes::BranchedDouble;
 
 /// 2²⁰ − 1 rods in phase.
 #[branched_pendulum(

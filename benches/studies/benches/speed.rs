@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 
 use branched_pendulum::batch::Batch;
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::integration_speed::ensemble::{ORDER, near_threshold};
-use branched_pendulum_examples::scenes::{BranchedDouble, Rods, ThirtyOneRods};
+use branched_pendulum_studies::integration_speed::ensemble::{ORDER, near_threshold};
+use branched_pendulum_studies::scenes::{BranchedDouble, Rods, ThirtyOneRods};
 
 /// Rounds of turns.
 const ROUNDS: usize = 40;

@@ -9,7 +9,7 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::quadrature::GAUSS;
 

@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::advise;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::advise;
 
 fn main() -> ExitCode {
     frame::main(advise::run)

@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::critical_angle;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::critical_angle;
 
 fn main() -> ExitCode {
     frame::main(critical_angle::run)

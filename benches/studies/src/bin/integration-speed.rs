@@ -8,14 +8,14 @@ use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
-use branched_pendulum_examples::integration_speed::ensemble::{
-    Speed, friction_scan, near_threshold, scan_speeds, speeds,
-};
-use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
-use branched_pendulum_examples::scenes::{BranchedDouble, FifteenRods, Rods, ThirtyOneRods};
-use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::{self, Job, Progress};
+use branched_pendulum_studies::integration_speed::ensemble::{
+    Speed, friction_scan, near_threshold, scan_speeds, speeds,
+};
+use branched_pendulum_studies::integration_speed::measure::{ERRORS, Point, points, time_for};
+use branched_pendulum_studies::scenes::{BranchedDouble, FifteenRods, Rods, ThirtyOneRods};
+use branched_pendulum_studies::work_precision::reference::{Problem, Tree, problems};
 use clap::{Parser, ValueEnum};
 
 /// How long does a motion of ten seconds take, to a given error at its end, by the

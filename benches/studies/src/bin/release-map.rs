@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::release_map;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::release_map;
 
 fn main() -> ExitCode {
     frame::main(release_map::run)

@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::stability_map;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::stability_map;
 
 fn main() -> ExitCode {
     frame::main(stability_map::run)

@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::swaying_branch;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::swaying_branch;
 
 fn main() -> ExitCode {
     frame::main(swaying_branch::run)

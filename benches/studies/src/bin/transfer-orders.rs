@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::transfer_orders;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::transfer_orders;
 
 fn main() -> ExitCode {
     frame::main(transfer_orders::run)

@@ -4,8 +4,8 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_examples::work_precision;
 use branched_pendulum_program::frame;
+use branched_pendulum_studies::work_precision;
 
 fn main() -> ExitCode {
     frame::main(work_precision::run)

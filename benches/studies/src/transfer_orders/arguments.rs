@@ -5,7 +5,7 @@ use clap::Parser;
 /// How wrong is each form of the energy transfer W into each sector of a tree, at
 /// which amplitude of its differences, and what does it cost? For the paper's
 /// branched double pendulum and for two jointed arms on a body; another tree is one
-/// more description in examples/src/transfer_orders/scenes.rs.
+/// more description in benches/studies/src/transfer_orders/scenes.rs.
 #[derive(Clone, Debug, Parser, PartialEq)]
 #[command(name = "transfer-orders", version, verbatim_doc_comment)]
 pub struct Arguments {

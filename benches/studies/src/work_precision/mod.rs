@@ -1,7 +1,6 @@
 //! The cost of a given error with each method.
 //!
-//! The apparatus is that of [`branched_double`](crate::branched_double), beside
-//! seven rods; the equations are those that the macro writes, in absolute angles.
+//! The apparatus is the paper's, beside seven rods; the equations are those that the macro writes, in absolute angles.
 //! Errors are against the reference trajectories, which come from arbitrary
 //! precision; those of the rods from the same equations in twice the digits.
 //!

@@ -9,7 +9,7 @@ use crate::scenes::Rods;
 use branched_pendulum_program::Failure;
 
 /// The file, as it was when the program was built.
-const FILE: &str = include_str!("../../../tests/fixtures/reference/trajectories.json");
+const FILE: &str = include_str!("../../../../tests/fixtures/reference/trajectories.json");
 
 /// The tree of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

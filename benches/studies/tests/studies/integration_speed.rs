@@ -2,10 +2,10 @@
 
 use branched_pendulum::integrate::IntegrationError;
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::integration_speed::ensemble::near_threshold;
-use branched_pendulum_examples::integration_speed::measure::points;
-use branched_pendulum_examples::scenes::{BranchedDouble, Rods};
-use branched_pendulum_examples::work_precision::reference::problems;
+use branched_pendulum_studies::integration_speed::ensemble::near_threshold;
+use branched_pendulum_studies::integration_speed::measure::points;
+use branched_pendulum_studies::scenes::{BranchedDouble, Rods};
+use branched_pendulum_studies::work_precision::reference::problems;
 
 /// The error goes down with the tolerance to where it is said to.
 #[test]

@@ -1,10 +1,10 @@
 //! What `work-precision` and `stability-map` measure.
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::stability_map::verdict::{
+use branched_pendulum_studies::stability_map::verdict::{
     Verdict, damped, damped_model, damped_reference, ideal,
 };
-use branched_pendulum_examples::work_precision::measure::{Measurement, time_to_error};
+use branched_pendulum_studies::work_precision::measure::{Measurement, time_to_error};
 
 #[test]
 fn verdicts_where_they_are_known() {

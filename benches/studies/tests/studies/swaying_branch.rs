@@ -4,11 +4,11 @@ use branched_pendulum::approximate::Approximation;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::UnderTorques;
-use branched_pendulum_examples::swaying_branch::motion::{Branches, reference};
-use branched_pendulum_examples::swaying_branch::scene::{Branch, LINKS};
-use branched_pendulum_examples::swaying_branch::storm;
-use branched_pendulum_examples::swaying_branch::weather::Weather;
 use branched_pendulum_program::film;
+use branched_pendulum_studies::swaying_branch::motion::{Branches, reference};
+use branched_pendulum_studies::swaying_branch::scene::{Branch, LINKS};
+use branched_pendulum_studies::swaying_branch::storm;
+use branched_pendulum_studies::swaying_branch::weather::Weather;
 
 /// A second from the moment in which the hand lets go, in wind that changes all the
 /// time, at several rates of frames.

@@ -7,10 +7,10 @@ use branched_pendulum::analysis::truncation::{
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
-use branched_pendulum_examples::scenes::BranchedDouble;
-use branched_pendulum_examples::transfer_orders::scenes::{apparatus, arms};
-use branched_pendulum_examples::transfer_orders::{Arms, Settings, Study, output};
 use branched_pendulum_program::frame::{Job, Progress};
+use branched_pendulum_studies::scenes::BranchedDouble;
+use branched_pendulum_studies::transfer_orders::scenes::{apparatus, arms};
+use branched_pendulum_studies::transfer_orders::{Arms, Settings, Study, output};
 
 /// A tree of a user's own: three leaves and a drive, with a name for a mass.
 #[branched_pendulum(
