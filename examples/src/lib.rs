@@ -1,19 +1,4 @@
-//! The example programs as a library, so that tests can call them.
-//!
-//! Each program in `src/bin` is a thin shell around one module here; but for
-//! `evaluation-speed`, whose many scenes take long to compile and whose modules are
-//! its own.
+//! The paper's experiment as a library, so that tests can call it; the short programs of
+//! `src/bin` stand alone, one idea each.
 
-pub mod advise;
 pub mod branched_double;
-pub mod cascade;
-pub mod critical_angle;
-pub mod integration_speed;
-pub mod quadrature;
-pub mod release_map;
-pub mod scenes;
-pub mod solvers;
-pub mod stability_map;
-pub mod swaying_branch;
-pub mod transfer_orders;
-pub mod work_precision;

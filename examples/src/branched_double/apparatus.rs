@@ -6,7 +6,7 @@ use std::fmt;
 use branched_pendulum::{ParameterError, Transfer};
 use clap::Args;
 
-use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use branched_pendulum_program::frame::command_line::{number, plain};
 
 /// Viscous friction in the joints, N m s each: the torque is minus the

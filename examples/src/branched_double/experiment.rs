@@ -9,9 +9,9 @@ use branched_pendulum::prelude::{
 
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
-use crate::quadrature::GAUSS;
-use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
+use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use branched_pendulum_program::Failure;
+use branched_pendulum_program::quadrature::GAUSS;
 
 /// The integrator's work, in whatever numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

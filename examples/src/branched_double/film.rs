@@ -2,8 +2,8 @@
 
 use branched_pendulum_charts::{Film, FilmLink};
 
+use super::scenes::BranchedDouble;
 use super::{Arguments, Run};
-use crate::scenes::BranchedDouble;
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::Job;
 

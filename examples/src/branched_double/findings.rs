@@ -6,7 +6,7 @@ use branched_pendulum::analysis::{Modes, ModesError};
 
 use super::apparatus::{DIFFERENCE, EXACT, FORMS, Flow, MEAN, PUBLISHED, Sample, folded};
 use super::experiment::Run;
-use crate::scenes::BranchedDouble;
+use super::scenes::BranchedDouble;
 
 /// A maximum counts as the first peak of H_d if H_d does not exceed it within
 /// this time before and after, s. H_d grows in pulses, about two seconds apart;

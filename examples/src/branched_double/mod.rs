@@ -7,7 +7,7 @@
 //! anti-phase mode in a branched double pendulum", called *the paper* below.
 //!
 //! - [`arguments`]: the command line,
-//! - [`apparatus`]: the two scenes, and what is measured at one instant,
+//! - [`scenes`]: the apparatus, [`apparatus`]: what is measured at one instant,
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
 //!   [`lines`]: those of the spectrum,
@@ -23,6 +23,7 @@ pub mod growth;
 pub mod lines;
 pub mod run;
 pub mod samples;
+pub mod scenes;
 pub mod table;
 pub mod terms;
 

@@ -3,11 +3,11 @@
 use serde_json::json;
 
 use super::apparatus::Friction;
+use super::scenes::BranchedDouble;
 use super::table;
 use super::{
     Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples,
 };
-use crate::scenes::BranchedDouble;
 use branched_pendulum_program::Failure;
 use branched_pendulum_program::frame::Job;
 

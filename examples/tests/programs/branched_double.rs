@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use std::process::Output;
 
 use branched_pendulum_examples::branched_double::apparatus::{EXACT, PUBLISHED};
+use branched_pendulum_examples::branched_double::scenes::BranchedDouble;
 use branched_pendulum_examples::branched_double::{
     Arguments, Findings, Frequencies, Friction, Precision, Run,
 };
-use branched_pendulum_examples::scenes::BranchedDouble;
 
 use super::{folder, text};
 

@@ -1,21 +1,12 @@
-//! The programs, as libraries and as processes: one binary of tests, for each one more
-//! links all of them again.
+//! The paper's experiment, as a library and as a process, and the short programs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 mod branched_double;
-mod cascade;
-mod command_lines;
-mod growth;
-mod integration_speed;
-#[cfg(unix)]
-mod processes;
-mod solvers;
-mod swaying_branch;
+mod short;
 mod template;
-mod transfer_orders;
 
 /// Runs a program to its end.
 fn run(program: &str, arguments: &[&str]) -> Output {

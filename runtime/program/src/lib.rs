@@ -8,6 +8,7 @@ pub mod film;
 pub mod frame;
 pub mod measured_file;
 pub mod motion;
+pub mod quadrature;
 pub mod release;
 pub mod smoothed;
 pub mod subject;

@@ -114,7 +114,12 @@ const SHIPPED: [Shipped; 8] = [
     Shipped {
         name: "cascade",
         text: include_str!("../trees/cascade.txt"),
-        values: &[("friction", 1e-4)],
+        values: &[
+            ("mass_ratio", 0.5),
+            ("length_ratio", 0.7),
+            ("friction", 1e-5),
+            ("friction_ratio", 1e6),
+        ],
     },
 ];
 
@@ -151,16 +156,7 @@ impl TreeArguments {
     /// [`Failure::NoTree`] where there is no such file; [`Failure::Tree`] with all mistakes of the
     /// description, and for values that it has not or no pendulum can have.
     pub fn read(&self) -> Result<Subject, Failure> {
-        let described = self.described()?;
-        let set = described.set.iter();
-        let mut values: Vec<(&str, f64)> =
-            set.map(|(name, value)| (name.as_str(), *value)).collect();
-        for &(name, value) in described.defaults {
-            if values.iter().all(|(own, _)| *own != name) {
-                values.push((name, value));
-            }
-        }
-        described.subject(&values)
+        self.described()?.read()
     }
 
     /// Reads the description, without a value for each of its parameters.
@@ -168,11 +164,26 @@ impl TreeArguments {
     /// # Errors
     /// [`Failure::NoTree`], and [`Failure::Tree`] with all mistakes of the description.
     pub fn described(&self) -> Result<Described, Failure> {
-        let shipped = SHIPPED.iter().find(|shipped| shipped.name == self.tree);
-        let (text, defaults) = match shipped {
-            Some(shipped) => (shipped.text.to_owned(), shipped.values),
-            None => (self.text()?, [].as_slice()),
+        let text = match self.shipped() {
+            Some(shipped) => shipped.text.to_owned(),
+            None => self.text()?,
         };
+        self.described_as(text)
+    }
+
+    fn shipped(&self) -> Option<&'static Shipped> {
+        SHIPPED.iter().find(|shipped| shipped.name == self.tree)
+    }
+
+    /// Returns the description in `text`, in place of that of the tree, whose values are its own
+    /// where none are set.
+    ///
+    /// # Errors
+    /// [`Failure::Tree`] with all mistakes of the description.
+    pub fn described_as(&self, text: String) -> Result<Described, Failure> {
+        let defaults = self
+            .shipped()
+            .map_or([].as_slice(), |shipped| shipped.values);
         let description = TreeDescription::parse(&text);
         let description = description.map_err(|error| Failure::Tree {
             name: self.tree.clone(),
@@ -214,6 +225,22 @@ impl TreeArguments {
 }
 
 impl Described {
+    /// Returns the tree with the values that are set, and those of the shipped tree elsewhere.
+    ///
+    /// # Errors
+    /// As [`subject`](Self::subject).
+    pub fn read(&self) -> Result<Subject, Failure> {
+        let set = self.set.iter();
+        let mut values: Vec<(&str, f64)> =
+            set.map(|(name, value)| (name.as_str(), *value)).collect();
+        for &(name, value) in self.defaults {
+            if values.iter().all(|(own, _)| *own != name) {
+                values.push((name, value));
+            }
+        }
+        self.subject(&values)
+    }
+
     /// Returns the tree with these values of its parameters.
     ///
     /// # Errors

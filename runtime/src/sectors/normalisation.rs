@@ -72,10 +72,17 @@ pub(super) fn inward<T: Scalar>(
         return;
     }
     for (out, coordinate) in symmetric.iter_mut().zip(coordinates(sectors)) {
-        let mut sum = T::from_f64(0.0);
+        let zero = T::from_f64(0.0);
+        // Differences are taken from the first link: those of equal numbers are zero exactly,
+        // where sums of many would round.
+        let is_difference = coordinate.weights().iter().map(|own| own.1).sum::<f64>() == 0.0;
+        let first = coordinate.weights().first().filter(|_| is_difference);
+        let origin = first.and_then(|(link, _)| absolute.get(*link));
+        let origin = origin.copied().unwrap_or(zero);
+        let mut sum = zero;
         for &(link, weight) in coordinate.weights() {
             if let Some(&value) = absolute.get(link) {
-                sum = sum + T::from_f64(weight) * value;
+                sum = sum + T::from_f64(weight) * (value - origin);
             }
         }
         *out = kind.inward::<T>(coordinate.norm(), normalisation) * sum;

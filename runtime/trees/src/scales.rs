@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use branched_pendulum::ScaleBudget;
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::system::Workspace;
+use branched_pendulum::system::{Model, Workspace};
 use branched_pendulum::tree::ScaleTree;
 
 use crate::equations::ByRuleEquations;
@@ -74,15 +74,18 @@ impl<T: Scalar> ByRule<T> {
         }
     }
 
-    /// Numbers of the links in the order of the rule; none of another number of links.
-    fn ordered(&self, numbers: &[T]) -> Vec<T> {
+    /// Numbers of the links in the order of the rule, written to `room`; none of another number
+    /// of links.
+    fn ordered<'a>(&self, numbers: &[T], room: &'a mut [T]) -> &'a [T] {
         if numbers.len() != self.order.len() {
-            return Vec::new();
+            return &[];
         }
-        let places = self.order.iter();
-        places
-            .filter_map(|&link| numbers.get(link).copied())
-            .collect()
+        for (own, &link) in room.iter_mut().zip(&*self.order) {
+            if let Some(&number) = numbers.get(link) {
+                *own = number;
+            }
+        }
+        room
     }
 }
 
@@ -140,24 +143,38 @@ impl<T: Scalar> PendulumTree<T> {
     /// # Ok::<(), branched_pendulum_trees::TreeError>(())
     /// ```
     #[must_use]
-    pub fn budget_by_scale(
+    pub fn budget_by_scale(&self, time: T, given: [&[T]; 3]) -> Option<ScaleBudget<T>> {
+        self.copies()?;
+        let mut budget = ScaleBudget::new();
+        self.budget_by_scale_into(&mut Workspace::new(), time, given, &mut budget);
+        Some(budget)
+    }
+
+    /// Writes the same budget, in memory that the caller keeps; one of no scales where the tree
+    /// has none.
+    pub fn budget_by_scale_into(
         &self,
+        workspace: &mut Workspace<T>,
         time: T,
         [theta, omega, torques]: [&[T]; 3],
-    ) -> Option<ScaleBudget<T>> {
-        let rule = self.rule.as_ref()?;
-        let [mut own, rates] = [theta, omega].map(|numbers| rule.ordered(numbers));
-        let on_links = rule.ordered(torques);
-        if on_links.len() != torques.len() {
-            // Nothing has so many links.
-            own.clear();
-        }
-        let mut budget = ScaleBudget::new();
-        let workspace = &mut Workspace::new();
-        let given = [&own[..], &rates, &on_links];
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let Some(rule) = &self.rule else {
+            *budget = ScaleBudget::new();
+            return;
+        };
+        let links = self.links();
+        let (numbers, workspace) = workspace.with_inner(3 * links);
+        let (own, rest) = numbers.split_at_mut(links.min(numbers.len()));
+        let (rates, on_links) = rest.split_at_mut(links.min(rest.len()));
+        let own = rule.ordered(theta, own);
+        let rates = rule.ordered(omega, rates);
+        let on_links = rule.ordered(torques, on_links);
+        // Nothing has so many links as torques of another number.
+        let fits = on_links.len() == torques.len();
+        let own = if fits { own } else { &[] };
         let drive = self.drive.as_ref().map(|drive| drive.inner(time));
         rule.tree
-            .budget_by_scale(workspace, drive, given, &mut budget);
-        Some(budget)
+            .budget_by_scale(workspace, drive, [own, rates, on_links], budget);
     }
 }

@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
-use branched_pendulum_examples::integration_speed::measure::{ERRORS, Point, points, time_for};
-use branched_pendulum_examples::scenes::{BranchedDouble, Rods};
-use branched_pendulum_examples::work_precision::reference::{Problem, Tree, problems};
+use branched_pendulum_studies::integration_speed::measure::{ERRORS, Point, points, time_for};
+use branched_pendulum_studies::scenes::{BranchedDouble, Rods};
+use branched_pendulum_studies::work_precision::reference::{Problem, Tree, problems};
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{SVector, System};
 

@@ -2,6 +2,7 @@
 
 pub mod advise;
 pub mod analyse;
+pub mod cascade;
 pub mod describe;
 pub mod growth;
 pub mod identify;
@@ -53,6 +54,7 @@ fn subcommands() -> Vec<Subcommand> {
         subcommand("growth", growth::run),
         subcommand("map", map::run),
         subcommand("transfer", transfer::run),
+        subcommand("cascade", cascade::run),
         subcommand("analyse", analyse::run),
         subcommand("identify", identify::run),
         subcommand("methods", methods::run),

@@ -1,8 +1,11 @@
 //! The command, run as its users run it, with trees that nobody compiled.
 
 mod answers;
+mod cascade;
 mod identify;
 mod measured;
+#[cfg(unix)]
+mod processes;
 mod refusals;
 mod repeated;
 

@@ -310,7 +310,7 @@ fn sectors_are_told_by_name_and_what_is_not_there_is_refused() {
         ),
         (
             "--tree cascade",
-            "`cascade` has 15 links, and motions of up to 6 are estimated",
+            "`cascade` has 31 links, and motions of up to 6 are estimated",
         ),
         ("--set length=1", "no parameter `length`"),
         ("--real length=1", "no parameter `length`"),

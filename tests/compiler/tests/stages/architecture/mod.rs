@@ -186,7 +186,7 @@ fn beside(folder: &Path, found: &mut Vec<PathBuf>) {
 #[test]
 fn a_module_with_modules_is_a_folder_with_a_file_of_its_own() {
     let mut found = Vec::new();
-    for folder in ["codegen", "runtime", "tests", "examples"] {
+    for folder in ["benches", "codegen", "runtime", "tests", "examples"] {
         beside(&fixture("../..").join(folder), &mut found);
     }
     assert!(found.is_empty(), "write FOLDER/mod.rs instead: {found:?}");

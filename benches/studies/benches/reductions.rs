@@ -1,0 +1,343 @@
+//! `cargo bench --bench reductions`: what smaller models of the same motion save.
+//!
+//! - One evaluation of a tree of 2²⁰ − 1 links whose copies move in phase: a chain of
+//!   twenty.
+//! - Growth G of the antiphase mode of the paper's pendulum within 10 s of a release from
+//!   each of 1,701 angles from 5° to 90°, G² the ratio of its energies at the end and at
+//!   the start: from small differences beside the in-phase motion, from trajectories of
+//!   the whole tree in absolute angles that start with a difference, and from those in
+//!   symmetric coordinates, in which a difference may be as small as one likes. For each
+//!   goal of accuracy the cheapest setting of each way counts: method, tolerance, and in
+//!   absolute angles the size of the differences at the start.
+//!
+//! All ways run in lanes on one thread and take turns, and the least of their times
+//! counts.
+
+use std::hint::black_box;
+use std::num::NonZeroUsize;
+use std::time::{Duration, Instant};
+
+use branched_pendulum::integrate::LaneMethod;
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::{LaneOde, TransverseOde};
+use branched_pendulum::{Pendulum, Scalar, Transverse};
+use branched_pendulum_studies::scenes::BranchedDouble;
+
+/// 2²⁰ − 1 rods in phase.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 20, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+    in_phase(tree),
+)]
+struct Generations;
+
+/// The paper's pendulum, its children in phase.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    in_phase(child),
+    emit(transverse),
+)]
+struct InPhase;
+
+/// Rounds of turns.
+const ROUNDS: usize = 7;
+
+/// Angles of release.
+const ANGLES: u32 = 1701;
+
+/// Where errors of ln G are judged: angles up to a limit in degrees, and the share of them
+/// whose errors shall stay below a goal.
+struct Judgement {
+    limit: f64,
+    share: f64,
+    goals: &'static [f64],
+}
+
+/// Regular motions, and the whole curve: above 46° most motions in phase are chaotic, and G is
+/// up to 1e29. Each fifth angle is left out there, where no tolerance finds more digits.
+const JUDGEMENTS: [Judgement; 2] = [
+    Judgement {
+        limit: 42.0,
+        share: 0.9,
+        goals: &[1e-3, 1e-5, 1e-7, 1e-9],
+    },
+    Judgement {
+        limit: 90.0,
+        share: 0.8,
+        goals: &[1e-2, 1e-4, 1e-6],
+    },
+];
+
+/// Degrees of each release.
+fn degrees() -> impl Iterator<Item = f64> {
+    (0..ANGLES).map(|i| 5.0 + 0.05 * f64::from(i))
+}
+
+/// The whole pendulum in its symmetric coordinates.
+struct Symmetric<T>(BranchedDouble<T>);
+
+impl<T: Scalar> Ode<T> for Symmetric<T> {
+    fn dimension(&self) -> usize {
+        6
+    }
+
+    fn rates(&self, time: T, state: &[T], rates: &mut [T]) {
+        Self::rates_of(self, time, state, rates);
+    }
+}
+
+impl<T: Scalar> LaneOde<T> for Symmetric<T> {
+    type Of<S: Scalar> = Symmetric<S>;
+
+    const DIMENSION: Option<usize> = Some(6);
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Symmetric<S> {
+        Symmetric(self.0.cast(convert))
+    }
+
+    #[inline(always)]
+    fn rates_of<S: Scalar>(system: &Symmetric<S>, _: S, state: &[S], rates: &mut [S]) {
+        let (&[a, b, c, da, db, dc], [va, vb, vc, second @ ..]) = (state, rates) else {
+            return;
+        };
+        (*va, *vb, *vc) = (da, db, dc);
+        let accelerations = system.0.symmetric_accelerations(&[a, b, c], &[da, db, dc]);
+        second.copy_from_slice(&accelerations);
+    }
+}
+
+/// A way to the curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    /// Small differences beside the motion in phase.
+    Small,
+    /// The whole tree with differences of a size at the start.
+    Absolute(f64),
+    /// The whole tree in symmetric coordinates.
+    Symmetric,
+}
+
+/// Size of a difference where it has a component of its own: even grown by 1e29 it acts back
+/// less than rounding does, and has no part in the choice of steps.
+const TINY: f64 = 1e-100;
+
+/// Sizes in absolute angles: smaller ones lose their digits, larger ones act back.
+const SIZES: [f64; 10] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Order {
+    Eight,
+    Nine,
+    /// By the tolerance; in absolute angles alone.
+    Taylor,
+}
+
+/// A way with its method.
+#[derive(Clone, Copy, Debug)]
+struct Setting {
+    way: Way,
+    order: Order,
+    tolerance: f64,
+}
+
+impl Setting {
+    /// ln G of every release; NaN where a trajectory fails.
+    fn curve(self) -> Vec<f64> {
+        let model = InPhase::new();
+        let energy = |state: &State<f64>| {
+            let &[_, a, b, _, da, db] = state.values.as_slice() else {
+                return f64::NAN;
+            };
+            let [difference, rate] = match self.way {
+                Way::Absolute(_) => [0.5 * (a - b), 0.5 * (da - db)],
+                _ => [b, db],
+            };
+            model.transverse_energy_of(0, &[0.0; 2], &[difference], &[rate])
+        };
+        let start = |angle: f64| {
+            let angle = angle.to_radians();
+            State::at_rest(
+                0.0,
+                &match self.way {
+                    Way::Absolute(size) => [angle, size, -size],
+                    _ => [angle, 0.0, TINY],
+                },
+            )
+        };
+        let starts: Vec<State<f64>> = degrees().map(start).collect();
+        let ends = match self.way {
+            Way::Small => {
+                let system = TransverseOde::new(InPhase::new(), 0).expect("one pair of copies");
+                self.by_pairs(&system, &starts)
+            }
+            Way::Symmetric => self.by_pairs(&Symmetric(BranchedDouble::new()), &starts),
+            Way::Absolute(_) => {
+                let system = AbsoluteAngles(BranchedDouble::new());
+                match self.order {
+                    Order::Taylor => ends(&Taylor::new(self.options()), &system, &starts),
+                    _ => self.by_pairs(&system, &starts),
+                }
+            }
+        };
+        let growth = |(start, end): (&State<f64>, &Option<State<f64>>)| match end {
+            Some(end) => 0.5 * (energy(end) / energy(start)).ln(),
+            None => f64::NAN,
+        };
+        starts.iter().zip(&ends).map(growth).collect()
+    }
+
+    fn options(self) -> Options<f64> {
+        Options::with_tolerance(self.tolerance)
+    }
+
+    fn by_pairs<O>(self, system: &O, starts: &[State<f64>]) -> Vec<Option<State<f64>>>
+    where
+        O: LaneOde<f64> + Sync,
+    {
+        match self.order {
+            Order::Nine => ends(&Verner98::new(self.options()), system, starts),
+            _ => ends(&Dop853::new(self.options()), system, starts),
+        }
+    }
+}
+
+fn ends<M, O>(method: &M, system: &O, starts: &[State<f64>]) -> Vec<Option<State<f64>>>
+where
+    M: LaneMethod<O, f64>,
+    O: LaneOde<f64> + Sync,
+{
+    let ensemble = Ensemble::new().threads(NonZeroUsize::MIN);
+    let ends = ensemble.integrate_in_lanes(method, system, starts, 10.0);
+    ends.into_iter().map(|end| Some(end.ok()?.state)).collect()
+}
+
+/// The error that the share of the judged angles stays below.
+fn error(found: &[f64], exact: &[f64], judgement: &Judgement) -> f64 {
+    let pairs = found.iter().zip(exact).zip(degrees());
+    let judged = pairs.filter(|(_, angle)| *angle <= judgement.limit);
+    let mut errors: Vec<f64> = judged.map(|((a, b), _)| (a - b).abs()).collect();
+    errors.sort_by(f64::total_cmp);
+    errors[(errors.len() as f64 * judgement.share) as usize]
+}
+
+/// The least time of some runs.
+fn least_time(setting: Setting) -> Duration {
+    let times = (0..3).map(|_| time_of(&mut || drop(black_box(setting.curve()))));
+    times.min().unwrap_or(Duration::MAX)
+}
+
+/// The cheapest setting of some ways that meets a goal: of each way and method the first
+/// that does. Without one the nearest error.
+fn cheapest(ways: &[Way], exact: &[f64], judgement: &Judgement, goal: f64) -> Result<Setting, f64> {
+    let (mut best, mut nearest) = (None, f64::INFINITY);
+    for &way in ways {
+        for order in [Order::Eight, Order::Nine, Order::Taylor] {
+            if order == Order::Taylor && !matches!(way, Way::Absolute(_)) {
+                continue;
+            }
+            for halves in 6..29 {
+                let setting = Setting {
+                    way,
+                    order,
+                    tolerance: 10.0_f64.powf(-0.5 * f64::from(halves)),
+                };
+                let found = error(&setting.curve(), exact, judgement);
+                nearest = nearest.min(found);
+                if found < goal {
+                    let time = least_time(setting);
+                    if best.is_none_or(|(least, _)| time < least) {
+                        best = Some((time, setting));
+                    }
+                    break;
+                }
+            }
+        }
+    }
+    best.map(|(_, setting)| setting).ok_or(nearest)
+}
+
+fn time_of(pass: &mut dyn FnMut()) -> Duration {
+    let clock = Instant::now();
+    pass();
+    clock.elapsed()
+}
+
+/// Time of one evaluation of the chain, s.
+fn evaluation() -> f64 {
+    const STATES: usize = 1000;
+    let model = Generations::new();
+    let state = |i: usize| -> [f64; 20] {
+        std::array::from_fn(|link| ((7 * i + 13 * link) % 64) as f64 / 32.0 - 1.0)
+    };
+    let states: Vec<[[f64; 20]; 2]> = (0..STATES).map(|i| [state(i), state(i + 5)]).collect();
+    let mut least = Duration::MAX;
+    for _ in 0..40 {
+        least = least.min(time_of(&mut || {
+            for [theta, omega] in black_box(&states) {
+                let mut alpha = [0.0; 20];
+                model.accelerations_into(0.0, theta, omega, &mut alpha);
+                black_box(&mut alpha);
+            }
+        }));
+    }
+    least.as_secs_f64() / STATES as f64
+}
+
+fn main() {
+    println!(
+        "accelerations of 20 generations in phase: {:.0} ns",
+        1e9 * evaluation()
+    );
+    let reference = Setting {
+        way: Way::Small,
+        order: Order::Nine,
+        tolerance: 1e-14,
+    };
+    let exact = reference.curve();
+    for judgement in &JUDGEMENTS {
+        let Judgement {
+            limit,
+            share,
+            goals,
+        } = judgement;
+        println!(
+            "growth curve of {ANGLES} angles; {share} of the errors of ln G up to {limit}° below"
+        );
+        for &goal in *goals {
+            compare(&exact, judgement, goal);
+        }
+    }
+}
+
+/// Prints what the three ways to a goal cost, and the cheapest settings.
+fn compare(exact: &[f64], judgement: &Judgement, goal: f64) {
+    let ways = [
+        ("small differences", vec![Way::Small]),
+        ("absolute angles", SIZES.map(Way::Absolute).to_vec()),
+        ("symmetric coordinates", vec![Way::Symmetric]),
+    ];
+    let found = ways.map(|(name, ways)| (name, cheapest(&ways, exact, judgement, goal)));
+    let mut times = [Duration::MAX; 3];
+    for _ in 0..ROUNDS {
+        for (time, (_, setting)) in times.iter_mut().zip(&found) {
+            if let Ok(setting) = setting {
+                *time = (*time).min(time_of(&mut || drop(black_box(setting.curve()))));
+            }
+        }
+    }
+    println!("{goal:e}:");
+    for (time, (name, setting)) in times.iter().zip(&found) {
+        match setting {
+            Ok(setting) => println!(
+                "  {name}: {:.1} ms, ratio {:.2} ({setting:?})",
+                1e3 * time.as_secs_f64(),
+                time.as_secs_f64() / times[0].as_secs_f64(),
+            ),
+            Err(nearest) => println!("  {name}: by no setting; the nearest {nearest:.1e}"),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Which model, method, setting and scalar to take.
+//!
+//! `advise --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_program::frame;
+use branched_pendulum_studies::advise;
+
+fn main() -> ExitCode {
+    frame::main(advise::run)
+}

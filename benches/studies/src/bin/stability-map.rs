@@ -1,0 +1,12 @@
+//! Where each method fails.
+//!
+//! `stability-map --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_program::frame;
+use branched_pendulum_studies::stability_map;
+
+fn main() -> ExitCode {
+    frame::main(stability_map::run)
+}

@@ -1,0 +1,12 @@
+//! The cost of a given error with each method.
+//!
+//! `work-precision --help` lists the options.
+
+use std::process::ExitCode;
+
+use branched_pendulum_program::frame;
+use branched_pendulum_studies::work_precision;
+
+fn main() -> ExitCode {
+    frame::main(work_precision::run)
+}

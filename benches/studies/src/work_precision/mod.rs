@@ -1,0 +1,47 @@
+//! The cost of a given error with each method.
+//!
+//! The apparatus is the paper's, beside seven rods; the equations are those that the macro writes, in absolute angles.
+//! Errors are against the reference trajectories, which come from arbitrary
+//! precision; those of the rods from the same equations in twice the digits.
+//!
+//! - [`mod@reference`]: the trajectories,
+//! - [`measure`]: error, time and evaluations of one run; energy over 1,000 s,
+//! - [`output`]: tables, CSV files and charts.
+
+pub mod measure;
+pub mod output;
+pub mod reference;
+
+use clap::Parser;
+
+use branched_pendulum_program::Failure;
+use branched_pendulum_program::frame::Job;
+
+/// What does a given error cost, with which method? Runs the paper's branched
+/// double pendulum and seven rods with every method at many tolerances or steps,
+/// against reference trajectories, and follows the energy over 1,000 s.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "work-precision", version, verbatim_doc_comment)]
+pub struct Arguments {}
+
+impl branched_pendulum_program::frame::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("work-precision-output");
+}
+
+/// Measures all problems and follows the energy.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(_: &Arguments, job: &Job) -> Result<(), Failure> {
+    let problems = reference::problems(&[10.0, 20.0, 100.0])?;
+    let progress = job.progress(problems.len() + 1);
+    let problems: Vec<_> = problems
+        .iter()
+        .map(|problem| (problem.name, measure::measure(problem, &progress)))
+        .collect();
+    output::write_runs(job, &problems)?;
+    let drifts = measure::energy_drifts(&progress)
+        .map_err(|error| Failure::integration(0.3_f64.to_degrees(), error))?;
+    output::write_drifts(job, &drifts)?;
+    job.print(&(output::table(&problems, &drifts) + "\n"))
+}

@@ -1,0 +1,163 @@
+//! The reference trajectories: `tests/fixtures/reference/trajectories.json` for
+//! the paper's apparatus, and for seven rods, which the file does not have, Taylor
+//! series in numbers of twice the digits.
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Double;
+
+use crate::scenes::Rods;
+use branched_pendulum_program::Failure;
+
+/// The file, as it was when the program was built.
+const FILE: &str = include_str!("../../../../tests/fixtures/reference/trajectories.json");
+
+/// The tree of a problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tree {
+    /// The paper's apparatus.
+    Paper,
+    /// Seven rods.
+    Rods,
+}
+
+/// A motion from rest and where it is at a given time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Name, as the charts show it.
+    pub name: &'static str,
+    /// The tree that moves.
+    pub tree: Tree,
+    /// Angles at the start, rad.
+    pub start: Vec<f64>,
+    /// The time, s.
+    pub end: f64,
+    /// Angles (rad) and velocities (rad/s) then.
+    pub expected: Vec<f64>,
+}
+
+/// The problems that last for one of these times, s: regular motion for a short and a long
+/// time; motion near the threshold, chaotic, for as long as `f64` can follow it well and for
+/// as long as it can follow it at all; and seven rods.
+///
+/// # Errors
+/// [`Failure::Integration`]: the reference of the rods could not be computed.
+pub fn problems(ends: &[f64]) -> Result<Vec<Problem>, Failure> {
+    let mut problems = papers();
+    problems.retain(|problem| ends.contains(&problem.end));
+    for (name, end) in [("seven rods, 10 s", 10.0), ("seven rods, 100 s", 100.0)] {
+        if ends.contains(&end) {
+            problems.push(Problem {
+                name,
+                tree: Tree::Rods,
+                start: RODS.to_vec(),
+                end,
+                expected: rods_at(end, TOLERANCE)?,
+            });
+        }
+    }
+    Ok(problems)
+}
+
+/// The problems of the file.
+fn papers() -> Vec<Problem> {
+    let regular = [0.3, 1e-3, -1e-3];
+    let threshold = [47.8_f64.to_radians(), 1e-3, -1e-3];
+    let paper = |name, key, start: [f64; 3], time: &str| Problem {
+        name,
+        tree: Tree::Paper,
+        start: start.to_vec(),
+        end: time.parse().unwrap_or(f64::NAN),
+        expected: ["theta", "omega"]
+            .into_iter()
+            .flat_map(|quantity| numbers(FILE, &[key, "t", time, quantity]))
+            .collect(),
+    };
+    vec![
+        paper("regular, 10 s", "regular", regular, "10"),
+        paper("regular, 100 s", "regular", regular, "100"),
+        paper("near threshold, 10 s", "near-threshold", threshold, "10"),
+        paper("near threshold, 20 s", "near-threshold", threshold, "20"),
+    ]
+}
+
+/// Angles at the start of the rods, rad: root, then each child with its own.
+const RODS: [f64; 7] = [0.08, 0.005, 0.002, -0.001, -0.005, 0.0015, -0.003];
+
+/// Tolerance of the rods' reference.
+const TOLERANCE: f64 = 1e-24;
+
+/// Angles (rad) and velocities (rad/s) of the rods at the time `end` (s): the
+/// emitted equations in double-double numbers of 31 digits, by their Taylor
+/// series.
+///
+/// # Errors
+/// [`Failure::Integration`].
+pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
+    let model = Rods::<Double>::default();
+    let start = State::at_rest(Double::from_f64(0.0), &RODS.map(Double::from_f64));
+    let method = Taylor::new(Options::with_tolerance(Double::from_f64(tolerance)));
+    let run_on = |_: &mut DenseStep<'_, Double>| ControlFlow::Continue(());
+    let ode = AbsoluteAngles(&model);
+    let end = Double::from_f64(end);
+    let solution = method
+        .integrate(&ode, &start, end, run_on)
+        .map_err(|error| Failure::integration(RODS[0].to_degrees(), error))?;
+    let values = solution.state.values.iter();
+    Ok(values.map(|value| value.high()).collect())
+}
+
+/// The numbers of the array under the last of `keys`, each key looked for
+/// behind the one before; none if one is missing. The file writes its numbers
+/// as strings.
+fn numbers(text: &str, keys: &[&str]) -> Vec<f64> {
+    let behind = keys.iter().try_fold(text, |text, key| {
+        let quoted = format!("\"{key}\":");
+        text.find(&quoted).map(|at| &text[at + quoted.len()..])
+    });
+    let array = behind.and_then(|text| text.split_once(']'));
+    array.map_or_else(Vec::new, |(array, _)| {
+        let parts = array.split('"');
+        parts.filter_map(|part| part.parse().ok()).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RODS, papers, problems, rods_at};
+    use crate::scenes::Rods;
+    use branched_pendulum::prelude::*;
+
+    #[test]
+    fn all_problems_are_there() {
+        let problems = papers();
+        for problem in &problems {
+            assert_eq!(problem.start.len(), 3);
+            assert_eq!(problem.expected.len(), 6, "{problem:?}");
+            assert!(problem.end >= 10.0);
+        }
+        // By eye, from the file.
+        assert_eq!(problems[0].expected[0], -0.13514683809607428);
+        assert_eq!(problems[2].expected[5], -8.352998681130677);
+    }
+
+    /// Orders and steps of another tolerance give the same digits, and so does
+    /// another method as far as its numbers reach.
+    #[test]
+    fn the_reference_of_the_rods_does_not_depend_on_how_it_is_computed() {
+        let problems = problems(&[10.0]).unwrap();
+        assert_eq!(problems.len(), 3);
+        let found = &problems[2].expected;
+        let other = rods_at(10.0, 1e-28).unwrap();
+        let method = Verner98::new(Options::with_tolerance(1e-14));
+        let (model, start) = (Rods::new(), State::at_rest(0.0, &RODS));
+        let verner = method
+            .integrate(&AbsoluteAngles(&model), &start, 10.0, |_| {
+                std::ops::ControlFlow::Continue(())
+            })
+            .unwrap();
+        for ((found, other), verner) in found.iter().zip(&other).zip(&verner.state.values) {
+            assert!((found - other).abs() <= f64::EPSILON * found.abs());
+            assert!((found - verner).abs() < 1e-11, "{found} {verner}");
+        }
+    }
+}

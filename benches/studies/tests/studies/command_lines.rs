@@ -1,0 +1,71 @@
+//! Command lines that cannot be followed are explained, program by program; what all
+//! share is tested with `branched-double`.
+
+use super::{run, text};
+
+const EVALUATION_SPEED: &str = env!("CARGO_BIN_EXE_evaluation-speed");
+const INTEGRATION_SPEED: &str = env!("CARGO_BIN_EXE_integration-speed");
+const STABILITY_MAP: &str = env!("CARGO_BIN_EXE_stability-map");
+const SWAYING_BRANCH: &str = env!("CARGO_BIN_EXE_swaying-branch");
+const TRANSFER_ORDERS: &str = env!("CARGO_BIN_EXE_transfer-orders");
+const WORK_PRECISION: &str = env!("CARGO_BIN_EXE_work-precision");
+
+#[test]
+fn mistakes_are_named() {
+    for (program, line, message) in [
+        (EVALUATION_SPEED, "--output", "a value is required"),
+        (INTEGRATION_SPEED, "--output", "a value is required"),
+        (
+            STABILITY_MAP,
+            "--output",
+            "a value is required for '--output",
+        ),
+        (STABILITY_MAP, "--steps 1", "unexpected argument '--steps'"),
+        (SWAYING_BRANCH, "--duration 0", "must be from 1 to 60 s"),
+        (
+            SWAYING_BRANCH,
+            "--frame-rate 1",
+            "must be from 20 to 1000 Hz",
+        ),
+        (SWAYING_BRANCH, "--wind NaN", "must be from 0 to 40 m/s"),
+        (TRANSFER_ORDERS, "--states 9", "9 is not in 10..=1000000"),
+        (TRANSFER_ORDERS, "--states many", "invalid value 'many'"),
+        (
+            TRANSFER_ORDERS,
+            "--states",
+            "a value is required for '--states",
+        ),
+        (
+            TRANSFER_ORDERS,
+            "--noise 1",
+            "unexpected argument '--noise'",
+        ),
+        (
+            WORK_PRECISION,
+            "--output a --output b",
+            "cannot be used multiple times",
+        ),
+    ] {
+        let arguments: Vec<&str> = line.split_whitespace().collect();
+        let output = run(program, &arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}: {error}");
+        assert!(error.contains(message), "{line}: {error}");
+    }
+}
+
+#[test]
+fn help_tells_usage_and_defaults() {
+    for (program, told) in [
+        (EVALUATION_SPEED, "Usage: evaluation-speed"),
+        (INTEGRATION_SPEED, "Usage: integration-speed"),
+        (STABILITY_MAP, "Usage: stability-map"),
+        (TRANSFER_ORDERS, "[default: 20000]"),
+        (WORK_PRECISION, "Usage: work-precision"),
+    ] {
+        let output = run(program, &["--help"]);
+        assert!(output.status.success());
+        let help = text(&output.stdout);
+        assert!(help.contains(told), "{help}");
+    }
+}

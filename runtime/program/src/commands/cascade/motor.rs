@@ -1,0 +1,97 @@
+//! The torque on the root.
+
+use std::f64::consts::TAU;
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::{LaneTorques, Torques};
+use rand_xoshiro::Xoshiro256PlusPlus;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+use super::arguments::Arguments;
+
+/// Lines of a random torque.
+const LINES: usize = 16;
+
+/// A torque on the root as a sum of cosines.
+#[derive(Clone, Debug)]
+pub struct Motor<T = f64> {
+    /// Amplitude (N m), angular frequency (rad/s) and phase (rad) of each.
+    lines: Vec<[T; 3]>,
+}
+
+impl Motor {
+    /// The torque on the tree of a start: one line, or a random one with a flat spectrum
+    /// and the same mean square, of the amplitude `torque` (N m).
+    pub fn new(arguments: &Arguments, torque: f64, random: &mut Random) -> Self {
+        let Arguments {
+            frequency,
+            bandwidth,
+            ..
+        } = *arguments;
+        if bandwidth == 0.0 {
+            return Self {
+                lines: vec![[torque, TAU * frequency, 0.0]],
+            };
+        }
+        let size = torque / (LINES as f64).sqrt();
+        let line = |_| {
+            let pace = TAU * (frequency + random.within(bandwidth));
+            [size, pace, random.within(0.5 * TAU)]
+        };
+        Self {
+            lines: (0..LINES).map(line).collect(),
+        }
+    }
+}
+
+impl<T: Scalar> Motor<T> {
+    /// The torque at a time, N m.
+    #[inline(always)]
+    pub fn torque(&self, time: T) -> T {
+        let mut sum = T::from_f64(0.0);
+        for &[size, pace, phase] in &self.lines {
+            let (_, cosine) = (pace * time + phase).sin_cos();
+            sum = sum + size * cosine;
+        }
+        sum
+    }
+}
+
+impl<T: Scalar> Torques<T> for Motor<T> {
+    #[inline(always)]
+    fn torques_into(&self, time: T, _theta: &[T], _omega: &[T], torques: &mut [T]) {
+        torques.fill(T::from_f64(0.0));
+        if let Some(root) = torques.first_mut() {
+            *root = self.torque(time);
+        }
+    }
+}
+
+impl<T: Scalar> LaneTorques<T> for Motor<T> {
+    type Of<S: Scalar> = Motor<S>;
+
+    fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Motor<S> {
+        let lines = self.lines.iter();
+        Motor {
+            lines: lines.map(|line| line.map(&convert)).collect(),
+        }
+    }
+}
+
+/// Random numbers of one start, whichever process computes it.
+#[derive(Debug)]
+pub struct Random(Xoshiro256PlusPlus);
+
+impl Random {
+    /// Random numbers of the start `index`.
+    pub fn of_start(seed: u64, index: usize) -> Self {
+        let own = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index as u64;
+        Self(Xoshiro256PlusPlus::seed_from_u64(own))
+    }
+
+    /// A number between `-bound` and `bound`.
+    pub fn within(&mut self, bound: f64) -> f64 {
+        let unit = (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        bound * (2.0 * unit - 1.0)
+    }
+}

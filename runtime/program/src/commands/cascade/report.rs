@@ -1,0 +1,297 @@
+//! Words and tables.
+
+use branched_pendulum::analysis::statistics::{Average, StatisticsError};
+use branched_pendulum_data::Column;
+
+use super::arguments::Arguments;
+use super::findings::{Balance, Findings, Scale};
+use super::motion::{Followed, QUANTITIES};
+use super::tree::DrivenTree;
+use crate::Failure;
+use crate::frame::Job;
+use crate::subject::Subject;
+
+/// Everything that is printed, as Markdown.
+pub fn report(
+    arguments: &Arguments,
+    driven: &DrivenTree,
+    starts: &[Followed],
+    findings: &Findings,
+) -> String {
+    let mut text = format!(
+        "{}: {} links in {} generations, {} starts of {:.1} s each; {}; {} steps a period.\n\n",
+        driven.subject.name,
+        driven.links(),
+        driven.generations(),
+        starts.len(),
+        arguments.windows() as f64 / arguments.frequency,
+        drive(arguments, &driven.subject),
+        arguments.steps,
+    );
+    text.push_str(&steadiness(arguments, findings));
+    text.push_str(&energies(arguments, driven, findings));
+    text.push_str(&balance(arguments, findings));
+    text
+}
+
+/// Says what drives the tree.
+pub fn drive(arguments: &Arguments, subject: &Subject) -> String {
+    let frequency = arguments.frequency;
+    if subject.tree.drive(0.0).is_some() {
+        return format!("driven as described, periods of {frequency} Hz");
+    }
+    let width = match arguments.bandwidth {
+        0.0 => String::new(),
+        width => format!(" ± {width} Hz"),
+    };
+    let torque = arguments.torque(subject);
+    format!("torque {torque} N m at {frequency} Hz{width} on the root")
+}
+
+/// Says if averages mean anything.
+fn steadiness(arguments: &Arguments, findings: &Findings) -> String {
+    let second = 1.0 / arguments.frequency;
+    let mut text = match findings.transient {
+        Ok(windows) => format!("The transient ends after {:.1} s", windows as f64 * second),
+        Err(error) => {
+            format!("There is no end of the transient ({error}); the second half is shown")
+        }
+    };
+    match &findings.drift {
+        Ok(drift) => {
+            let verdict = if findings.is_steady() {
+                "steady"
+            } else {
+                "NOT steady"
+            };
+            text += &format!(
+                "; from its first to its second half the energy changes by {:.2e} ± {:.1e} J: {verdict}.\n\n",
+                drift.change, drift.error
+            );
+        }
+        Err(error) => text += &format!("; NOT steady: {error}.\n\n"),
+    }
+    text
+}
+
+/// Energies by scale.
+fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> String {
+    let mut text =
+        "| scale | degrees of freedom | energy (J) | bar | per degree of freedom (J) | τ (s) |\n\
+         |---|---:|---:|---:|---:|---:|\n"
+            .to_owned();
+    let mut missing = Missing::default();
+    for (scale, state) in findings.scales.iter().enumerate() {
+        let freedoms = driven.degrees_of_freedom(scale);
+        text += &format!("| {} | {freedoms} |", name(scale));
+        match state {
+            Scale::Awake(energy) => {
+                text += &format!(
+                    " {:.4e} | {:.1} % | {:.4e} | {:.2} |\n",
+                    energy.mean,
+                    100.0 * energy.error / energy.mean,
+                    energy.mean / freedoms as f64,
+                    energy.correlation_time / arguments.frequency
+                )
+            }
+            Scale::Asleep(energy) => {
+                text += &format!(" asleep ({energy:.0e}) | | | |\n");
+            }
+            Scale::Unsettled(error) => {
+                text += " – | | | |\n";
+                missing.add(format!("scale {scale}"), error);
+            }
+        }
+    }
+    text += &missing.told(arguments);
+    match findings.law {
+        Some(law) => {
+            text += &format!(
+                "\nEnergy per degree of freedom of the differences against the length of the oldest \
+                 links that differ: exponent {:.3} ± {:.3}, χ² per point left over {:.1}: {}.\n\n",
+                law.exponent.value,
+                law.exponent.error,
+                law.misfit,
+                if law.misfit < 4.0 {
+                    "a power law within the bars"
+                } else {
+                    "no power law"
+                }
+            )
+        }
+        None => text.push_str("\nToo few scales are awake for a power law.\n\n"),
+    }
+    text
+}
+
+/// Name of a scale.
+pub fn name(scale: usize) -> String {
+    match scale {
+        0 => "0 (means)".to_owned(),
+        scale => scale.to_string(),
+    }
+}
+
+/// Input, fluxes, dissipation.
+fn balance(arguments: &Arguments, findings: &Findings) -> String {
+    let mut missing = Missing::default();
+    let mut watts = |name: &str, average: &Result<Average, StatisticsError>| match average {
+        Ok(average) => milli(average),
+        Err(error) => {
+            missing.add(name.to_owned(), error);
+            "–".to_owned()
+        }
+    };
+    let mut text = format!(
+        "Motor: {} mW; friction: {} mW; the one less the other {} mW: {}.\n\n\
+         | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W |\n\
+         |---|---:|---:|---:|---:|\n",
+        watts("the motor", &findings.input),
+        watts("friction", &findings.dissipation),
+        watts("the balance", &findings.loss),
+        match findings.balance() {
+            Balance::Closed => "balanced".to_owned(),
+            Balance::Lost => "NOT balanced, take more `--steps`".to_owned(),
+            Balance::Undecided => format!(
+                "undecided, since the bar is above a tenth of the motor's power; take {}",
+                longer(arguments)
+            ),
+        },
+    );
+    for (index, flux) in findings.fluxes.iter().enumerate() {
+        text += &format!("| {} |", index + 1);
+        match flux {
+            Ok(flux) => {
+                text += &format!(
+                    " {} | {} | {} | {} |\n",
+                    milli(&flux.transferred),
+                    milli(&flux.dissipated),
+                    milli(&flux.gap),
+                    flux.skewness.map_or(String::new(), |skewness| format!(
+                        "{:.2} ± {:.2}",
+                        skewness.value, skewness.error
+                    )
+                    .replace('-', "−"))
+                )
+            }
+            Err(error) => {
+                text += " – | | | |\n";
+                missing.add(format!("the flux into scale {}", index + 1), error);
+            }
+        }
+    }
+    text + missing.told(arguments).as_str()
+}
+
+/// A run that may be long enough where this one is not.
+fn longer(arguments: &Arguments) -> String {
+    format!("at least `--duration {}`", 2.0 * arguments.duration)
+}
+
+/// Averages that a run is too short for, by their reasons.
+#[derive(Debug, Default)]
+struct Missing(Vec<(String, StatisticsError)>);
+
+impl Missing {
+    fn add(&mut self, name: String, error: &StatisticsError) {
+        self.0.push((name, *error));
+    }
+
+    /// The reasons, a line each, and what to do.
+    fn told(&self, arguments: &Arguments) -> String {
+        let mut text = String::new();
+        for (name, error) in &self.0 {
+            text += &format!("\nNo average of {name}: {error}.");
+        }
+        if !text.is_empty() {
+            text += &format!("\nTake {}.\n\n", longer(arguments));
+        }
+        text
+    }
+}
+
+/// A power in mW with its error.
+fn milli(average: &Average) -> String {
+    let text = format!("{:.4} ± {:.4}", 1e3 * average.mean, 1e3 * average.error);
+    text.replace('-', "−")
+}
+
+/// Writes the means over all windows of all starts.
+///
+/// # Errors
+/// [`Failure`].
+pub fn write_windows(
+    job: &Job,
+    arguments: &Arguments,
+    scales: usize,
+    starts: &[Followed],
+) -> Result<(), Failure> {
+    let mut columns = vec![Column::new("start", ""), Column::new("time", "s")];
+    for scale in 0..scales {
+        for (quantity, unit) in [
+            ("energy", "J"),
+            ("received", "W"),
+            ("friction", "W"),
+            ("motor", "W"),
+        ] {
+            columns.push(Column::new(format!("{quantity} {scale}"), unit));
+        }
+    }
+    job.csv("windows.csv", &columns, |file| {
+        for (number, start) in starts.iter().enumerate() {
+            let rows = start.windows.chunks_exact(QUANTITIES * scales);
+            for (window, row) in rows.enumerate() {
+                // In the middle of the window.
+                let time = (window as f64 + 0.5) / arguments.frequency;
+                let mut numbers = vec![number as f64, time];
+                numbers.extend(row);
+                file.row(&numbers)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Writes what was found for each scale.
+///
+/// # Errors
+/// [`Failure`].
+pub fn write_scales(job: &Job, driven: &DrivenTree, findings: &Findings) -> Result<(), Failure> {
+    let columns = [
+        ("scale", ""),
+        ("length", "m"),
+        ("degrees of freedom", ""),
+        ("energy", "J"),
+        ("error of energy", "J"),
+        ("flux by W", "W"),
+        ("error of flux by W", "W"),
+        ("flux by dissipation", "W"),
+        ("error of flux by dissipation", "W"),
+    ];
+    let columns = columns.map(|(name, unit)| Column::new(name, unit));
+    job.csv("scales.csv", &columns, |file| {
+        for (scale, state) in findings.scales.iter().enumerate() {
+            let bar = |average: &Average| [average.mean, average.error];
+            let none = [f64::NAN; 2];
+            let energy = match state {
+                Scale::Awake(average) => bar(average),
+                Scale::Asleep(_) | Scale::Unsettled(_) => none,
+            };
+            let flux = scale
+                .checked_sub(1)
+                .and_then(|flux| findings.fluxes.get(flux));
+            let [given, lost] = match (flux, &findings.input, &findings.dissipation) {
+                (Some(Ok(flux)), ..) => [bar(&flux.transferred), bar(&flux.dissipated)],
+                // What enters the whole tree.
+                (None, Ok(input), Ok(lost)) => [bar(input), bar(lost)],
+                _ => [none; 2],
+            };
+            let length = driven.lengths.get(scale).copied();
+            let mut row = vec![scale as f64, length.unwrap_or(f64::NAN)];
+            row.push(driven.degrees_of_freedom(scale) as f64);
+            row.extend([energy, given, lost].concat());
+            file.row(&row)?;
+        }
+        Ok(())
+    })
+}

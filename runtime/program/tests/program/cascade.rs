@@ -1,0 +1,467 @@
+//! `cascade`: motions in lanes, checkpoints, shards, refusals.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use branched_pendulum::analysis::SectorModes;
+use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::Sectors;
+use branched_pendulum::system::UnderTorques;
+use branched_pendulum_program::commands::cascade::Arguments;
+use branched_pendulum_program::commands::cascade::motor::{Motor, Random};
+use branched_pendulum_program::frame::command_line::parse_line;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+use super::{Folder, TRIPLE, UNEQUAL, Y, text};
+
+fn arguments(line: &str) -> Arguments {
+    parse_line(line).unwrap()
+}
+
+/// A pair of outermost rods moves against each other on a pivot at rest.
+#[test]
+fn the_outermost_sectors_have_the_frequency_of_a_rod() {
+    let tree = arguments("--generations 4").read().unwrap().tree;
+    let hanging = [0.0; 15];
+    let (mass, stiffness) = (tree.mass_matrix(&hanging), tree.stiffness_matrix(&hanging));
+    let modes = SectorModes::new(tree.sectors(), &mass, &stiffness).unwrap();
+    assert!(modes.mass_off_block < 1e-15 && modes.stiffness_off_block < 1e-15);
+    let length = 0.3 * 0.7_f64.powi(3);
+    let rod = (1.5 * 9.80665 / length).sqrt() / TAU;
+    let outermost = modes
+        .blocks
+        .iter()
+        .filter(|block| block.name.starts_with("arm_4"));
+    let mut seen = 0;
+    for block in outermost {
+        let [frequency] = block.modes.frequencies_hz[..] else {
+            panic!("{} modes", block.modes.frequencies_hz.len());
+        };
+        assert!((frequency / rod - 1.0).abs() < 1e-13, "{frequency}, {rod}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
+fn the_onset_leaves_table_and_charts() {
+    let folder = folder("onset");
+    let output = command(&folder, &["--onset", "0.2", "--generations", "4"])
+        .output()
+        .unwrap();
+    finished(&output);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("| `in_phase` | 4 | 0."), "{text}");
+    let csv = fs::read_to_string(folder.join("onset.csv")).unwrap();
+    // The header and one sample each fiftieth of a second from 0 to 0.2 s.
+    assert_eq!(csv.lines().count(), 12);
+    for chart in ["onset.svg", "onset.png"] {
+        assert!(folder.join(chart).metadata().unwrap().len() > 1000);
+    }
+}
+
+/// Starts in lanes move as another method moves them one by one, under the torque written down
+/// once more, and the error falls as that of a method of order four.
+#[test]
+fn starts_in_lanes_have_the_motion_of_another_method() {
+    let arguments = |steps: u32| arguments(&format!("--generations 3 --steps {steps}"));
+    let own = arguments(2048);
+    let subject = own.read().unwrap();
+    let (tree, torque) = (&subject.tree, own.torque(&subject));
+    let mut random = Random::of_start(1, 0);
+    let starts: Vec<State<f64>> = (0..11)
+        .map(|_| State::at_rest(0.0, &[(); 7].map(|()| random.within(0.5))))
+        .collect();
+    let pace = TAU * own.frequency;
+    let pushed = UnderTorques::new(
+        tree,
+        |time: f64, _: &[f64], _: &[f64], torques: &mut [f64]| {
+            torques.fill(0.0);
+            torques[0] = torque * (pace * time).cos();
+        },
+    );
+    let ensemble = Ensemble::new();
+    let reference = Verner98::new(Options::with_tolerance(1e-13));
+    let reference = ensemble.integrate(&reference, &pushed, &starts, 1.0);
+    let error = |steps: u32| {
+        let arguments = arguments(steps);
+        let motor = Motor::new(&arguments, torque, &mut Random::of_start(1, 0));
+        let system = UnderTorques::of(tree, motor);
+        let method = Rk4::new(arguments.step());
+        let ends = ensemble.integrate_in_lanes(&method, &system, &starts, 1.0);
+        let mut largest = 0.0_f64;
+        for (end, reference) in ends.into_iter().zip(&reference) {
+            let (end, reference) = (end.unwrap().state, &reference.as_ref().unwrap().state);
+            for (value, reference) in end.values.iter().zip(&reference.values) {
+                largest = largest.max((value - reference).abs());
+            }
+        }
+        largest
+    };
+    let [coarse, fine] = [2048, 4096].map(error);
+    assert!(coarse < 2e-6, "{coarse:e}");
+    let order = (coarse / fine).log2();
+    assert!((3.5..4.5).contains(&order), "{coarse:e} {fine:e}");
+}
+
+/// A short run.
+const SHORT: &[&str] = &[
+    "--generations",
+    "3",
+    "--starts",
+    "8",
+    "--duration",
+    "100",
+    "--samples",
+    "8",
+    "--set",
+    "friction=1e-4",
+    "--steps",
+    "128",
+    "--threads",
+    "1",
+    "--checkpoint",
+    "0",
+];
+
+fn folder(name: &str) -> PathBuf {
+    super::folder(&format!("cascade-{name}"))
+}
+
+/// The options of the short run, but for those that `more` has.
+fn options<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    let others = SHORT.chunks(2).filter(|option| !more.contains(&option[0]));
+    others.flatten().chain(more).copied().collect()
+}
+
+fn command(folder: &Path, more: &[&str]) -> Command {
+    let mut command = super::command(&["cascade"]);
+    command.args(options(more)).arg("--output").arg(folder);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn finished(output: &Output) {
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{stderr}");
+}
+
+/// All files of a folder but those of shards.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let files = entries.filter(|entry| entry.file_type().unwrap().is_file());
+    files
+        .map(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            (name, fs::read(entry.path()).unwrap())
+        })
+        .collect()
+}
+
+/// Killed twenty times on its way and taken up each time, a run leaves the files that it
+/// leaves undisturbed, byte for byte.
+#[test]
+fn a_run_that_is_killed_goes_on_with_the_same_bytes() {
+    let (whole, killed) = (folder("whole"), folder("killed"));
+    let began = Instant::now();
+    finished(&command(&whole, &[]).output().unwrap());
+    let time = began.elapsed();
+    let mut random = SplitMix64::seed_from_u64(5);
+    let mut kills = 0;
+    let mut attempts = 0;
+    while kills < 20 {
+        attempts += 1;
+        assert!(attempts < 200, "it never gets on");
+        let mut child = command(&killed, &[]).spawn().unwrap();
+        // Twenty-one such times are about the time of the whole run.
+        let share = random.next_u64() as f64 / u64::MAX as f64;
+        std::thread::sleep(time.mul_f64(0.02 + 0.06 * share));
+        if child.try_wait().unwrap().is_none() {
+            child.kill().unwrap();
+            kills += 1;
+        } else if files(&killed).contains_key("report.md") {
+            // Done too soon: it begins anew.
+            fs::remove_dir_all(&killed).unwrap();
+        }
+        child.wait().unwrap();
+    }
+    finished(&command(&killed, &[]).output().unwrap());
+    let (whole, killed) = (files(&whole), files(&killed));
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&whole), names(&killed));
+    for (name, bytes) in whole {
+        assert!(killed[&name] == bytes, "{name}");
+    }
+}
+
+/// A checkpoint that is damaged, or of another run, is refused in words.
+#[test]
+fn a_checkpoint_of_another_run_is_refused() {
+    let folder = folder("foreign");
+    let mut child = command(&folder, &["--duration", "100000"]).spawn().unwrap();
+    let checkpoint = folder.join("checkpoint");
+    while !checkpoint.exists() {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let refused = |more: &[&str], told: &str| {
+        let output = command(&folder, more).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert!(
+            stderr.contains("cannot go on from") && stderr.contains(told),
+            "{stderr}"
+        );
+    };
+    refused(
+        &["--duration", "100000", "--seed", "2"],
+        "it is of branched-pendulum cascade",
+    );
+    let mut bytes = fs::read(&checkpoint).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&checkpoint, bytes).unwrap();
+    refused(&["--duration", "100000"], "damaged");
+}
+
+/// What 64 shards are cut from.
+const STARTS: &[&str] = &["--starts", "64", "--duration", "10"];
+
+fn same_tables(whole: &Path, merged: &Path) {
+    for name in [
+        "windows.csv",
+        "scales.csv",
+        "report.md",
+        "tree.svg",
+        "course.svg",
+    ] {
+        let read = |folder: &Path| fs::read(folder.join(name)).unwrap();
+        assert!(read(whole) == read(merged), "{name}");
+    }
+}
+
+#[test]
+fn shards_make_the_tables_of_one_process() {
+    shards("64-shards", 64, STARTS);
+}
+
+#[test]
+#[ignore = "a thousand processes: cargo test --test program -- --ignored a_thousand"]
+fn a_thousand_shards_make_the_tables_of_one_process() {
+    let starts = &["--starts", "1000", "--duration", "10"];
+    shards("1000-shards", 1000, starts);
+}
+
+/// Two workers take shards from a queue; one of them is killed halfway with its shard, which
+/// is computed again. The merged tables are those of one process.
+fn shards(name: &str, count: u32, starts: &[&str]) {
+    let (whole, swept) = (folder(&format!("{name}-whole")), folder(name));
+    finished(&command(&whole, starts).output().unwrap());
+    let next = AtomicU32::new(0);
+    let part = |option: &str, value: &str| command(&swept, &[starts, &[option, value]].concat());
+    let shard = |index: u32| part("--shard", &format!("{index}/{count}"));
+    let killed = count / 2;
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count {
+                        break;
+                    }
+                    if index == killed {
+                        let mut child = shard(index).spawn().unwrap();
+                        std::thread::sleep(Duration::from_millis(5));
+                        child.kill().unwrap();
+                        child.wait().unwrap();
+                        // Its work is lost; the other one goes on.
+                        break;
+                    }
+                    finished(&shard(index).output().unwrap());
+                }
+            });
+        }
+    });
+    let merge = || part("--merge", &count.to_string()).output().unwrap();
+    if !swept
+        .join(format!("shard-{killed}-of-{count}/results.bin"))
+        .exists()
+    {
+        let refused = merge();
+        let told = format!("1 of {count} shards are not finished: {killed}");
+        assert!(text(&refused.stderr).contains(&told));
+    }
+    finished(&shard(killed).output().unwrap());
+    // What is there is not computed again.
+    assert!(text(&shard(7).output().unwrap().stdout).contains("is there"));
+    finished(&merge());
+    same_tables(&whole, &swept);
+}
+
+/// The same by an engine, HyperQueue's workers in one Python process, where Python has it
+/// (`pip install hyperqueue`); a machine that promises it says so by `HYPERQUEUE`.
+#[test]
+fn hyperqueue_makes_the_tables_of_one_process() {
+    let python = |arguments: &[&str]| {
+        let mut command = Command::new("python3");
+        command.args(arguments).stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+    };
+    let has = python(&["-c", "import hyperqueue"]).output();
+    if !has.is_ok_and(|output| output.status.success()) {
+        assert!(std::env::var_os("HYPERQUEUE").is_none(), "no hyperqueue");
+        println!("skipped: python3 has no hyperqueue");
+        return;
+    }
+    let (whole, swept) = (folder("one-process-hq"), folder("hyperqueue"));
+    finished(&command(&whole, STARTS).output().unwrap());
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/sweep/hyperqueue_sweep.py");
+    let swept_path = swept.to_str().unwrap();
+    let mut words = vec![
+        script,
+        "64",
+        "--workers",
+        "2",
+        "--",
+        env!("CARGO_BIN_EXE_branched-pendulum"),
+        "cascade",
+    ];
+    words.extend(options(STARTS));
+    words.extend(["--output", swept_path]);
+    // Killed halfway, engine, workers and all, and started again.
+    let mut engine = python(&words).spawn().unwrap();
+    let count = || {
+        (0..64)
+            .filter(|index| {
+                swept
+                    .join(format!("shard-{index}-of-64/results.bin"))
+                    .exists()
+            })
+            .count()
+    };
+    while count() < 20 {
+        if let Some(status) = engine.try_wait().unwrap() {
+            panic!("it ended too soon: {status}");
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    engine.kill().unwrap();
+    engine.wait().unwrap();
+    let done = count();
+    finished(&python(&words).output().unwrap());
+    println!("killed after {done} of 64 shards");
+    same_tables(&whole, &swept);
+}
+
+#[test]
+fn what_is_asleep_is_called_so() {
+    // Too much friction, and a tree that hangs still.
+    for (number, more) in [
+        [
+            "--starts",
+            "4",
+            "--torque",
+            "0.05",
+            "--set",
+            "friction=1e-2",
+        ],
+        ["--starts", "4", "--torque", "0", "--spread", "0"],
+    ]
+    .iter()
+    .enumerate()
+    {
+        let folder = folder(&format!("asleep-{number}"));
+        let output = command(&folder, more).output().unwrap();
+        finished(&output);
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(text.contains("| 2 | 2 | asleep ("), "{text}");
+    }
+}
+
+/// Trees of files: scales where there are copies, else a refusal that says what to write.
+#[test]
+fn other_trees_are_followed_or_refused() {
+    let folder = Folder::new("cascade");
+    let y = folder.file("y.txt", Y);
+    let line = "--set stiffness=4 --duration 20 --starts 4 --steps 256 --samples 16";
+    let mut words = vec!["cascade", "--tree", &y];
+    words.extend(line.split_whitespace());
+    let told = folder.answer(&words);
+    let title = "y.txt: 3 links in 2 generations, 4 starts of 20.0 s each; torque 0.2 N m";
+    assert!(told.contains(title), "{told}");
+    let (names, rows) = folder.table("windows.csv");
+    assert_eq!(names[6], "energy 1 [J]");
+    assert_eq!((names.len(), rows.len()), (10, 4 * 12));
+    assert!(folder.read("results/tree.svg").contains("</svg>"));
+
+    let own = format!("{TRIPLE}, drive(torque = 0.1 * cos(4 * t))");
+    let fork = "gravity = 9.81, drive(torque = 0.1 * cos(4 * t)),
+        stem: rod(mass = 0.2, length = 0.3, friction = 1e-4) [
+            arm: rod(mass = 0.1, length = 0.2, friction = 1e-5) * 3]";
+    for (text, more, message) in [
+        (
+            TRIPLE,
+            "",
+            "`tree.txt` has no scales, since there are no copies: write equal",
+        ),
+        (
+            UNEQUAL,
+            "",
+            "`tree.txt` has no scales, since links of one generation differ",
+        ),
+        (own.as_str(), "--onset 1", "the tree has no copies"),
+        (
+            fork,
+            "--torque 0.1",
+            "`tree.txt` has a drive of its own: leave `--torque`",
+        ),
+        (
+            fork,
+            "--bandwidth 0.1",
+            "`tree.txt` has a drive of its own: leave `--torque`",
+        ),
+    ] {
+        let tree = folder.file("tree.txt", text);
+        let mut words = vec!["cascade", "--tree", &tree];
+        words.extend(more.split_whitespace());
+        let output = folder.run(&words);
+        let told = super::text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        assert!(told.contains(message), "{told}");
+    }
+    let tree = folder.file("tree.txt", fork);
+    let told = folder.answer(&["cascade", "--tree", &tree, "--onset", "1"]);
+    assert!(
+        told.contains("no torque but that of the description"),
+        "{told}"
+    );
+    assert!(told.contains("| `in_phase` | 2 |"), "{told}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    for (line, message) in [
+        ("--generations 11", "11 is not in 2..=10"),
+        ("--generations 3 --tree paper", "leave them or `--tree` out"),
+        ("--torque NaN", "must be from 0 to 100 N m"),
+        ("--bandwidth 1", "at most 0.9 of the frequency"),
+        (
+            "--samples 100",
+            "`--steps` must be a multiple of `--samples`",
+        ),
+        ("--shard 3/3", "must be I/N"),
+        ("--shard 0/3 --merge 3", "cannot be used with"),
+    ] {
+        let told = parse_line::<Arguments>(line).unwrap_err();
+        assert!(told.contains(message), "{line}: {told}");
+    }
+}
