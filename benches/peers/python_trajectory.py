@@ -3,6 +3,7 @@
 Needs `branched_pendulum` and `heyoka` in one environment. Ten seconds of the paper's pendulum
 from 47.8 degrees; errors are those of the state at the end against heyoka's own solution in
 extended precision. The least of many repeats counts; errors grow some 1e6 times on this motion.
+Of the ensembles processor time counts, which other programs change less than wall time.
 """
 
 import time
@@ -17,7 +18,7 @@ from scenes import eliminated, paper
 
 END = 10.0
 START = [np.radians(47.8), 1e-3, -1e-3, 0.0, 0.0, 0.0]
-ERRORS = [1e-4, 1e-8, 1e-10]
+ERRORS = [1e-4, 1e-6, 1e-8]
 REPEATS = 15
 TOLERANCES = 10.0 ** (-np.arange(15, 49) / 3)
 
@@ -87,13 +88,13 @@ def many_motions(equations, tree, threads):
     starts[:, 1:3] = [1e-3, -1e-3]
     t = [0.0, END]
     best = tree.ensemble(starts, t, "taylor", rtol=1e-16)[:, -1]
-    print(f"10,000 starts, {threads} threads{'':10}   seconds   median error")
-    for method, rtol in [("taylor", 1e-12), ("taylor", 1e-13), ("dop853", 1e-11), ("verner98", 1e-11)]:
-        clock = time.perf_counter()
+    print(f"10,000 starts, {threads} threads{'':10} processor s    wall s   median error")
+    for method, rtol in [("taylor", 1e-10), ("taylor", 1e-11), ("dop853", 1e-11), ("verner98", 1e-11)]:
+        clock, work = time.perf_counter(), time.process_time()
         ends = tree.ensemble(starts, t, method, rtol=rtol, threads=threads)[:, -1]
-        seconds = time.perf_counter() - clock
+        seconds, work = time.perf_counter() - clock, time.process_time() - work
         error = np.median(np.abs(ends - best).max(axis=1))
-        print(f"{f'Tree, {method} at {rtol:.0e}':30}{seconds:10.3f}{error:15.1e}")
+        print(f"{f'Tree, {method} at {rtol:.0e}':30}{work:14.3f}{seconds:10.3f}{error:15.1e}")
     lanes = 8
     for tolerance in [1e-9, 1e-10]:
         taylor = hy.taylor_adaptive_batch(equations, np.zeros((6, lanes)), tol=tolerance)
@@ -103,12 +104,12 @@ def many_motions(equations, tree, threads):
             batch.state[:] = starts[index * lanes : (index + 1) * lanes].T
             return batch
 
-        clock = time.perf_counter()
+        clock, work = time.perf_counter(), time.process_time()
         done = hy.ensemble_propagate_until_batch(taylor, END, len(starts) // lanes, begin)
-        seconds = time.perf_counter() - clock
+        seconds, work = time.perf_counter() - clock, time.process_time() - work
         ends = np.concatenate([batch.state.T for batch, *_ in done])
         error = np.median(np.abs(ends - best).max(axis=1))
-        print(f"{f'heyoka, batch at {tolerance:.0e}':30}{seconds:10.3f}{error:15.1e}")
+        print(f"{f'heyoka, batch at {tolerance:.0e}':30}{work:14.3f}{seconds:10.3f}{error:15.1e}")
 
 
 def main():
