@@ -10,6 +10,7 @@
 //! - [`integrate`]: trajectories, with error control, dense output and events,
 //! - [`approximate`]: models that are cheaper, with their errors,
 //! - [`ensemble`]: many trajectories on all cores,
+//! - [`interruption`]: computations that can be ended from outside,
 //! - [`batch`]: accelerations of many states, in vector registers,
 //! - [`tree`]: large trees, in loops,
 //! - [`sectors`]: what identical subtrees do in phase and against each other,
@@ -112,6 +113,7 @@ pub mod emitted;
 pub mod ensemble;
 mod errors;
 pub mod integrate;
+pub mod interruption;
 pub mod model;
 pub mod prelude;
 mod requirements;

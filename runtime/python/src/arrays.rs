@@ -8,6 +8,11 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
+use branched_pendulum::interruption;
+
+use crate::interrupts::detached;
+use crate::memory::{bytes, need, room};
+
 pub(crate) type Row<'py> = Bound<'py, PyArray1<f64>>;
 pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 pub(crate) type Table<'py> = Bound<'py, PyArrayDyn<f64>>;
@@ -23,12 +28,29 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers<'py> {
         if object.is_exact_instance_of::<PyUntypedArray>()
             && let Ok(array) = object.cast::<PyArrayDyn<f64>>()
         {
-            return Ok(Self(array.readonly()));
+            return Self(array.readonly()).checked();
         }
-        Self::converted(&object).map_err(|error| {
+        let converted = Self::converted(&object).map_err(|error| {
             let reason = error.value(object.py());
             PyTypeError::new_err(reason.to_string())
-        })
+        });
+        converted?.checked()
+    }
+}
+
+/// Times: of which a pair in parentheses is a span, as SciPy's is.
+pub(crate) struct Times<'py> {
+    pub(crate) numbers: Numbers<'py>,
+    pub(crate) is_span: bool,
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Times<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let numbers: Numbers<'py> = object.extract()?;
+        let is_span = object.is_instance_of::<PyTuple>() && numbers.shape() == [2];
+        Ok(Self { numbers, is_span })
     }
 }
 
@@ -72,8 +94,26 @@ impl<'py> Numbers<'py> {
         Ok(Self((*array).clone()))
     }
 
+    /// Passes numbers of which there is room for two copies.
+    fn checked(self) -> PyResult<Self> {
+        need("copies of it", bytes(self.shape(), 2))?;
+        Ok(self)
+    }
+
     pub(crate) fn shape(&self) -> &[usize] {
         self.0.shape()
+    }
+
+    /// The array of them.
+    pub(crate) fn array(&self) -> Bound<'py, PyAny> {
+        self.0.as_any().clone()
+    }
+
+    /// The same numbers with an axis of one at the end.
+    pub(crate) fn with_axis(&self, py: Python<'py>) -> PyResult<Self> {
+        let shape = [self.shape(), &[1]].concat();
+        let column = self.to_vec().into_pyarray(py).reshape(shape)?;
+        Ok(Self(column.readonly()))
     }
 
     /// All numbers, the last axis running first.
@@ -182,12 +222,115 @@ pub(crate) fn matrix<'py>(
 
 /// The axes of states before that of their components.
 pub(crate) fn axes_of_states(states: &Numbers<'_>, dimension: usize) -> PyResult<Vec<usize>> {
-    match states.shape() {
-        [axes @ .., last] if *last == dimension => Ok(axes.to_vec()),
+    axes("y", states, dimension)
+}
+
+/// The axes of an array before the last one, which is as long as is wanted.
+fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
+    match numbers.shape() {
+        [axes @ .., last] if *last == wanted => Ok(axes.to_vec()),
         shape => Err(PyValueError::new_err(format!(
-            "the last axis of y must have {dimension} numbers, those of a state: its shape is {}",
+            "{name} must have {wanted} numbers along its last axis, as in shape ({wanted},) or \
+             (n, {wanted}), got {}",
             shown(shape)
         ))),
+    }
+}
+
+/// Arguments whose last axes are as long as is wanted, and whose other axes go together by
+/// NumPy's rules.
+pub(crate) struct Together {
+    /// The axes that they have in common.
+    shape: Vec<usize>,
+    arguments: Vec<(Vec<f64>, usize)>,
+}
+
+/// An argument with its name and the length of its last axis.
+pub(crate) type Argument<'a, 'py> = (&'a str, &'a Numbers<'py>, usize);
+
+impl Together {
+    pub(crate) fn of(arguments: &[Argument<'_, '_>]) -> PyResult<Self> {
+        let mut shape: Vec<usize> = Vec::new();
+        for (name, numbers, wanted) in arguments {
+            let own = axes(name, numbers, *wanted)?;
+            shape = common(&shape, &own).ok_or_else(|| {
+                let shapes = arguments.iter();
+                let shapes = shapes.map(|(name, numbers, _)| {
+                    format!("{name} has shape {}", shown(numbers.shape()))
+                });
+                let text = shapes.collect::<Vec<_>>().join(", ");
+                PyValueError::new_err(format!("{text}: these do not go together"))
+            })?;
+        }
+        let spread = arguments.iter().map(|(name, numbers, wanted)| {
+            let whole = [&shape[..], &[*wanted]].concat();
+            let view = numbers.0.as_array();
+            let view = view.broadcast(whole).ok_or_else(|| {
+                PyValueError::new_err(format!("{name} does not go with the other arguments"))
+            })?;
+            Ok((view.iter().copied().collect(), *wanted))
+        });
+        let arguments = spread.collect::<PyResult<_>>()?;
+        Ok(Self { shape, arguments })
+    }
+
+    /// Calls a function for each state: it writes `result.iter().product()` numbers. What is
+    /// long lets other threads of Python run, and ends by a signal.
+    pub(crate) fn each<'py>(
+        &self,
+        py: Python<'py>,
+        result: &[usize],
+        mut function: impl FnMut(&[&[f64]], &mut [f64]) + Send,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let shape = [&self.shape[..], result].concat();
+        let mut values = room(&shape)?;
+        values.resize(shape.iter().product(), 0.0);
+        let length: usize = result.iter().product();
+        let count: usize = self.shape.iter().product();
+        let size = length + self.arguments.iter().map(|(_, width)| width).sum::<usize>();
+        let pause = (4096 / size.max(1)).max(1);
+        let mut fill = || {
+            let mut given: Vec<&[f64]> = Vec::with_capacity(self.arguments.len());
+            for (index, out) in values.chunks_exact_mut(length.max(1)).enumerate() {
+                if index % pause == 0 {
+                    interruption::look();
+                }
+                given.clear();
+                let rows = self.arguments.iter();
+                given.extend(rows.map(|(all, width)| &all[index * width..(index + 1) * width]));
+                function(&given, out);
+            }
+        };
+        match count * size > SHORT {
+            true => detached(py, fill)?,
+            false => fill(),
+        }
+        plain(values.into_pyarray(py).reshape(shape)?.into_any())
+    }
+}
+
+/// Numbers below which a function is done before anybody waits for it.
+const SHORT: usize = 10_000;
+
+/// Axes that two shapes have together.
+fn common(one: &[usize], other: &[usize]) -> Option<Vec<usize>> {
+    let length = one.len().max(other.len());
+    let at = |shape: &[usize], axis: usize| match (axis + shape.len()).checked_sub(length) {
+        Some(own) => shape[own],
+        None => 1,
+    };
+    let axis = |axis: usize| match (at(one, axis), at(other, axis)) {
+        (1, own) | (own, 1) => Some(own),
+        (own, same) => (own == same).then_some(own),
+    };
+    (0..length).map(axis).collect()
+}
+
+/// A number in place of an array without axes.
+fn plain(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    match array.getattr("ndim")?.extract::<usize>()? {
+        0 => array.get_item(PyTuple::empty(array.py())),
+        1.. => Ok(array),
     }
 }
 
@@ -197,16 +340,14 @@ pub(crate) fn by_state<'py, const RESULTS: usize>(
     py: Python<'py>,
     states: &Numbers<'py>,
     dimension: usize,
-    function: impl Fn(&[f64]) -> [f64; RESULTS],
-) -> PyResult<Table<'py>> {
-    let mut shape = axes_of_states(states, dimension)?;
-    let numbers = states.to_vec();
-    let results = numbers.chunks_exact(dimension).flat_map(function);
-    let results: Vec<f64> = results.collect();
-    if RESULTS > 1 {
-        shape.push(RESULTS);
-    }
-    results.into_pyarray(py).reshape(shape)
+    function: impl Fn(&[f64]) -> [f64; RESULTS] + Send + Sync,
+) -> PyResult<Bound<'py, PyAny>> {
+    let together = Together::of(&[("y", states, dimension)])?;
+    let result: &[usize] = if RESULTS > 1 { &[RESULTS] } else { &[] };
+    together.each(py, result, |given, out| {
+        let results = given.iter().map(|state| function(state)).next();
+        out.copy_from_slice(&results.unwrap_or([f64::NAN; RESULTS]));
+    })
 }
 
 /// Names of the components of a state: `theta_parent` to `omega_child_2`.

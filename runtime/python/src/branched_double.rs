@@ -2,21 +2,23 @@
 
 use std::sync::Arc;
 
-use branched_pendulum::system::{AbsoluteAngles, RatesOnly};
+use branched_pendulum::ensemble::{Ensemble, Samples};
+use branched_pendulum::integrate::Taylor;
+use branched_pendulum::system::{AbsoluteAngles, RatesOnly, State};
 use branched_pendulum::{Transfer, TransferForms};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, Table, by_state};
+use crate::arrays::{Numbers, by_state};
+use crate::estimates::Coordinates;
 use crate::motions::MeasuredModel;
 use crate::pendulum::Pendulum;
-use crate::smoothing::Coordinates;
 use paper::Paper;
 
-/// The paper's scene as the tool wrote it: the repository checks that it is up to date.
+/// The paper's scene as the tool wrote it, a link to it: the repository checks that it is up to date.
 #[allow(dead_code, missing_docs, clippy::wrong_self_convention)]
 #[rustfmt::skip]
-#[path = "../../../tests/fixtures/expanded/paper.rs"]
+#[path = "paper.rs"]
 mod paper;
 
 /// Links, and half the numbers of a state.
@@ -46,6 +48,23 @@ impl MeasuredModel for Paper {
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         let rows = |theta: &[f64; LINKS]| self.mass_matrix(theta).map(Vec::from).to_vec();
         theta.try_into().map(rows).unwrap_or_default()
+    }
+
+    fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String> {
+        match values {
+            [] => Ok(*self),
+            _ => Err("parameters: a compiled model has none, a Tree has them".to_owned()),
+        }
+    }
+
+    fn series_ensemble(
+        _: &Taylor<f64>,
+        _: &AbsoluteAngles<Self>,
+        _: &Ensemble<'_>,
+        _: &[State<f64>],
+        _: &[f64],
+    ) -> Option<Vec<Samples<f64>>> {
+        None
     }
 
     fn link_parents(&self) -> Vec<Option<usize>> {
@@ -104,7 +123,7 @@ fn form(name: &str) -> PyResult<usize> {
     found.ok_or_else(|| {
         let names = names.join("`, `");
         PyValueError::new_err(format!(
-            "there is no form `{name}` of W: there are `{names}`"
+            "form: there is no form `{name}` of W: there are `{names}`"
         ))
     })
 }
@@ -125,48 +144,141 @@ impl BranchedDouble {
         FORMS.iter().map(ToString::to_string).collect()
     }
 
-    /// Returns symmetric coordinates (rad) and their momenta (kg m²/s) of each state of an
-    /// array whose last axis is that of the components: θ of the parent, mean and half the
-    /// difference of the children, then p of each.
-    fn canonical_variables<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
+    /// Returns symmetric coordinates and their momenta.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 6)
+    ///     States.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., 6)
+    ///     θ of the parent, mean and half the difference of the children (rad), then p of each
+    ///     (kg m²/s).
+    ///
+    /// Examples
+    /// --------
+    /// >>> paper = bp.models.BranchedDouble()
+    /// >>> paper.canonical_variables([0.5, 0.3, 0.1, 0, 0, 0])[:3].round(12)
+    /// array([0.5, 0.2, 0.1])
+    fn canonical_variables<'py>(
+        &self,
+        py: Python<'py>,
+        y: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [[a, b, c], [p, q, r]] = self.canonical(state);
             [a, b, c, p, q, r]
         })
     }
 
-    /// Returns the energy H_d (J) of the antiphase mode of each state.
-    fn antiphase_energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
+    /// Returns the energy H_d of the antiphase mode.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 6)
+    ///     States.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float
+    ///     Energies, J.
+    ///
+    /// Examples
+    /// --------
+    /// >>> paper = bp.models.BranchedDouble()
+    /// >>> float(paper.antiphase_energy([0.5, 0.2, 0.2, 0, 0, 0]))
+    /// 0.0
+    fn antiphase_energy<'py>(
+        &self,
+        py: Python<'py>,
+        y: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         by_state(py, &y, 2 * LINKS, |state| {
             let [coordinates, momenta] = self.canonical(state);
             [self.model.antiphase_energy(&coordinates, &momenta)]
         })
     }
 
-    /// Returns the energy transfer W (W) into the antiphase mode of each state, by one of the
-    /// `FORMS`: "angle order 1" is the published one, "exact" leaves nothing out.
+    /// Returns the energy transfer W into the antiphase mode.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 6)
+    ///     States.
+    /// form : str
+    ///     One of `FORMS`: "angle order 1" is the published one, "exact" leaves nothing out.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float
+    ///     W, in W.
+    ///
+    /// Examples
+    /// --------
+    /// >>> paper = bp.models.BranchedDouble()
+    /// >>> y = [0.5, 0.2, 0.1, 1.0, -2.0, -1.5]
+    /// >>> [float(paper.transfer(y, form).round(6)) for form in ("exact", "angle order 1")]
+    /// [-0.000139, 3e-05]
     #[pyo3(signature = (y, form = "exact"))]
-    fn transfer<'py>(&self, py: Python<'py>, y: Numbers<'py>, form: &str) -> PyResult<Table<'py>> {
+    fn transfer<'py>(
+        &self,
+        py: Python<'py>,
+        y: Numbers<'py>,
+        form: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let form = self::form(form)?;
         by_state(py, &y, 2 * LINKS, |state| {
             [self.transfer_by(form, state).total()]
         })
     }
 
-    /// Returns the parts W_K and W_P (W) of that transfer, from the kinetic and from the
-    /// potential energy of the rest, along the last axis.
+    /// Returns the parts W_K and W_P of that transfer.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 6)
+    ///     States.
+    /// form : str
+    ///     One of `FORMS`.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., 2)
+    ///     W_K and W_P, in W: from the kinetic and from the potential energy of the rest.
+    ///
+    /// Examples
+    /// --------
+    /// >>> paper = bp.models.BranchedDouble()
+    /// >>> y = [0.5, 0.2, 0.1, 1.0, -2.0, -1.5]
+    /// >>> bool(np.isclose(paper.transfer_parts(y).sum(), paper.transfer(y)))
+    /// True
     #[pyo3(signature = (y, form = "exact"))]
     fn transfer_parts<'py>(
         &self,
         py: Python<'py>,
         y: Numbers<'py>,
         form: &str,
-    ) -> PyResult<Table<'py>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let form = self::form(form)?;
         by_state(py, &y, 2 * LINKS, |state| {
             let Transfer { kinetic, potential } = self.transfer_by(form, state);
             [kinetic, potential]
         })
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok()
+    }
+
+    fn __hash__(&self) -> u64 {
+        LINKS as u64
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let class = py.get_type::<Self>();
+        Ok((class, ()).into_pyobject(py)?.into_any())
     }
 
     fn __repr__(&self) -> String {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 use branched_pendulum::integrate::{
-    AnyIntegrator, Crossing, Event, Occurrence, Report, StopReason,
+    AnyIntegrator, Crossing, Event, IntegrationError, Occurrence, Solution,
 };
 use branched_pendulum::system::State;
 use numpy::PyArray1;
@@ -12,7 +12,6 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::arrays::Number;
-use crate::failures::failed;
 use crate::motions::Motions;
 
 /// A function of Python whose zeros are looked for, as SciPy's: with `terminal` and
@@ -75,6 +74,8 @@ impl<'py> Watched<'py> {
     }
 
     fn value(&self, time: f64, state: &[f64]) -> PyResult<f64> {
+        // Functions that are no Python look at no signals.
+        self.function.py().check_signals()?;
         let state = PyArray1::from_slice(self.function.py(), state);
         let value = self.function.call1((time, state))?.extract::<Number>();
         let value = value.map_err(|error| {
@@ -85,21 +86,19 @@ impl<'py> Watched<'py> {
     }
 }
 
-/// Times and states of each event, the end of the run and its account.
-pub(crate) struct FoundEvents {
-    pub(crate) crossings: Vec<(Vec<f64>, Vec<f64>)>,
-    pub(crate) end: f64,
-    pub(crate) report: Report<f64>,
-}
+/// Times and states of each event.
+pub(crate) type Crossings = Vec<(Vec<f64>, Vec<f64>)>;
 
-impl FoundEvents {
-    /// Returns true if the run ended at a terminal event.
-    pub(crate) fn is_stopped(&self) -> bool {
-        self.report.stop == StopReason::StoppedByEvent
-    }
+/// Events along a motion, as far as it came, and its end.
+pub(crate) struct FoundEvents {
+    pub(crate) crossings: Crossings,
+    pub(crate) outcome: Result<Solution<f64>, IntegrationError<f64>>,
 }
 
 /// Finds events along a motion; the functions are Python's, so that its other threads wait.
+///
+/// # Errors
+/// What a function has raised, or the handler of a signal.
 pub(crate) fn find_events(
     motions: &dyn Motions,
     method: &AnyIntegrator<f64>,
@@ -134,14 +133,9 @@ pub(crate) fn find_events(
         }
         ControlFlow::Continue(())
     };
-    let run = motions.events(method, start, end, &events, &mut visit);
-    if let Some(error) = error.take() {
-        return Err(error);
+    let outcome = motions.events(method, start, end, &events, &mut visit);
+    match error.take() {
+        Some(error) => Err(error),
+        None => Ok(FoundEvents { crossings, outcome }),
     }
-    let solution = run.map_err(failed)?;
-    Ok(FoundEvents {
-        crossings,
-        end: solution.state.time,
-        report: solution.report,
-    })
 }

@@ -33,6 +33,9 @@ fn words(failure: &Failure<f64>) -> String {
         Failure::Input(InputError::ToleranceBelowRounding { .. }) => {
             format!("{failure} (rtol, atol)")
         }
+        Failure::Input(InputError::NoSeries) => {
+            "method: a compiled model has no Taylor series, a Tree has them".to_owned()
+        }
         Failure::StepLimit { .. } => format!("{failure}: more are made with max_steps="),
         failure => failure.to_string(),
     }

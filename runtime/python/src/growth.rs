@@ -1,51 +1,17 @@
-//! Growth of small differences: the class `Growth`.
+//! Growth of small differences: `Pendulum.growth`.
 
 use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::system::State;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::matrix;
 use crate::failures::Failures;
+use crate::interrupts::detached;
+use crate::memory::{bytes, need};
 use crate::motions::Motions;
-
-/// Growth of a small difference along motions, a row or a number for each of them. NaN where a
-/// motion could not be followed.
-///
-/// Everything is computed at two tolerances: where motions are chaotic, growth over a long time
-/// is a number that no tolerance finds, and `factor_changes` says so.
-#[pyclass(frozen, module = "branched_pendulum")]
-pub(crate) struct Growth {
-    /// Growth factors up to each horizon: the largest difference over its amplitude at the
-    /// start; rows are motions.
-    #[pyo3(get)]
-    factors: Py<PyArray2<f64>>,
-    /// Relative differences of the factors between the two tolerances: beyond a hundredth they
-    /// are not determined.
-    #[pyo3(get)]
-    factor_changes: Py<PyArray2<f64>>,
-    /// Growth rates (1/s) over the last horizon; near zero where differences keep their size,
-    /// though they beat.
-    #[pyo3(get)]
-    rates: Py<PyArray1<f64>>,
-    /// Frequencies (Hz) of the differences: turns of the difference and its rate about zero.
-    #[pyo3(get)]
-    frequencies: Py<PyArray1<f64>>,
-    /// Times after the start (s) up to which growth was asked for.
-    #[pyo3(get)]
-    horizons: Py<PyArray1<f64>>,
-}
-
-#[pymethods]
-impl Growth {
-    fn __repr__(&self, py: Python<'_>) -> String {
-        let (motions, horizons) = (self.rates.bind(py).len(), self.horizons.bind(py));
-        format!("Growth along {motions} motions up to {horizons} s")
-    }
-}
+use crate::results::{array, result};
 
 /// Sets of links that are copies and in phase at all starts, by their names.
 pub(crate) fn copies(
@@ -71,6 +37,12 @@ pub(crate) fn copies(
     })
 }
 
+/// Looks in a period of the difference.
+const LOOKS_A_PERIOD: f64 = 32.0;
+
+/// Numbers that are kept of a look, about.
+const COPIES_OF_LOOKS: usize = 8;
+
 /// Growth that is asked for.
 pub(crate) struct GrowthTask {
     pub(crate) starts: Vec<State<f64>>,
@@ -81,24 +53,28 @@ pub(crate) struct GrowthTask {
 
 impl GrowthTask {
     /// Growth of a difference between two links, by their names, along all motions.
-    pub(crate) fn grown(
-        self,
-        py: Python<'_>,
+    pub(crate) fn grown<'py>(
+        mut self,
+        py: Python<'py>,
         motions: &dyn Motions,
         pair: &[String],
         ensemble: &Ensemble<'_>,
-    ) -> PyResult<Growth> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let [one, other] = pair else {
             let text = format!("pair must be two names of links, got {}", pair.len());
             return Err(PyValueError::new_err(text));
         };
         let alike = vec![one.clone(), other.clone()];
         let copies = copies(motions, &[alike], &self.starts)?;
-        let grown = py.detach(|| {
+        self.frequency_hz = self
+            .frequency_hz
+            .or_else(|| motions.frequency_of_difference(&copies));
+        self.check_memory()?;
+        let grown = detached(py, || {
             ensemble.map(&self.starts, |_, start| {
                 motions.growth(&self, &copies, start)
             })
-        });
+        })?;
         let mut failures = Failures::default();
         let mut all = Vec::with_capacity(grown.len());
         for (place, grown) in grown.into_iter().enumerate() {
@@ -112,13 +88,19 @@ impl GrowthTask {
             });
         }
         failures.warn(py, all.len())?;
-        Growth::of(py, self.horizons.clone(), &all)
+        self.result(py, &all)
     }
-}
 
-impl Growth {
-    fn of(py: Python<'_>, horizons: Vec<f64>, all: &[Option<Grown>]) -> PyResult<Self> {
-        let columns = horizons.len();
+    /// Passes horizons up to which all looks have room.
+    fn check_memory(&self) -> PyResult<()> {
+        let looks = LOOKS_A_PERIOD * self.frequency_hz.unwrap_or(0.0);
+        let looks = looks * self.horizons.last().copied().unwrap_or(0.0);
+        let all = bytes(&[looks.max(0.0) as usize], COPIES_OF_LOOKS);
+        need("growth up to the last horizon", all)
+    }
+
+    fn result<'py>(&self, py: Python<'py>, all: &[Option<Grown>]) -> PyResult<Bound<'py, PyAny>> {
+        let columns = self.horizons.len();
         let nowhere = Checked {
             value: f64::NAN,
             difference: f64::NAN,
@@ -130,19 +112,21 @@ impl Growth {
                 None => vec![nowhere; columns],
             })
             .collect();
-        let of_factors = |of: fn(&Checked) -> f64| -> PyResult<Py<PyArray2<f64>>> {
-            Ok(matrix(py, factors.iter().map(of).collect(), columns)?.unbind())
+        let of_factors = |of: fn(&Checked) -> f64| {
+            array(py, factors.iter().map(of).collect(), &[all.len(), columns])
         };
-        let each = |of: fn(&Grown) -> f64| -> Py<PyArray1<f64>> {
+        let each = |of: fn(&Grown) -> f64| {
             let values = all.iter().map(|grown| grown.as_ref().map_or(f64::NAN, of));
-            values.collect::<Vec<f64>>().into_pyarray(py).unbind()
+            array(py, values.collect(), &[all.len()])
         };
-        Ok(Self {
-            factors: of_factors(|factor| factor.value)?,
-            factor_changes: of_factors(|factor| factor.difference)?,
-            rates: each(|grown| grown.rate.value),
-            frequencies: each(|grown| grown.frequency_hz.value),
-            horizons: horizons.into_pyarray(py).unbind(),
-        })
+        let fields = [
+            ("factors", of_factors(|factor| factor.value)?),
+            ("factor_changes", of_factors(|factor| factor.difference)?),
+            ("rates", each(|grown| grown.rate.value)?),
+            ("rate_changes", each(|grown| grown.rate.difference)?),
+            ("frequencies", each(|grown| grown.frequency_hz.value)?),
+            ("horizons", array(py, self.horizons.clone(), &[columns])?),
+        ];
+        result(py, "Growth", &fields)
     }
 }

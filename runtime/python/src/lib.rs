@@ -3,15 +3,28 @@
 mod arrays;
 mod branched_double;
 mod budget;
+mod deviations;
+mod estimates;
 mod events;
+mod examples;
 mod failures;
+mod following;
 mod growth;
+mod identify;
+mod interrupts;
+mod mechanics;
+mod memory;
+mod model_smoothing;
 mod motions;
+mod observables;
 mod pendulum;
 mod recording;
+mod results;
+mod sectors;
+mod smooth;
 mod smoothing;
-mod solution;
 mod spectrum;
+mod stepping;
 mod tree;
 
 use pyo3::exceptions::{PyRuntimeError, PyRuntimeWarning, PyValueError};
@@ -29,7 +42,8 @@ pyo3::create_exception!(
     branched_pendulum,
     IntegrationError,
     PyRuntimeError,
-    "A motion that could not be followed to its end."
+    "A motion that could not be followed to its end: `solution` has it up to there, with the \
+     last good state at its end."
 );
 pyo3::create_exception!(
     branched_pendulum,
@@ -54,7 +68,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let description_error = py.get_type::<DescriptionError>();
     description_error.setattr("mistakes", PyList::empty(py))?;
     module.add("DescriptionError", description_error)?;
-    module.add("IntegrationError", py.get_type::<IntegrationError>())?;
+    let integration_error = py.get_type::<IntegrationError>();
+    integration_error.setattr("solution", py.None())?;
+    module.add("IntegrationError", integration_error)?;
     module.add("RequestError", failures::request_error(py)?)?;
     let failed_motions = py.get_type::<FailedMotions>();
     failed_motions.setattr("reasons", PyDict::new(py))?;
@@ -67,14 +83,13 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<pendulum::Pendulum>()?;
     module.add_class::<tree::Tree>()?;
     module.add_class::<branched_double::BranchedDouble>()?;
-    module.add_class::<solution::Solution>()?;
-    module.add_class::<budget::ScaleBudget>()?;
-    module.add_class::<growth::Growth>()?;
+    module.add_class::<results::DenseOutput>()?;
     module.add_class::<recording::Recording>()?;
     module.add_class::<smoothing::SmoothedMotion>()?;
     module.add_class::<spectrum::Lines>()?;
     module.add_function(wrap_pyfunction!(recording::read, module)?)?;
-    module.add_function(wrap_pyfunction!(smoothing::smooth, module)?)?;
+    module.add_function(wrap_pyfunction!(examples::example_texts, module)?)?;
+    module.add_function(wrap_pyfunction!(smooth::smooth, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum::spectrum, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum::lines, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum::running_integral, module)?)

@@ -6,16 +6,19 @@ use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthEr
 use branched_pendulum::analysis::variational::{
     Copies, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
-use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::{
-    AnyIntegrator, DenseError, Dop853, Event, IntegrationError, Integrator, Occurrence, Options,
-    Report, Rk4, RunError, Solution, Trajectory,
+    AnyIntegrator, Dop853, Event, IntegrationError, Integrator, Occurrence, Options, RunError,
+    Solution, Taylor,
 };
+use branched_pendulum::interruption;
 use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, State, TaylorOde};
+use branched_pendulum_measure::SmoothingError;
 
+use crate::estimates::{Coordinates, Estimate};
+use crate::following::{End, KeepError, Kept, Wanted};
 use crate::growth::GrowthTask;
-use crate::smoothing::{Coordinates, Estimate};
+use crate::model_smoothing::{MOST_SMOOTHED, ModelSmoothing};
 
 /// A model with what its measured motions are smoothed by.
 pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
@@ -24,6 +27,21 @@ pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
 
     /// Returns the equations for methods that may ask for Taylor coefficients.
     fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_>;
+
+    /// Returns the model with other values of parameters.
+    ///
+    /// # Errors
+    /// Why there is no such model.
+    fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String>;
+
+    /// Samples of many motions by Taylor series; none of models without.
+    fn series_ensemble(
+        method: &Taylor<f64>,
+        system: &AbsoluteAngles<Self>,
+        ensemble: &Ensemble<'_>,
+        starts: &[State<f64>],
+        times: &[f64],
+    ) -> Option<Vec<Samples<f64>>>;
 
     /// The mass matrix (kg m²) at angles, a row for each link.
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>>;
@@ -56,21 +74,14 @@ pub(crate) trait Motions: Send + Sync {
 
     fn energy(&self, state: &[f64]) -> f64;
 
-    /// States at the given times, one after the other.
-    fn sample(
+    /// Follows a motion and keeps what is wanted of it.
+    fn follow(
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
-        times: &[f64],
-    ) -> Result<(Vec<f64>, Report<f64>), IntegrationError<f64>>;
-
-    /// All steps.
-    fn trajectory(
-        &self,
-        method: &AnyIntegrator<f64>,
-        start: &State<f64>,
-        end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), RunError<f64, DenseError<f64>>>;
+        wanted: Wanted<'_>,
+        kept: &mut Kept,
+    ) -> End;
 
     fn events(
         &self,
@@ -91,6 +102,20 @@ pub(crate) trait Motions: Send + Sync {
         times: &[f64],
     ) -> Option<Vec<Samples<f64>>>;
 
+    /// Samples of motions of models that differ in their parameters, given by name for each
+    /// start, likewise.
+    ///
+    /// # Errors
+    /// Why there is no such model.
+    fn ensemble_of_models(
+        &self,
+        method: &AnyIntegrator<f64>,
+        ensemble: &Ensemble<'_>,
+        parameters: &[(String, Vec<f64>)],
+        starts: &[State<f64>],
+        times: &[f64],
+    ) -> Result<Option<Vec<Samples<f64>>>, String>;
+
     fn lyapunov(
         &self,
         exponents: &Lyapunov,
@@ -103,8 +128,11 @@ pub(crate) trait Motions: Send + Sync {
     /// in phase at all starts.
     fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies>;
 
-    /// Growth of a difference between copies along a motion; without a frequency looked at by
-    /// that of the difference beside all links at rest.
+    /// Frequency (Hz) of the difference between copies beside all links at rest; none where
+    /// it does not oscillate.
+    fn frequency_of_difference(&self, copies: &Copies) -> Option<f64>;
+
+    /// Growth of a difference between copies along a motion.
     fn growth(
         &self,
         task: &GrowthTask,
@@ -124,70 +152,6 @@ pub(crate) trait Motions: Send + Sync {
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
     ) -> Result<Estimate, SmoothingError>;
-}
-
-/// A smoothing by equations of motion that is asked for.
-struct ModelSmoothing<'a, M> {
-    model: &'a M,
-    noise: Option<f64>,
-    friction: bool,
-    times: &'a [f64],
-    angles: &'a [Vec<Option<f64>>],
-    guess: &'a [f64],
-}
-
-/// Most links of a pendulum whose equations smooth angles.
-const MOST_SMOOTHED: usize = 4;
-
-impl<M: MeasuredModel> ModelSmoothing<'_, M> {
-    fn estimate<const N: usize, const D: usize>(&self) -> Result<Estimate, SmoothingError> {
-        let array = |row: &Vec<Option<f64>>| std::array::from_fn(|link| row[link]);
-        let angles: Vec<[Option<f64>; N]> = self.angles.iter().map(array).collect();
-        let (guess, _) = self.guess.as_chunks::<D>();
-        // Forces on a single coordinate, and in the pivot of a single link.
-        let coordinates = self.model.smoothed_coordinates().of_links;
-        let pattern = |row: &Vec<f64>| std::array::from_fn(|link| row[link]);
-        let parents = self.model.link_parents();
-        let joint = |(own, parent): (usize, &Option<usize>)| {
-            let weight = |link: usize| match link {
-                link if link == own => 1.0,
-                link if Some(link) == *parent => -1.0,
-                _ => 0.0,
-            };
-            vec![std::array::from_fn(weight)]
-        };
-        let smoother = ModelSmoother {
-            noise: self.noise,
-            disturbances: coordinates.iter().map(pattern).collect(),
-            frictions: match self.friction {
-                true => parents.iter().enumerate().map(joint).collect(),
-                false => Vec::new(),
-            },
-            ..ModelSmoother::<N>::default()
-        };
-        let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-        let system = linearised(AbsoluteAngles(self.model.clone()));
-        let mass = |theta: &[f64; N]| {
-            let rows = self.model.mass_rows(theta);
-            let entry = |row: usize, column: usize| rows.get(row)?.get(column).copied();
-            std::array::from_fn(|row| {
-                std::array::from_fn(|column| entry(row, column).unwrap_or(f64::NAN))
-            })
-        };
-        let motion = smoother.smooth(&method, &system, mass, self.times, &angles, guess)?;
-        let rows = |of: &dyn Fn(usize) -> [f64; D]| (0..self.times.len()).flat_map(of).collect();
-        Ok(Estimate {
-            states: [
-                rows(&|time| motion.mean(time)),
-                rows(&|time| motion.deviation(time)),
-            ],
-            accelerations: None,
-            noise: vec![motion.noise(); N],
-            whiteness: motion.whiteness(),
-            frictions: motion.frictions().to_vec(),
-            draw: Box::new(move |normal| motion.draw(normal).into_flattened()),
-        })
-    }
 }
 
 impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
@@ -210,30 +174,46 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         }
     }
 
-    fn sample(
+    fn follow(
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
-        times: &[f64],
-    ) -> Result<(Vec<f64>, Report<f64>), IntegrationError<f64>> {
-        let mut values = Vec::with_capacity(times.len() * start.values.len());
-        let visit = |_: f64, state: &[f64]| values.extend_from_slice(state);
-        let solution = method.sample(&M::series(self), start, times, visit)?;
-        Ok((values, solution.report))
-    }
-
-    fn trajectory(
-        &self,
-        method: &AnyIntegrator<f64>,
-        start: &State<f64>,
-        end: f64,
-    ) -> Result<(Trajectory<f64>, Report<f64>), RunError<f64, DenseError<f64>>> {
-        let mut trajectory = Trajectory::new(start.clone());
-        let run = method.try_integrate(&M::series(self), start, end, |step| {
-            trajectory.push(step)?;
-            Ok::<_, DenseError<f64>>(ControlFlow::Continue(()))
+        wanted: Wanted<'_>,
+        kept: &mut Kept,
+    ) -> End {
+        let system = &M::series(self);
+        if let (Wanted::At(times), None) = (wanted, &kept.trajectory) {
+            let run = method.try_sample(system, start, times, |time, state| kept.push(time, state));
+            return Ok(run.map_err(Box::new)?.report);
+        }
+        let end = match wanted {
+            Wanted::At(times) => times.last().copied().unwrap_or(start.time),
+            Wanted::AllSteps(end) => end,
+        };
+        if let Wanted::AllSteps(_) = wanted {
+            // Of one number there is room.
+            drop(kept.push(start.time, &start.values));
+        }
+        let run = method.try_integrate(system, start, end, |step| {
+            if let Some(trajectory) = &mut kept.trajectory {
+                trajectory.push(step).map_err(KeepError::Dense)?;
+            }
+            if let Wanted::AllSteps(_) = wanted {
+                kept.push(step.end_time(), step.end())?;
+            }
+            Ok(ControlFlow::Continue(()))
         });
-        Ok((trajectory, run?.report))
+        if let Wanted::At(times) = wanted {
+            let sampled = kept.sample(times, run.is_ok());
+            let report = run.map_err(Box::new)?.report;
+            sampled.map_err(|error| RunError::Observer {
+                error,
+                last: start.clone(),
+                report,
+            })?;
+            return Ok(report);
+        }
+        Ok(run.map_err(Box::new)?.report)
     }
 
     fn events(
@@ -260,8 +240,36 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             AnyIntegrator::Verner98(method) => {
                 ensemble.sample_in_lanes(method, self, starts, times)
             }
+            AnyIntegrator::Taylor(method) => {
+                return M::series_ensemble(method, self, ensemble, starts, times);
+            }
             _ => return None,
         })
+    }
+
+    fn ensemble_of_models(
+        &self,
+        method: &AnyIntegrator<f64>,
+        ensemble: &Ensemble<'_>,
+        parameters: &[(String, Vec<f64>)],
+        starts: &[State<f64>],
+        times: &[f64],
+    ) -> Result<Option<Vec<Samples<f64>>>, String> {
+        let case = |(index, start): (usize, &State<f64>)| {
+            interruption::look();
+            let own = parameters.iter();
+            let own = own.filter_map(|(name, all)| Some((name.as_str(), *all.get(index)?)));
+            let model = self.0.with_values(&own.collect::<Vec<_>>())?;
+            Ok((AbsoluteAngles(model), start.clone()))
+        };
+        let cases = starts.iter().enumerate().map(case);
+        let cases: Vec<(Self, State<f64>)> = cases.collect::<Result<_, String>>()?;
+        Ok(Some(match method {
+            AnyIntegrator::Dop853(own) => ensemble.sample_models_in_lanes(own, &cases, times),
+            AnyIntegrator::Dopri5(own) => ensemble.sample_models_in_lanes(own, &cases, times),
+            AnyIntegrator::Verner98(own) => ensemble.sample_models_in_lanes(own, &cases, times),
+            _ => return Ok(None),
+        }))
     }
 
     fn lyapunov(
@@ -285,6 +293,10 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         are_in_phase.then_some(copies)
     }
 
+    fn frequency_of_difference(&self, copies: &Copies) -> Option<f64> {
+        BetweenCopies::new(linearised(self.clone()), copies.clone()).frequency_at_rest()
+    }
+
     fn growth(
         &self,
         task: &GrowthTask,
@@ -292,9 +304,8 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         start: &State<f64>,
     ) -> Result<Grown, GrowthError> {
         let system = BetweenCopies::new(linearised(self.clone()), copies.clone());
-        let frequency = task.frequency_hz.or_else(|| system.frequency_at_rest());
         let growth = Growth {
-            frequency_hz: frequency.unwrap_or(f64::NAN),
+            frequency_hz: task.frequency_hz.unwrap_or(f64::NAN),
             horizons: task.horizons.clone(),
             tolerance: task.tolerance,
         };

@@ -1,67 +1,35 @@
 //! The class `Pendulum`: what trees and compiled models have in common.
 
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use branched_pendulum::analysis::variational::{Lyapunov, LyapunovError};
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::integrate::{
-    AnyIntegrator, DenseError, Method, Options, RunError, Tolerance,
-};
 use branched_pendulum::system::State;
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::IntegrationError;
-use crate::arrays::{Numbers, Row, Table, by_state, matrix, whole};
-use crate::events::{FoundEvents, Watched, find_events};
-use crate::failures::{Failures, failed};
-use crate::growth::{Growth, GrowthTask, copies};
-use crate::motions::{Deviations, Motions};
-use crate::smoothing::{SmoothedMotion, Smoother, refused, rows};
-use crate::solution::Solution;
+use crate::arrays::{Numbers, Times, Together, by_state, whole};
+use crate::failures::Failures;
+use crate::interrupts::detached;
+use crate::memory::room;
+use crate::motions::Motions;
+use crate::stepping::Stepping;
 
 /// A pendulum whose motions can be followed: a tree that a text describes, or a compiled model.
 ///
 /// SI units; angles are absolute, in radians from the downward vertical. A state is the angles
-/// (rad) followed by the angular velocities (rad/s), both in the order of `names`.
+/// (rad) followed by the angular velocities (rad/s), both in the order of `names`: 2 n numbers
+/// of n links. Functions of a state take arrays of states of any shape, along whose last axis
+/// a state's numbers stand.
 #[pyclass(frozen, subclass, module = "branched_pendulum")]
 pub(crate) struct Pendulum {
     pub(crate) motions: Arc<dyn Motions>,
 }
 
-/// A method by its name, with its tolerances or its step.
-struct Choice<'a> {
-    name: &'a str,
-    rtol: f64,
-    atol: Option<f64>,
-    step: Option<f64>,
-    max_steps: i128,
-}
-
-impl Choice<'_> {
-    fn method(&self) -> PyResult<AnyIntegrator<f64>> {
-        let method: Method = self
-            .name
-            .parse()
-            .map_err(|error| PyValueError::new_err(format!("{error}")))?;
-        if !method.is_adaptive() && self.step.is_none() {
-            let text = format!("`{method}` goes by steps of one length: give step=...");
-            return Err(PyValueError::new_err(text));
-        }
-        let mut options = Options::with_tolerance(self.rtol);
-        if let Some(atol) = self.atol {
-            options.absolute = Tolerance::Uniform(atol);
-        }
-        options.initial_step = self.step;
-        options.step_limit = whole("max_steps", self.max_steps, 1)?;
-        Ok(method.with_options(options))
-    }
-}
-
 /// An ensemble on all cores, or on as many threads as are given.
-fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
+pub(crate) fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
     let Some(threads) = threads else {
         return Ok(Ensemble::new());
     };
@@ -69,13 +37,11 @@ fn ensemble(threads: Option<i128>) -> PyResult<Ensemble<'static>> {
     Ok(Ensemble::new().threads(threads.unwrap_or(NonZeroUsize::MIN)))
 }
 
-/// A trajectory's failure.
-fn unfinished(error: RunError<f64, DenseError<f64>>) -> PyErr {
-    match error {
-        RunError::Integration(error) => failed(error),
-        error => IntegrationError::new_err(error.to_string()),
-    }
-}
+/// Numbers of samples that are kept between two looks at the memory.
+const BLOCK: usize = 4 << 20;
+
+/// Starts that go together at least, so that threads do not wait for each other.
+const LEAST_STARTS: usize = 512;
 
 #[pymethods]
 impl Pendulum {
@@ -89,134 +55,184 @@ impl Pendulum {
         self.motions.names().len()
     }
 
-    /// Returns the rates of the state `y` at the time `t` (s), as `scipy.integrate.solve_ivp`
-    /// asks for them: angular velocities (rad/s), angular accelerations (rad/s²).
-    fn rhs<'py>(&self, py: Python<'py>, t: f64, y: Numbers<'py>) -> PyResult<Row<'py>> {
-        let state = y.row("y", self.motions.dimension())?;
-        let mut rates = vec![0.0; state.len()];
-        self.motions.rates(t, &state, &mut rates);
-        Ok(rates.into_pyarray(py))
+    /// Returns the rates of states, as `scipy.integrate.solve_ivp` asks for them.
+    ///
+    /// Parameters
+    /// ----------
+    /// t : float or array
+    ///     Time, s: of account where a drive acts.
+    /// y : array, shape (..., 2 n)
+    ///     States. Those of `solve_ivp(..., vectorized=True)` have their numbers along the
+    ///     first axis: `lambda t, y: tree.rhs(t, y.T).T`.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., 2 n)
+    ///     Angular velocities (rad/s), then angular accelerations (rad/s²).
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.rhs(0.0, [[np.pi / 2, 0.0], [0.0, 2.0]]).round(3) + 0.0
+    /// array([[  0.   , -14.715],
+    ///        [  2.   ,   0.   ]])
+    fn rhs<'py>(
+        &self,
+        py: Python<'py>,
+        t: Numbers<'py>,
+        y: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let dimension = self.motions.dimension();
+        let (times, single) = (t.to_vec(), t.shape().is_empty());
+        let motions = &*self.motions;
+        if let ([time], true) = (&times[..], single) {
+            let together = Together::of(&[("y", &y, dimension)])?;
+            let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(*time, given[0], out);
+            return together.each(py, &[dimension], rates);
+        }
+        let times = t.with_axis(py)?;
+        let together = Together::of(&[("t", &times, 1), ("y", &y, dimension)])?;
+        let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(given[0][0], given[1], out);
+        together.each(py, &[dimension], rates)
     }
 
-    /// Returns the energy (J) of a state, or of each state of an array of any shape whose last
-    /// axis is that of the components.
-    fn energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
-        let motions = &self.motions;
+    /// Returns the energy K + U (J) of states.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 2 n)
+    ///     States.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float of one state
+    ///     Energies, J; in the frame that moves with the root's pivot.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> float(rod.energy([0.0, 3.0]) - rod.energy([0.0, 0.0]))
+    /// 1.5
+    fn energy<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let motions = &*self.motions;
         by_state(py, &y, motions.dimension(), |state| [motions.energy(state)])
     }
 
-    /// Follows the motion from the state `y0` at `t[0]`, at the times `t` (s).
+    /// Follows the motion from a state.
     ///
-    /// `method` is one of the runtime's: "dop853", "dopri5" and "verner98" take the tolerances
-    /// `rtol` and `atol` (by default a thousandth of `rtol`), and `step` as the first step that
-    /// is tried; "rk4", "gauss2" to "gauss8" and "animation" go by steps of the length `step`
-    /// (s). With `dense_output=True` the solution has its state at any time: `solution(t)`.
+    /// Parameters
+    /// ----------
+    /// y0 : array, shape (2 n,)
+    ///     The state at the first time.
+    /// t : array, shape (m,), or a pair in parentheses
+    ///     Times (s) at which states are wanted, ascending or descending; of a pair in
+    ///     parentheses, `(0, 10)`, the ends of all steps between them, as SciPy's `t_span`.
+    /// method : str
+    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor" choose their steps;
+    ///     "rk4", "gauss2" to "gauss8" and "animation" go by steps of the length `step`.
+    /// rtol, atol : float; atol also an array of shape (2 n,)
+    ///     Tolerances of one step; `atol` (rad, rad/s) is by default a thousandth of `rtol`.
+    /// step : float
+    ///     Length of all steps (s), of methods with one.
+    /// first_step, max_step : float
+    ///     First step that is tried and the longest one (s), of methods that choose.
+    /// events : function or list of functions
+    ///     Functions `f(t, y)` whose zeros are found, as SciPy's are: with `f.terminal = True`
+    ///     the motion ends at the first, with `f.terminal = k` at the k-th; `f.direction` above
+    ///     or below zero counts rising or falling ones alone. All events at the time of the
+    ///     last one are told, so that a motion from there tells none again and misses none.
+    /// dense_output : bool
+    ///     True to have the state at any time: `solution(t)`.
+    /// max_steps : int
+    ///     Steps after which the motion fails.
     ///
-    /// `events` is a function `f(t, y)` whose zeros are found, or a list of several, as SciPy's
-    /// are: with `f.terminal = True` the motion ends at the first, with `f.terminal = n` at the
-    /// n-th, `f.direction` above or below zero counts rising or falling ones alone. All events
-    /// at the time of the last one are told, so that a motion from there tells none again and
-    /// misses none. Without events other threads of Python run meanwhile.
+    /// Returns
+    /// -------
+    /// Solution
+    ///     Times `t`, states `y` of shape (m, 2 n), `t_events`, `y_events`, `report`.
     ///
-    /// A motion of more than `max_steps` steps raises `IntegrationError`.
-    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false, max_steps = 1_000_000))]
+    /// Raises
+    /// ------
+    /// RequestError
+    ///     The motion cannot be followed as it was asked for.
+    /// IntegrationError
+    ///     It could not be followed to its end: `error.solution` has it up to there.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> motion = rod.integrate([0.1, 0.0], [0.0, 0.5, 1.0], rtol=1e-12)
+    /// >>> motion.y.round(4)
+    /// array([[ 0.1   ,  0.    ],
+    ///        [-0.0339, -0.3607],
+    ///        [-0.077 ,  0.2446]])
+    /// >>> def bottom(t, y):
+    /// ...     return y[0]
+    /// >>> rod.integrate([0.1, 0.0], (0, 2), events=bottom).t_events[0].round(3)
+    /// array([0.41 , 1.229])
+    #[pyo3(signature = (y0, t, method = "dop853", rtol = 1e-9, atol = None, step = None, events = None, dense_output = false, max_steps = 1_000_000, *, first_step = None, max_step = None))]
     #[allow(clippy::too_many_arguments)]
     fn integrate<'py>(
         &self,
         py: Python<'py>,
         y0: Numbers<'py>,
-        t: Numbers<'py>,
+        t: Times<'py>,
         method: &str,
         rtol: f64,
-        atol: Option<f64>,
+        atol: Option<Numbers<'py>>,
         step: Option<f64>,
         events: Option<Bound<'py, PyAny>>,
         dense_output: bool,
         max_steps: i128,
-    ) -> PyResult<Solution> {
-        let choice = Choice {
-            name: method,
+        first_step: Option<f64>,
+        max_step: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stepping = Stepping {
+            method,
             rtol,
-            atol,
+            atol: atol.as_ref(),
             step,
+            first_step,
+            max_step,
             max_steps,
         };
-        let method = choice.method()?;
-        let mut times = t.list("t")?;
-        let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
-            return Err(PyValueError::new_err("t has no times"));
-        };
-        let dimension = self.motions.dimension();
-        let start = State::new(first, y0.row("y0", dimension)?);
-        let watched = match events {
-            Some(events) => Watched::all(&events)?,
-            None => Vec::new(),
-        };
-        let found = match watched.is_empty() {
-            true => None,
-            false => Some(find_events(
-                &*self.motions,
-                &method,
-                &start,
-                last,
-                &watched,
-            )?),
-        };
-        let end = found.as_ref().map_or(last, |found| found.end);
-        if found.as_ref().is_some_and(FoundEvents::is_stopped) {
-            times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
-        }
-        // The motion goes its way again: the search for events keeps no states, and calls of
-        // Python take most of its time.
-        let motions = &*self.motions;
-        let (states, report, trajectory) = py.detach(|| match dense_output {
-            false => {
-                let (states, report) = motions.sample(&method, &start, &times).map_err(failed)?;
-                Ok::<_, PyErr>((states, report, None))
-            }
-            true => {
-                let kept = motions.trajectory(&method, &start, end);
-                let (trajectory, report) = kept.map_err(unfinished)?;
-                let mut states = Vec::with_capacity(times.len() * dimension);
-                for &time in &times {
-                    let state = trajectory.at(time);
-                    states.extend(
-                        state.map_err(|error| IntegrationError::new_err(error.to_string()))?,
-                    );
-                }
-                Ok((states, report, Some(trajectory)))
-            }
-        })?;
-        let (report, crossings) = match found {
-            Some(found) => (found.report, found.crossings),
-            None => (report, Vec::new()),
-        };
-        let (mut t_events, mut y_events) = (Vec::new(), Vec::new());
-        for (times, states) in crossings {
-            t_events.push(times.into_pyarray(py).unbind());
-            y_events.push(matrix(py, states, dimension)?.unbind());
-        }
-        Ok(Solution {
-            t: times.into_pyarray(py).unbind(),
-            y: matrix(py, states, dimension)?.unbind(),
-            t_events,
-            y_events,
-            report,
-            trajectory,
-            names: motions.names(),
-        })
+        self.follow(py, &y0, &t, &stepping, events.as_ref(), dense_output)
     }
 
-    /// Follows many motions, one from each row of `starts`, in vector registers on all cores or
-    /// as many threads as are given: states by start, time and component, NaN from where a
-    /// motion could not be followed. Methods are "dop853", "dopri5" and "verner98". Other
-    /// threads of Python run meanwhile.
+    /// Follows many motions, in vector registers on all cores.
     ///
-    /// Motions that fail, for example by more than `max_steps` steps, are told by one warning,
-    /// `FailedMotions`: its `reasons` has the reason of each by the index of its start. To have
-    /// them, `warnings.simplefilter("error", FailedMotions)` makes an exception of it, and
-    /// `warnings.catch_warnings(record=True)` keeps it beside the states.
-    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None, max_steps = 1_000_000))]
+    /// Parameters
+    /// ----------
+    /// starts : array, shape (k, 2 n)
+    ///     The states at the first time, a row for each motion.
+    /// t : array, shape (m,)
+    ///     Times, s.
+    /// method : str
+    ///     "dop853", "dopri5", "verner98" and, of a `Tree`, "taylor".
+    /// rtol, atol, first_step, max_step, max_steps
+    ///     As those of `integrate`.
+    /// threads : int
+    ///     Number of threads, by default as many as there are cores.
+    /// parameters : dict of arrays, shape (k,)
+    ///     Values of parameters of a `Tree` by name, one for each start; not with "taylor".
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (k, m, 2 n)
+    ///     States, NaN from where a motion could not be followed: the warning `FailedMotions`
+    ///     has the reason of each in `reasons`, by the index of its start. To have them,
+    ///     `warnings.simplefilter("error", FailedMotions)` makes an exception of it, and
+    ///     `warnings.catch_warnings(record=True)` keeps it beside the states.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.ensemble([[0.1, 0.0], [0.2, 0.0]], [0.0, 1.0])[:, -1, 0].round(4)
+    /// array([-0.077, -0.155])
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = l)", l=1)
+    /// >>> rod.ensemble([[0.1, 0.0]] * 2, [0.0, 1.0], parameters={"l": [1, 2]})[:, -1, 0].round(4)
+    /// array([-0.077 , -0.0909])
+    #[pyo3(signature = (starts, t, method = "dop853", rtol = 1e-9, atol = None, threads = None, max_steps = 1_000_000, *, first_step = None, max_step = None, parameters = None))]
     #[allow(clippy::too_many_arguments)]
     fn ensemble<'py>(
         &self,
@@ -225,191 +241,86 @@ impl Pendulum {
         t: Numbers<'py>,
         method: &str,
         rtol: f64,
-        atol: Option<f64>,
+        atol: Option<Numbers<'py>>,
         threads: Option<i128>,
         max_steps: i128,
+        first_step: Option<f64>,
+        max_step: Option<f64>,
+        parameters: Option<BTreeMap<String, Numbers<'py>>>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let choice = Choice {
-            name: method,
+        let dimension = self.motions.dimension();
+        let refused = || {
+            PyValueError::new_err(format!(
+                "ensembles go by `dop853`, `dopri5`, `verner98` and, of trees, `taylor`, not by \
+                 `{method}`"
+            ))
+        };
+        let stepping = Stepping {
+            method,
             rtol,
-            atol,
+            atol: atol.as_ref(),
+            // Methods with steps of one length are refused as such.
             step: None,
+            first_step,
+            max_step,
             max_steps,
         };
-        let chosen = choice.method()?;
+        if ["rk4", "animation"].contains(&method) || method.starts_with("gauss") {
+            return Err(refused());
+        }
+        let chosen = stepping.integrator(dimension)?;
         let times = t.list("t")?;
         let Some(&first) = times.first() else {
             return Err(PyValueError::new_err("t has no times"));
         };
-        let dimension = self.motions.dimension();
         let starts = self.starts(&starts, first)?;
         let ensemble = ensemble(threads)?;
-        let samples = py.detach(|| self.motions.ensemble(&chosen, &ensemble, &starts, &times));
-        let Some(samples) = samples else {
-            return Err(PyValueError::new_err(format!(
-                "ensembles go by `dop853`, `dopri5` or `verner98`, not by `{method}`"
-            )));
-        };
-        let mut failures = Failures::default();
-        for (place, sample) in samples.iter().enumerate() {
-            if let Err(failure) = &sample.end {
-                failures.note(place, failure)?;
-            }
-        }
-        failures.warn(py, samples.len())?;
+        let parameters: Option<Vec<(String, Vec<f64>)>> = parameters
+            .map(|all| {
+                let values = all.into_iter().map(|(name, values)| {
+                    let values = values.row(&format!("parameters[{name:?}]"), starts.len())?;
+                    Ok((name, values))
+                });
+                values.collect::<PyResult<_>>()
+            })
+            .transpose()?;
+        let shape = [starts.len(), times.len(), dimension];
+        let mut values = room(&shape)?;
         let length = dimension * times.len();
-        let mut values = Vec::with_capacity(length * samples.len());
-        for sample in &samples {
-            let begin = values.len();
-            let states = sample.states();
-            states.for_each(|state| values.extend_from_slice(state));
-            values.resize(begin + length, f64::NAN);
+        let mut failures = Failures::default();
+        let block = (BLOCK / length.max(1)).max(LEAST_STARTS);
+        for starts in starts.chunks(block) {
+            let begin = values.len() / length.max(1);
+            let own = parameters.as_ref().map(|all| {
+                let part = |values: &Vec<f64>| values[begin..begin + starts.len()].to_vec();
+                let all = all.iter();
+                all.map(|(name, values)| (name.clone(), part(values)))
+                    .collect::<Vec<_>>()
+            });
+            let motions = &self.motions;
+            let samples = detached(py, || match &own {
+                None => Ok(motions.ensemble(&chosen, &ensemble, starts, &times)),
+                Some(own) => motions.ensemble_of_models(&chosen, &ensemble, own, starts, &times),
+            })?;
+            let samples = samples.map_err(PyValueError::new_err)?;
+            for sample in &samples.ok_or_else(refused)? {
+                let begin = values.len();
+                if let Err(failure) = &sample.end {
+                    failures.note(begin / length.max(1), failure)?;
+                }
+                let states = sample.states();
+                states.for_each(|state| values.extend_from_slice(state));
+                values.resize(begin + length, f64::NAN);
+            }
         }
-        let shape = [samples.len(), times.len(), dimension];
+        failures.warn(py, shape[0])?;
         values.into_pyarray(py).reshape(shape)
-    }
-
-    /// Returns the `count` largest Lyapunov exponents (1/s) of the motion from `y0` at `t0`
-    /// (s), the largest first, and their standard errors: deviations in general position are
-    /// made orthonormal every `interval` (s), and counted over `intervals` of them after
-    /// `settling` others. Other threads of Python run meanwhile.
-    ///
-    /// A motion of copies in phase stays in phase, and has exponents of two kinds: `within`,
-    /// of deviations that are equal in all copies, and `transverse`, of differences between
-    /// copies, which grow where the largest is positive. Either takes sets of names of links
-    /// that are copies, with all that hangs from them: `within=[("child_1", "child_2")]`.
-    #[pyo3(signature = (y0, count = 1, interval = 0.5, settling = 20, intervals = 200, t0 = 0.0, rtol = 1e-9, within = None, transverse = None))]
-    #[allow(clippy::too_many_arguments)]
-    fn lyapunov<'py>(
-        &self,
-        py: Python<'py>,
-        y0: Numbers<'py>,
-        count: i128,
-        interval: f64,
-        settling: i128,
-        intervals: i128,
-        t0: f64,
-        rtol: f64,
-        within: Option<Vec<Vec<String>>>,
-        transverse: Option<Vec<Vec<String>>>,
-    ) -> PyResult<(Row<'py>, Row<'py>)> {
-        let start = State::new(t0, y0.row("y0", self.motions.dimension())?);
-        let exponents = Lyapunov {
-            count: whole("count", count, 1)?,
-            interval,
-            settling: whole("settling", settling, 0)?,
-            intervals: whole("intervals", intervals, 1)?,
-        };
-        let starts = std::slice::from_ref(&start);
-        let of = |alike: Vec<Vec<String>>| copies(&*self.motions, &alike, starts);
-        let deviations = match (within, transverse) {
-            (None, None) => Deviations::All,
-            (Some(alike), None) => Deviations::Within(of(alike)?),
-            (None, Some(alike)) => Deviations::Transverse(of(alike)?),
-            _ => {
-                let text = "exponents are those `within` motions in phase or `transverse` to them";
-                return Err(PyValueError::new_err(text));
-            }
-        };
-        let options = Options::with_tolerance(rtol);
-        let spectrum = py.detach(|| {
-            self.motions
-                .lyapunov(&exponents, &deviations, options, &start)
-        });
-        let spectrum = spectrum.map_err(|error| match error {
-            LyapunovError::Count { .. }
-            | LyapunovError::Interval { .. }
-            | LyapunovError::NotInPhase => PyValueError::new_err(error.to_string()),
-            LyapunovError::Integration(failure) => failed(failure),
-            error => IntegrationError::new_err(error.to_string()),
-        })?;
-        let [exponents, errors] = [spectrum.exponents, spectrum.standard_errors];
-        Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
-    }
-
-    /// Follows motions from each row of `starts`, at rest or not, with a vanishing difference
-    /// between two identical links beside them, and returns its `Growth` up to the `horizons`
-    /// (s) after the start. The links are given by their names, and start alike with all that
-    /// hangs from them.
-    ///
-    /// Growth is looked at 32 times a period of `frequency` (Hz), by default that of the
-    /// difference beside all links hanging at rest. The tolerance `rtol` is used with a
-    /// hundredth of it besides, whose result is returned. All cores are used, or as many
-    /// threads as are given; other threads of Python run meanwhile. Motions that could not be
-    /// followed are NaN, and told by the warning `FailedMotions`, as those of `ensemble`.
-    #[pyo3(signature = (starts, pair, horizons, frequency = None, rtol = 1e-9, threads = None))]
-    #[allow(clippy::too_many_arguments)]
-    fn growth(
-        &self,
-        py: Python<'_>,
-        starts: Numbers<'_>,
-        pair: Vec<String>,
-        horizons: Numbers<'_>,
-        frequency: Option<f64>,
-        rtol: f64,
-        threads: Option<i128>,
-    ) -> PyResult<Growth> {
-        let task = GrowthTask {
-            starts: self.starts(&starts, 0.0)?,
-            horizons: horizons.list("horizons")?,
-            frequency_hz: frequency,
-            tolerance: rtol,
-        };
-        task.grown(py, &*self.motions, &pair, &ensemble(threads)?)
-    }
-
-    /// Returns the motion behind measured angles `theta` (rad from the downward vertical, a
-    /// column for each link; NaN where they are missing) at times `t` (s), which may be uneven.
-    ///
-    /// "kinematic" knows that the motion is smooth and no more; "polynomials" fits one near each
-    /// time, a cross-check; "equations" knows the equations of motion, of pendulums of up to
-    /// four links, and finds out how much they lack: errors are far smaller where they hold.
-    /// With `friction` they also find friction that they lack, where the data show some. Noise
-    /// is found from the data, unless `noise` (rad) is given. A compiled model is smoothed in
-    /// its symmetric coordinates. Other threads of Python run meanwhile.
-    #[pyo3(signature = (t, theta, method = "kinematic", noise = None, friction = false))]
-    fn smooth(
-        &self,
-        py: Python<'_>,
-        t: Numbers<'_>,
-        theta: Numbers<'_>,
-        method: &str,
-        noise: Option<f64>,
-        friction: bool,
-    ) -> PyResult<SmoothedMotion> {
-        let (times, angles) = (t.list("t")?, rows("theta", &theta, t.shape())?);
-        let names = self.motions.names();
-        let columns = angles.first().map_or(0, Vec::len);
-        if columns != names.len() {
-            let links = names.len();
-            let text = format!("theta has {columns} columns, must have {links}, one for each link");
-            return Err(PyValueError::new_err(text));
-        }
-        let by_equations = method == "equations";
-        if friction && !by_equations {
-            let text = format!("friction = True needs method = \"equations\", not {method:?}");
-            return Err(PyValueError::new_err(text));
-        }
-        let first = if by_equations { "kinematic" } else { method };
-        let smoother = Smoother::of(first, noise).ok_or_else(|| {
-            let words = r#"must be "kinematic", "polynomials" or "equations""#;
-            PyValueError::new_err(format!("method is {method:?}, {words}"))
-        })?;
-        let motions = &self.motions;
-        let estimate = py.detach(|| {
-            let estimate = smoother.estimate(&times, &angles, motions.smoothed_coordinates())?;
-            match by_equations {
-                true => motions.smooth(noise, friction, &times, &angles, &estimate.states[0]),
-                false => Ok(estimate),
-            }
-        });
-        SmoothedMotion::of(py, times, names, estimate.map_err(refused)?)
     }
 }
 
 impl Pendulum {
     /// States at a time, from the rows of an array.
-    fn starts(&self, starts: &Numbers<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
+    pub(crate) fn starts(&self, starts: &Numbers<'_>, time: f64) -> PyResult<Vec<State<f64>>> {
         let rows = starts.rows("starts", self.motions.dimension())?;
         Ok(rows.into_iter().map(|row| State::new(time, row)).collect())
     }

@@ -11,9 +11,11 @@ use branched_pendulum_data::{
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::ReadError;
 use crate::arrays::{frame, matrix, whole};
+use crate::interrupts::on_own_thread;
 
 /// Measured angles of links against time, as they were read from a file.
 #[pyclass(frozen, module = "branched_pendulum.data")]
@@ -51,6 +53,15 @@ pub(crate) struct Recording {
     dot_distances: Option<Vec<(f64, f64)>>,
 }
 
+/// Arrays, names and findings of a recording.
+type Arrays = (
+    Py<PyArray1<f64>>,
+    Py<PyArray2<f64>>,
+    Py<PyArray2<bool>>,
+    Vec<String>,
+    Vec<String>,
+);
+
 #[pymethods]
 impl Recording {
     fn __len__(&self, py: Python<'_>) -> usize {
@@ -61,6 +72,54 @@ impl Recording {
     /// link.
     fn frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         frame(py, &self.t, &self.theta, self.names.clone())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let make = py.get_type::<Self>().getattr("_of")?;
+        let (names, findings) = (self.names.clone(), self.findings.clone());
+        let arrays = (&self.t, &self.theta, &self.marked, names, findings);
+        let numbers = (self.interval, self.jitter, self.gaps.clone());
+        let state = (arrays, numbers, self.dot_distances.clone());
+        Ok((make, state).into_pyobject(py)?.into_any())
+    }
+
+    #[staticmethod]
+    fn _of(
+        arrays: Arrays,
+        numbers: (f64, f64, Vec<(f64, f64)>),
+        dot_distances: Option<Vec<(f64, f64)>>,
+    ) -> Self {
+        let (t, theta, marked, names, findings) = arrays;
+        let (interval, jitter, gaps) = numbers;
+        Self {
+            t,
+            theta,
+            marked,
+            names,
+            findings,
+            interval,
+            jitter,
+            gaps,
+            dot_distances,
+        }
+    }
+
+    /// Recordings of the same times and angles are equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let py = other.py();
+        let Ok(other) = other.cast::<Self>() else {
+            return Ok(false);
+        };
+        let other = other.get();
+        let missing = PyDict::new(py);
+        missing.set_item("equal_nan", true)?;
+        let same = py.import("numpy")?.getattr("array_equal")?;
+        let [times, angles] = [
+            same.call1((&self.t, &other.t))?.is_truthy()?,
+            same.call((&self.theta, &other.theta), Some(&missing))?
+                .is_truthy()?,
+        ];
+        Ok(times && angles && self.names == other.names)
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
@@ -276,12 +335,12 @@ pub(crate) fn read(
         likelihood,
         outliers,
     };
-    let angles = py.detach(|| {
+    let angles = on_own_thread(py, move || {
         let mut table = Table::read(&path, &options)?;
         if let Some(counts) = counts {
             table = table.without_repeated_times(&clock, counts)?;
         }
         read_angles(&table, &of_columns, &of_dots)
-    });
+    })?;
     Recording::of(py, angles.map_err(|error| refused(py, error))?)
 }

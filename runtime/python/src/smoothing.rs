@@ -1,168 +1,23 @@
 //! Motions behind measured angles: the class `SmoothedMotion`.
 
-use branched_pendulum_measure::{SmoothedMotion as Smoothed, KinematicSmoother, LocalPolynomials, SmoothedCoordinates, SmoothingError};
+use std::sync::Arc;
+
+use branched_pendulum::interruption;
+use branched_pendulum_measure::SmoothingError;
 use numpy::{
     IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use crate::arrays::{Numbers, Table, frame, matrix, shown, state_names, whole};
-
-/// Draws a motion by normal numbers: states, one after the other.
-pub(crate) type Draw = dyn Fn(&mut dyn FnMut() -> f64) -> Vec<f64> + Send + Sync;
-
-/// Means of an estimated motion and their errors, a row for each time, without Python.
-pub(crate) struct Estimate {
-    pub(crate) states: [Vec<f64>; 2],
-    /// None where nothing is said of them.
-    pub(crate) accelerations: Option<[Vec<f64>; 2]>,
-    /// Standard deviation of the data of each coordinate that was smoothed.
-    pub(crate) noise: Vec<f64>,
-    pub(crate) whiteness: f64,
-    /// Coefficients of friction that equations of motion lack, N m s.
-    pub(crate) frictions: Vec<f64>,
-    pub(crate) draw: Box<Draw>,
-}
-
-/// Linear maps between angles of links and the coordinates that are smoothed, a row for each
-/// result.
-#[derive(Clone, Debug)]
-pub(crate) struct Coordinates {
-    pub(crate) of_links: Vec<Vec<f64>>,
-    pub(crate) links: Vec<Vec<f64>>,
-}
-
-impl Coordinates {
-    /// The angles themselves.
-    pub(crate) fn links(count: usize) -> Self {
-        let row = |own: usize| {
-            (0..count)
-                .map(|at| f64::from(u8::from(at == own)))
-                .collect()
-        };
-        let unit: Vec<Vec<f64>> = (0..count).map(row).collect();
-        Self {
-            of_links: unit.clone(),
-            links: unit,
-        }
-    }
-
-    /// Data of a coordinate: missing where a link is that it is formed of.
-    fn data(&self, coordinate: usize, angles: &[Vec<Option<f64>>]) -> Vec<Option<f64>> {
-        let weights = &self.of_links[coordinate];
-        let sum = |row: &Vec<Option<f64>>| {
-            let terms = weights
-                .iter()
-                .zip(row)
-                .filter(|(weight, _)| **weight != 0.0);
-            terms.map(|(weight, angle)| Some(weight * (*angle)?)).sum()
-        };
-        angles.iter().map(sum).collect()
-    }
-
-    /// Angles of the links, of values of the coordinates.
-    fn angles(&self, coordinates: &[f64]) -> impl Iterator<Item = f64> {
-        let sum = move |weights: &Vec<f64>| -> f64 {
-            weights
-                .iter()
-                .zip(coordinates)
-                .map(|(weight, value)| weight * value)
-                .sum()
-        };
-        self.links.iter().map(sum)
-    }
-
-    /// Deviations of the links, of those of coordinates with independent errors.
-    fn deviations(&self, coordinates: &[f64]) -> impl Iterator<Item = f64> {
-        let sum = move |weights: &Vec<f64>| -> f64 {
-            let terms = weights.iter().zip(coordinates);
-            terms.map(|(weight, value)| (weight * value).powi(2)).sum()
-        };
-        self.links.iter().map(move |weights| sum(weights).sqrt())
-    }
-
-    fn state(&self, state: &[f64]) -> Vec<f64> {
-        let (values, rates) = state.split_at(self.links.len());
-        self.angles(values).chain(self.angles(rates)).collect()
-    }
-}
-
-/// A smoother that knows no equations of motion, by its name.
-#[derive(Clone, Copy)]
-pub(crate) enum Smoother {
-    Kinematic(KinematicSmoother),
-    Polynomials(LocalPolynomials),
-}
-
-impl Smoother {
-    pub(crate) fn of(method: &str, noise: Option<f64>) -> Option<Self> {
-        match method {
-            "kinematic" => Some(Self::Kinematic(KinematicSmoother { noise, jerk: None })),
-            "polynomials" => {
-                let usual = LocalPolynomials::default();
-                Some(Self::Polynomials(LocalPolynomials { noise, ..usual }))
-            }
-            _ => None,
-        }
-    }
-
-    fn smooth(self, times: &[f64], data: &[Option<f64>]) -> Result<Smoothed<3>, SmoothingError> {
-        match self {
-            Self::Kinematic(smoother) => smoother.smooth(times, data),
-            Self::Polynomials(smoother) => smoother.smooth(times, data),
-        }
-    }
-
-    /// Smooths coordinates of links, each by itself.
-    pub(crate) fn estimate(
-        self,
-        times: &[f64],
-        angles: &[Vec<Option<f64>>],
-        coordinates: Coordinates,
-    ) -> Result<Estimate, SmoothingError> {
-        let data = (0..coordinates.of_links.len()).map(|own| coordinates.data(own, angles));
-        let smoothed = SmoothedCoordinates::new(data, |data| self.smooth(times, data))?;
-        let all = smoothed.coordinates();
-        // Of the coordinates' values, rates and accelerations, at a time.
-        let rows = |of: &dyn Fn(&Smoothed<3>) -> [f64; 3]| -> [Vec<f64>; 3] {
-            let each: Vec<[f64; 3]> = all.iter().map(of).collect();
-            [0, 1, 2].map(|order| each.iter().map(|own| own[order]).collect())
-        };
-        let mut states = [Vec::new(), Vec::new()];
-        let mut accelerations = [Vec::new(), Vec::new()];
-        for time in 0..times.len() {
-            let [values, rates, second] = rows(&|own| own.mean(time));
-            states[0].extend(
-                coordinates
-                    .angles(&values)
-                    .chain(coordinates.angles(&rates)),
-            );
-            accelerations[0].extend(coordinates.angles(&second));
-            let [values, rates, second] = rows(&|own| own.deviation(time));
-            let [values, rates] = [&values, &rates].map(|own| coordinates.deviations(own));
-            states[1].extend(values.chain(rates));
-            accelerations[1].extend(coordinates.deviations(&second));
-        }
-        Ok(Estimate {
-            states,
-            accelerations: Some(accelerations),
-            noise: all.iter().map(Smoothed::noise).collect(),
-            whiteness: smoothed.whiteness(),
-            frictions: Vec::new(),
-            draw: Box::new(move |normal| {
-                let drawn = smoothed.draw(normal);
-                drawn
-                    .iter()
-                    .flat_map(|state| coordinates.state(state))
-                    .collect()
-            }),
-        })
-    }
-}
+use crate::estimates::{Draw, Estimate};
+use crate::interrupts::detached;
+use crate::memory::room;
 
 /// Data of several columns, a row a time; NaN is missing.
 pub(crate) fn rows(
@@ -225,8 +80,13 @@ pub(crate) struct SmoothedMotion {
     #[pyo3(get)]
     frictions: Py<PyArray1<f64>>,
     names: Vec<String>,
-    draw: Box<Draw>,
+    draw: Arc<Draw>,
+    /// The function that estimated the motion, and its arguments.
+    origin: Origin,
 }
+
+/// A function of Python and its arguments.
+pub(crate) type Origin = (Py<PyAny>, Py<PyTuple>);
 
 impl SmoothedMotion {
     pub(crate) fn of(
@@ -234,6 +94,7 @@ impl SmoothedMotion {
         times: Vec<f64>,
         names: Vec<String>,
         estimate: Estimate,
+        origin: Origin,
     ) -> PyResult<Self> {
         let links = names.len();
         let array = |values: Vec<f64>, columns: usize| -> PyResult<Py<PyArray2<f64>>> {
@@ -254,7 +115,8 @@ impl SmoothedMotion {
             whiteness: estimate.whiteness,
             frictions: estimate.frictions.into_pyarray(py).unbind(),
             names,
-            draw: estimate.draw,
+            draw: estimate.draw.into(),
+            origin,
         })
     }
 
@@ -266,8 +128,25 @@ impl SmoothedMotion {
 
 #[pymethods]
 impl SmoothedMotion {
-    /// Returns `count` motions drawn from those that the data allow, by random numbers of a
-    /// seed: states by draw, time and component.
+    /// Returns motions drawn from those that the data allow.
+    ///
+    /// Parameters
+    /// ----------
+    /// count : int
+    ///     How many.
+    /// seed : int
+    ///     Seed of the random numbers.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (count, m, 2 n)
+    ///     States by draw, time and component.
+    ///
+    /// Examples
+    /// --------
+    /// >>> motion = bp.analysis.smooth(np.arange(50) / 10, np.sin(np.arange(50) / 10))
+    /// >>> motion.draws(3).shape
+    /// (3, 50, 2)
     #[pyo3(signature = (count = 200, seed = 0))]
     fn draws<'py>(
         &self,
@@ -276,21 +155,41 @@ impl SmoothedMotion {
         seed: i128,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let (count, seed) = (whole("count", count, 0)?, whole("seed", seed, 0)?);
-        let values = py.detach(|| {
-            let mut normal = Self::normal(seed);
-            let draws = (0..count).flat_map(|_| (self.draw)(&mut normal));
-            draws.collect::<Vec<f64>>()
-        });
         let times = self.t.bind(py).len();
         let shape = [count, times, 2 * self.names.len()];
+        let mut values = room(&shape)?;
+        let draw = &self.draw;
+        detached(py, || {
+            let mut normal = Self::normal(seed);
+            for _ in 0..count {
+                interruption::look();
+                values.extend(draw(&mut normal));
+            }
+        })?;
         values.into_pyarray(py).reshape(shape)
     }
 
-    /// Returns mean and standard deviation of what `function` returns for each of `count`
-    /// motions drawn (see `draws`): an array for the states of one, a row for each time.
+    /// Returns what follows from the motion, with its error, from motions drawn.
     ///
-    /// `estimate(model.antiphase_energy)` is H_d (J) at each time with its error,
-    /// `estimate(lambda y: running_integral(t, model.transfer(y)))` the energy (J) that flowed.
+    /// Parameters
+    /// ----------
+    /// function : function
+    ///     Of the states of one motion, shape (m, 2 n): an array of any shape.
+    ///     `model.antiphase_energy` gives H_d (J) at each time,
+    ///     `lambda y: running_integral(t, model.transfer(y))` the energy (J) that flowed.
+    /// count, seed : int
+    ///     Motions drawn, and the seed.
+    ///
+    /// Returns
+    /// -------
+    /// mean, deviation : arrays of the function's shape
+    ///
+    /// Examples
+    /// --------
+    /// >>> motion = bp.analysis.smooth(np.arange(50) / 10, np.sin(np.arange(50) / 10))
+    /// >>> mean, error = motion.estimate(lambda y: y[:, 0] ** 2, count=20)
+    /// >>> mean.shape, error.shape
+    /// ((50,), (50,))
     #[pyo3(signature = (function, count = 200, seed = 0))]
     fn estimate<'py>(
         &self,
@@ -303,7 +202,7 @@ impl SmoothedMotion {
         let mut normal = Self::normal(whole("seed", seed, 0)?);
         let (mut shape, mut means, mut squares) = (Vec::new(), Vec::new(), Vec::new());
         for number in 1..=count {
-            let states = py.detach(|| (self.draw)(&mut normal));
+            let states = detached(py, || (self.draw)(&mut normal))?;
             let states = matrix(py, states, 2 * self.names.len())?;
             let values = function.call1((states,))?;
             let values = values.extract::<Numbers<'py>>().map_err(|error| {
@@ -343,37 +242,30 @@ impl SmoothedMotion {
         frame(py, &self.t, &self.y, state_names(&self.names))
     }
 
+    /// Motions of the same data by the same function are equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let py = other.py();
+        let Ok(other) = other.cast::<Self>() else {
+            return Ok(false);
+        };
+        let other = other.get();
+        let same = py.import("numpy")?.getattr("array_equal")?;
+        let arrays = [(&self.y, &other.y), (&self.y_error, &other.y_error)];
+        for (own, other) in arrays {
+            if !same.call1((own, other))?.is_truthy()? {
+                return Ok(false);
+            }
+        }
+        same.call1((&self.t, &other.t))?.is_truthy()
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> (Py<PyAny>, Py<PyTuple>) {
+        let (function, arguments) = &self.origin;
+        (function.clone_ref(py), arguments.clone_ref(py))
+    }
+
     fn __repr__(&self, py: Python<'_>) -> String {
         let (names, times) = (self.names.join(", "), self.t.bind(py).len());
         format!("SmoothedMotion of {names} at {times} times")
     }
-}
-
-/// Smooths data `x` (NaN where they are missing) against times `t` (s), which may be uneven: a
-/// column for each coordinate, each by itself.
-///
-/// "kinematic" knows that a motion is smooth and no more: its jerk is white, and noise and jerk
-/// are those of largest likelihood (`noise`, in the unit of the data, if it is known).
-/// "polynomials" fits one near each time, a cross-check. Angles of identical branches are
-/// better smoothed as means and differences: `Pendulum.smooth` does that.
-#[pyfunction]
-#[pyo3(signature = (t, x, method = "kinematic", noise = None))]
-pub(crate) fn smooth(
-    py: Python<'_>,
-    t: Numbers<'_>,
-    x: Numbers<'_>,
-    method: &str,
-    noise: Option<f64>,
-) -> PyResult<SmoothedMotion> {
-    let (times, data) = (t.list("t")?, rows("x", &x, t.shape())?);
-    let smoother = Smoother::of(method, noise).ok_or_else(|| {
-        PyValueError::new_err(format!(
-            "method is {method:?}, must be \"kinematic\" or \"polynomials\""
-        ))
-    })?;
-    let columns = data.first().map_or(0, Vec::len);
-    let coordinates = Coordinates::links(columns);
-    let estimate = py.detach(|| smoother.estimate(&times, &data, coordinates));
-    let names = (1..=columns).map(|number| number.to_string()).collect();
-    SmoothedMotion::of(py, times, names, estimate.map_err(refused)?)
 }

@@ -1,12 +1,15 @@
 //! Spectra of series and their lines: the class `Lines`.
 
-use branched_pendulum_measure::{Lines as Found, LineSearch, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window};
+use branched_pendulum_measure::{
+    LineSearch, Lines as Found, SpectralLine, Spectrum, SpectrumError, SpectrumOptions, Window,
+};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Numbers, Row, Table, whole};
+use crate::interrupts::on_own_thread;
 
 fn refused(error: SpectrumError) -> PyErr {
     PyValueError::new_err(error.to_string())
@@ -19,11 +22,32 @@ fn window(power: i128) -> PyResult<Window> {
     })
 }
 
-/// Returns frequencies (Hz) and amplitudes, in the unit of `x`, of samples taken `sample_rate`
-/// times a second: a sine of amplitude a whose frequency is among them has the amplitude a.
+/// Returns the spectrum of a series: a sine of amplitude a whose frequency is among them has the
+/// amplitude a.
 ///
-/// Frequencies are those of Fourier, or the given ones. `window` is the power of Hann's window
-/// by which samples are weighed, 0 for none; the mean is taken off before, if `remove_mean`.
+/// Parameters
+/// ----------
+/// x : array, shape (m,)
+///     Samples.
+/// sample_rate : float
+///     Samples a second, Hz.
+/// frequencies : array, shape (k,)
+///     Frequencies (Hz), by default those of Fourier.
+/// window : int
+///     Power of Hann's window by which samples are weighed, 0 for none.
+/// remove_mean : bool
+///     True to take off the mean before.
+///
+/// Returns
+/// -------
+/// frequencies, amplitudes : arrays, shape (k,)
+///     Hz, and the unit of `x`.
+///
+/// Examples
+/// --------
+/// >>> x = 2 * np.sin(2 * np.pi * 5 * np.arange(100) / 100)
+/// >>> bp.analysis.spectrum(x, 100, [5.0])[1].round(6)
+/// array([2.])
 #[pyfunction]
 #[pyo3(signature = (x, sample_rate, frequencies = None, window = 1, remove_mean = true))]
 pub(crate) fn spectrum<'py>(
@@ -41,10 +65,10 @@ pub(crate) fn spectrum<'py>(
         remove_mean,
         window: self::window(window)?,
     };
-    let found = py.detach(|| match frequencies {
+    let found = on_own_thread(py, move || match frequencies {
         None => Spectrum::at_fourier_frequencies(&samples, sample_rate, options),
         Some(all) => Spectrum::at_frequencies(&samples, sample_rate, &all, options),
-    });
+    })?;
     let Spectrum {
         frequencies_hz,
         amplitudes,
@@ -57,6 +81,8 @@ pub(crate) fn spectrum<'py>(
 #[pyclass(frozen, module = "branched_pendulum.analysis")]
 pub(crate) struct Lines {
     found: Found,
+    /// Those by which they were found.
+    arguments: Py<PyTuple>,
 }
 
 impl Lines {
@@ -128,9 +154,27 @@ impl Lines {
         values.collect::<Vec<f64>>().into_pyarray(py).reshape(shape)
     }
 
-    /// Returns each line's name as a combination of fundamental frequencies, given in Hz
-    /// under their names: `{"f_+": 1.26, "f_-": 1.58}` names a line "2f_+ − f_-". None where no
-    /// combination up to `order` is within `tolerance` (Hz).
+    /// Returns each line's name as a combination of fundamental frequencies.
+    ///
+    /// Parameters
+    /// ----------
+    /// fundamentals : dict
+    ///     Frequencies (Hz) by name.
+    /// order : int
+    ///     Largest sum of the combination's numbers.
+    /// tolerance : float
+    ///     Distance (Hz) within which a line is a combination.
+    ///
+    /// Returns
+    /// -------
+    /// list of str or None
+    ///     "2f_+ − f_-" and the like; None where no combination is near.
+    ///
+    /// Examples
+    /// --------
+    /// >>> x = 2 * np.sin(2 * np.pi * 5.3 * np.arange(500) / 100)
+    /// >>> bp.analysis.lines(x, 100).named({"f": 5.3})
+    /// ['f']
     #[pyo3(signature = (fundamentals, order = 5, tolerance = 0.01))]
     fn named(
         &self,
@@ -146,6 +190,17 @@ impl Lines {
         Ok(tones.map(|tone| Some(tone?.named(&names))).collect())
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Py<PyTuple>)> {
+        let find = py.import("branched_pendulum.analysis")?.getattr("lines")?;
+        Ok((find, self.arguments.clone_ref(py)))
+    }
+
+    /// Returns true for the same lines.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| self.found == other.get().found)
+    }
+
     fn __repr__(&self) -> String {
         let lines = self.found.lines.iter();
         let lines: Vec<String> = lines
@@ -155,10 +210,32 @@ impl Lines {
     }
 }
 
-/// Finds the lines of samples taken `sample_rate` times a second, by numerical analysis of
-/// fundamental frequencies (NAFF, after Laskar) with all lines fitted together: at most `most`
-/// of them, none whose amplitude is below `smallest`, of that of the strongest, nor below what
-/// noise would show. `window` is the power of Hann's window.
+/// Finds the lines of a series, by numerical analysis of fundamental frequencies (NAFF, after
+/// Laskar) with all lines fitted together.
+///
+/// Parameters
+/// ----------
+/// x : array, shape (m,)
+///     Samples.
+/// sample_rate : float
+///     Samples a second, Hz.
+/// most : int
+///     Lines at most.
+/// smallest : float
+///     Amplitude below which no line is looked for, of that of the strongest; none is below
+///     what noise would show.
+/// window : int
+///     Power of Hann's window.
+///
+/// Returns
+/// -------
+/// Lines
+///
+/// Examples
+/// --------
+/// >>> x = 2 * np.sin(2 * np.pi * 5.3 * np.arange(500) / 100)
+/// >>> bp.analysis.lines(x, 100).frequencies.round(6)
+/// array([5.3])
 #[pyfunction]
 #[pyo3(signature = (x, sample_rate, most = 12, smallest = 1e-9, window = 1))]
 pub(crate) fn lines(
@@ -169,20 +246,40 @@ pub(crate) fn lines(
     smallest: f64,
     window: i128,
 ) -> PyResult<Lines> {
+    let power = window;
     let samples = x.list("x")?;
     let search = LineSearch {
         window: self::window(window)?,
         most: whole("most", most, 1)?,
         smallest,
     };
-    let found = py.detach(|| search.find(&samples, sample_rate));
+    let found = on_own_thread(py, move || search.find(&samples, sample_rate))?;
+    let arguments = (x.array(), sample_rate, most, smallest, power).into_pyobject(py)?;
     Ok(Lines {
         found: found.map_err(refused)?,
+        arguments: arguments.unbind(),
     })
 }
 
-/// Returns the integral of `x` over the times `t` (s), from the first time to each: of fourth
-/// order in the interval, for even and uneven times.
+/// Returns the integral of a series from the first time to each.
+///
+/// Parameters
+/// ----------
+/// t : array, shape (m,)
+///     Times (s), even or not.
+/// x : array, shape (m,)
+///     Values.
+///
+/// Returns
+/// -------
+/// array, shape (m,)
+///     Integrals, in the unit of `x` times s: of fourth order in the interval.
+///
+/// Examples
+/// --------
+/// >>> t = np.linspace(0, 1, 11)
+/// >>> bp.analysis.running_integral(t, 3 * t**2)[-1].round(6)
+/// np.float64(1.0)
 #[pyfunction]
 pub(crate) fn running_integral<'py>(
     py: Python<'py>,

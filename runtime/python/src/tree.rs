@@ -1,31 +1,81 @@
 //! The class `Tree`.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::{Arc, OnceLock};
 
-use branched_pendulum::system::{
-    AbsoluteAngles, Energy, Forced, LinkPoint, Model, Pendulum as _, Positions,
-};
+use branched_pendulum::ensemble::{Ensemble, Samples};
+use branched_pendulum::integrate::Taylor;
+use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
+use branched_pendulum::transfer::SymmetricTree;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
-use numpy::IntoPyArray;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::DescriptionError;
-use crate::arrays::{Matrix, Number, Numbers, Row, Table, by_state, matrix};
-use crate::budget::ScaleBudget;
+use crate::arrays::Number;
 use crate::motions::MeasuredModel;
 use crate::pendulum::Pendulum;
 
-/// A pendulum tree that a text describes:
-/// `Tree("gravity = 9.81, rod: rod(mass = m, length = 1)", m=0.2)`.
+/// Links whose names are shown.
+const MOST_NAMES: usize = 8;
+
+/// A pendulum tree that a text describes.
 ///
-/// The text is what stands between the parentheses of the attribute `branched_pendulum`; names
-/// in it are parameters, in SI units. Mistakes raise `DescriptionError`, each marked in its line.
+/// The text is `gravity = ...` and one root link with its children, with commas between them;
+/// `//` begins a comment. Values are numbers in SI units, names, and what `+ - * / ^` make of
+/// them. Names are parameters: `Tree(text, m=0.2)`. Where gravity is written as negative the tree
+/// stands, and angles are those from the upward vertical.
+///
+/// ============================  ======================================================
+/// `arm(mass = ..., ...)`        a link: `mass` (kg), `com` (m, centre of mass from the pivot),
+///                               `inertia` (kg m², about the centre of mass), `joint` (m,
+///                               where children hang)
+/// `arm: rod(mass, length)`      a body by its shape: `point`, `rod`, `rod_with_bob`,
+///                               `cylinder`, `plate`, `disc`, `ring`, `ball`, `shell`
+/// `arm(...) [a(...), b(...)]`   children in brackets; `at` (m) is where a child hangs
+///                               instead of its parent's `joint`
+/// `child(...) * 2`              two copies, `child_1` and `child_2`, with all below them;
+///                               `mass = each(0.1, 0.11)` has a value for each
+/// `tree: generations(...)`      all generations by a rule: `count`, `branching`, `shape`, what
+///                               the shape takes, and ratios from one generation to the next,
+///                               `mass_ratio`, `length_ratio`, `friction_ratio`
+/// `friction = c`                viscous friction in the pivot, N m s
+/// `friction(viscous = c,        and Coulomb friction (N m), quadratic friction (N m s²),
+/// coulomb = ..., ...)`          smooth below the rate `width` (rad/s)
+/// `drag = c`, `drag(...)`       the same against the ground
+/// `spring = k, rest = r`        a spring in the pivot, N m/rad, at rest at r (rad)
+/// `drive(y = a * cos(w * t))`   motion of the root's pivot, `x` and `y` (m), or a `torque`
+///                               (N m) on the root, as functions of the time `t` (s)
+/// ============================  ======================================================
+///
+/// A page with pictures of all of it is docs/tutorials/python.md; `branched_pendulum.examples`
+/// has trees under names. Mistakes raise `DescriptionError`, all at once, each marked in its line.
+///
+/// Parameters
+/// ----------
+/// text : str
+///     The description.
+/// **parameters : float
+///     Values of the names in it.
+///
+/// Examples
+/// --------
+/// >>> tree = bp.Tree('''
+/// ...     gravity = 9.81,
+/// ...     arm: rod(mass = 0.2, length = 0.5, friction = 1e-4) [
+/// ...         hand: rod(mass = m, length = 0.3) * 2,
+/// ...     ]
+/// ... ''', m=0.1)
+/// >>> tree.names, tree.parameters
+/// (['arm', 'hand_1', 'hand_2'], {'m': 0.1})
 #[pyclass(frozen, extends = Pendulum, module = "branched_pendulum")]
 pub(crate) struct Tree {
     system: Arc<AbsoluteAngles<PendulumTree>>,
+    text: Arc<str>,
+    /// Formed when it is asked for.
+    symmetric: OnceLock<SymmetricTree<f64>>,
 }
 
 impl MeasuredModel for PendulumTree {
@@ -39,15 +89,30 @@ impl MeasuredModel for PendulumTree {
         self.mass_matrix(theta)
     }
 
+    fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String> {
+        let changed = values
+            .iter()
+            .try_fold(self.clone(), |tree, (name, value)| tree.with(name, *value));
+        changed.map_err(|error| error.to_string())
+    }
+
+    fn series_ensemble(
+        method: &Taylor<f64>,
+        system: &AbsoluteAngles<Self>,
+        ensemble: &Ensemble<'_>,
+        starts: &[State<f64>],
+        times: &[f64],
+    ) -> Option<Vec<Samples<f64>>> {
+        Some(ensemble.sample_in_lanes(method, system, starts, times))
+    }
+
     fn link_parents(&self) -> Vec<Option<usize>> {
         let links = 0..self.links();
-        links
-            .map(|link| self.properties_of(link)?.parent)
-            .collect()
+        links.map(|link| self.properties_of(link)?.parent).collect()
     }
 }
 
-fn wrong(py: Python<'_>, error: TreeError) -> PyErr {
+pub(crate) fn wrong(py: Python<'_>, error: TreeError) -> PyErr {
     match error {
         TreeError::Description(error) => {
             let refused = DescriptionError::new_err(format!("\n{error}"));
@@ -77,24 +142,32 @@ fn values(parameters: Option<Bound<'_, PyDict>>) -> PyResult<Vec<(String, f64)>>
     parameters.map(value).collect()
 }
 
-fn class(tree: PendulumTree) -> PyClassInitializer<Tree> {
+fn class(tree: PendulumTree, text: Arc<str>) -> PyClassInitializer<Tree> {
     let system = Arc::new(AbsoluteAngles(tree));
     let motions = system.clone();
-    PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree { system })
+    PyClassInitializer::from(Pendulum { motions }).add_subclass(Tree {
+        system,
+        text,
+        symmetric: OnceLock::new(),
+    })
 }
 
 impl Tree {
-    fn tree(&self) -> &PendulumTree {
+    pub(crate) fn tree(&self) -> &PendulumTree {
         &self.system.0
     }
 
-    /// Angles that were given, or zeros.
-    fn angles(&self, theta: Option<Numbers<'_>>) -> PyResult<Vec<f64>> {
-        let links = self.tree().links();
-        match theta {
-            Some(theta) => theta.row("theta", links),
-            None => Ok(vec![0.0; links]),
+    /// The tree in its symmetric coordinates.
+    ///
+    /// # Errors
+    /// ValueError for a tree without copies.
+    pub(crate) fn symmetric(&self, py: Python<'_>) -> PyResult<&SymmetricTree<f64>> {
+        if let Some(known) = self.symmetric.get() {
+            return Ok(known);
         }
+        let tree = self.tree().symmetric();
+        let tree = tree.map_err(|error| wrong(py, error))?;
+        Ok(self.symmetric.get_or_init(|| tree))
     }
 }
 
@@ -111,17 +184,38 @@ impl Tree {
         let values: Vec<(&str, f64)> = parameters.iter().map(|(name, x)| (&**name, *x)).collect();
         let description = TreeDescription::parse(text).map_err(|error| wrong(py, error.into()))?;
         let tree = description.tree(&values);
-        Ok(class(tree.map_err(|error| wrong(py, error))?))
+        Ok(class(tree.map_err(|error| wrong(py, error))?, text.into()))
     }
 
-    /// Returns the tree with other values of parameters: `tree.changed(m=0.3)`.
+    /// Returns the tree with other values of parameters.
+    ///
+    /// Parameters
+    /// ----------
+    /// **parameters : float
+    ///     Values by name, in SI units.
+    ///
+    /// Returns
+    /// -------
+    /// Tree
+    ///
+    /// Examples
+    /// --------
+    /// >>> tree = bp.Tree("gravity = 9.81, rod: rod(mass = m, length = 1)", m=0.2)
+    /// >>> tree.changed(m=0.3).parameters
+    /// {'m': 0.3}
     #[pyo3(signature = (**parameters))]
     fn changed(&self, py: Python<'_>, parameters: Option<Bound<'_, PyDict>>) -> PyResult<Py<Self>> {
         let mut tree = self.tree().clone();
         for (name, value) in values(parameters)? {
             tree = tree.with(&name, value).map_err(|error| wrong(py, error))?;
         }
-        Py::new(py, class(tree))
+        Py::new(py, class(tree, self.text.clone()))
+    }
+
+    /// The description.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
     }
 
     /// Values of the parameters, in SI units.
@@ -133,147 +227,74 @@ impl Tree {
             .collect()
     }
 
+    /// For each link the index of the one that it hangs from; None of the root.
+    #[getter]
+    fn parents(&self) -> Vec<Option<usize>> {
+        self.tree().link_parents()
+    }
+
+    /// Draws the tree.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (n,)
+    ///     Angles (rad); without them children are spread out.
+    ///
+    /// Returns
+    /// -------
+    /// Picture
+    ///     Shown by notebooks; `picture.svg` is its text, `picture.save("tree.svg")` writes it.
+    ///
+    /// Examples
+    /// --------
+    /// >>> bp.Tree(bp.examples.CASCADE, friction=0).draw()
+    /// Picture of 15 links
+    #[pyo3(signature = (theta = None))]
+    fn draw<'py>(
+        slf: &Bound<'py, Self>,
+        theta: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let module = slf.py().import("branched_pendulum._drawing")?;
+        module.call_method1("draw", (slf, theta))
+    }
+
     fn __repr__(&self) -> String {
-        format!("Tree of {}", self.tree().names().join(", "))
-    }
-
-    /// Returns the angular accelerations (rad/s²) at angles `theta` (rad) and angular velocities `omega`
-    /// (rad/s), at a time of the drive, under torques (N m) from outside.
-    #[pyo3(signature = (theta, omega, time = 0.0, torques = None))]
-    fn accelerations<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Numbers<'py>,
-        omega: Numbers<'py>,
-        time: f64,
-        torques: Option<Numbers<'py>>,
-    ) -> PyResult<Row<'py>> {
-        let n = self.tree().links();
-        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
-        let mut alpha = vec![0.0; n];
-        match torques {
-            None => self
-                .tree()
-                .accelerations_into(time, &theta, &omega, &mut alpha),
-            Some(torques) => {
-                let torques = torques.row("torques", n)?;
-                self.tree().accelerations_under_into(time, &theta, &omega, &torques, &mut alpha);
+        let names = self.tree().names();
+        match names {
+            [first, second, .., last] if names.len() > MOST_NAMES => {
+                format!(
+                    "Tree of {} links: {first}, {second}, …, {last}",
+                    names.len()
+                )
             }
+            _ => format!("Tree of {}", names.join(", ")),
         }
-        Ok(alpha.into_pyarray(py))
     }
 
-    /// Returns the kinetic energy (J) at angles `theta` (rad) and angular velocities `omega`
-    /// (rad/s), in the frame that moves with the root's pivot.
-    fn kinetic_energy(&self, theta: Numbers<'_>, omega: Numbers<'_>) -> PyResult<f64> {
-        let n = self.tree().links();
-        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
-        Ok(self.tree().kinetic_energy_of(&theta, &omega))
-    }
-
-    /// Returns the potential energy (J) at angles `theta` (rad).
-    fn potential_energy(&self, theta: Numbers<'_>) -> PyResult<f64> {
-        let theta = theta.row("theta", self.tree().links())?;
-        Ok(self.tree().potential_energy_of(&theta))
-    }
-
-    /// Returns the power (W) of friction and drag, never positive, of each state of an array
-    /// whose last axis is that of the components.
-    fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Table<'py>> {
-        let n = self.tree().links();
-        by_state(py, &y, 2 * n, |state| {
-            [self.tree().friction_power(state.get(n..).unwrap_or_default())]
+    /// Trees of the same text with the same values are equal.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let bits =
+            |tree: &Self| -> Vec<u64> { tree.parameters().values().map(|x| x.to_bits()).collect() };
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| {
+            let other = other.get();
+            self.text == other.text && bits(self) == bits(other)
         })
     }
 
-    /// Returns energies (J) by scale, transfers between scales and powers on them (W), of each
-    /// state of an array whose last axis is that of the components; `t` are the times (s) of
-    /// the drive, one for all states or one for each. Trees whose links of one generation
-    /// differ have no scales, and those of trees of more than 34 generations are not known.
-    #[pyo3(signature = (y, t = None))]
-    fn budget(
-        &self,
-        py: Python<'_>,
-        y: Numbers<'_>,
-        t: Option<Numbers<'_>>,
-    ) -> PyResult<ScaleBudget> {
-        let times = match t {
-            Some(times) => times.to_vec(),
-            None => vec![0.0],
-        };
-        ScaleBudget::of(py, self.tree(), &y, &times)
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.text.hash(&mut hasher);
+        let values = self.parameters();
+        values.values().for_each(|x| x.to_bits().hash(&mut hasher));
+        hasher.finish()
     }
 
-    /// Returns the generalized momenta (kg m²/s) at angles `theta` (rad) and angular
-    /// velocities `omega` (rad/s).
-    fn momenta<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Numbers<'py>,
-        omega: Numbers<'py>,
-    ) -> PyResult<Row<'py>> {
-        let n = self.tree().links();
-        let (theta, omega) = (theta.row("theta", n)?, omega.row("omega", n)?);
-        Ok(self.tree().momenta(&theta, &omega).into_pyarray(py))
-    }
-
-    /// Returns the mass matrix (kg m²) at angles `theta` (rad).
-    fn mass_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
-        let theta = theta.row("theta", self.tree().links())?;
-        matrix(py, self.tree().mass_matrix(&theta).concat(), theta.len())
-    }
-
-    /// Returns the second derivatives of the potential energy (N m/rad) at angles `theta` (rad).
-    fn stiffness_matrix<'py>(&self, py: Python<'py>, theta: Numbers<'py>) -> PyResult<Matrix<'py>> {
-        let theta = theta.row("theta", self.tree().links())?;
-        matrix(py, self.tree().stiffness_matrix(&theta).concat(), theta.len())
-    }
-
-    /// Returns frequencies (Hz) and shapes of the linear modes, a row for each, about angles
-    /// `theta` (rad) at which the tree is at rest: zeros, if none are given. ValueError where
-    /// they are no equilibrium, with the torque there; `equilibrium` finds one near them.
-    #[pyo3(signature = (theta = None))]
-    fn modes<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Option<Numbers<'py>>,
-    ) -> PyResult<(Row<'py>, Matrix<'py>)> {
-        let n = self.tree().links();
-        let theta = self.angles(theta)?;
-        let modes = self.tree().modes(&theta);
-        let modes = modes.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let shapes = matrix(py, modes.shapes.concat(), n)?;
-        Ok((modes.frequencies_hz.into_pyarray(py), shapes))
-    }
-
-    /// Returns the angles (rad) near `theta` at which the tree stays at rest, stable or not:
-    /// near zeros, if none are given. The drive is left out.
-    #[pyo3(signature = (theta = None))]
-    fn equilibrium<'py>(&self, py: Python<'py>, theta: Option<Numbers<'py>>) -> PyResult<Row<'py>> {
-        let found = self.tree().equilibrium(&self.angles(theta)?);
-        let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        Ok(found.into_pyarray(py))
-    }
-
-    /// Returns the positions x, y (m) of a point of each link, `"pivot"`, `"centre"` or `"end"`,
-    /// at angles `theta` (rad): y is upwards, from the root's pivot, in trees that stand too.
-    #[pyo3(signature = (theta, point = "end"))]
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Numbers<'py>,
-        point: &str,
-    ) -> PyResult<Matrix<'py>> {
-        let point = match point {
-            "pivot" => LinkPoint::Pivot,
-            "centre" => LinkPoint::Centre,
-            "end" => LinkPoint::End,
-            _ => {
-                let text = "points are `pivot`, `centre` and `end`";
-                return Err(PyValueError::new_err(text));
-            }
-        };
-        let theta = theta.row("theta", self.tree().links())?;
-        matrix(py, self.tree().points(point, &theta).concat(), 2)
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let make = py
+            .import("branched_pendulum._results")?
+            .getattr("make_tree")?;
+        let given = (&*self.text, self.parameters());
+        Ok((make, given).into_pyobject(py)?.into_any())
     }
 }

@@ -37,7 +37,7 @@ def test_events_at_the_time_of_the_last_are_told_once(tree, method, last, end):
         run = tree.integrate(state, [time, end], method, rtol=1e-11, events=events)
         for times, found in zip(seen, run.t_events):
             times.extend(found)
-        if run.report.startswith("end reached"):
+        if run.message.startswith("end reached"):
             break
         assert run.t_events[0].tolist() == run.t_events[1].tolist() and len(run.t_events[0]) == 1
         time, state = run.t_events[last - 1][-1], run.y_events[last - 1][-1]
@@ -52,7 +52,7 @@ def test_terminal_counts_as_scipy_does(tree, terminal, direction):
     tolerances = {"rtol": 1e-11, "atol": 1e-11}
     own = tree.integrate(START, [0, 20], events=events, **tolerances)
     other = solve_ivp(tree.rhs, (0, 20), START, "DOP853", events=events, **tolerances)
-    assert own.report.startswith("stopped at an event")
+    assert own.message.startswith("stopped at an event")
     assert len(own.t_events[0]) == int(terminal)
     for mine, theirs in zip(own.t_events, other.t_events):
         np.testing.assert_allclose(mine, theirs, atol=1e-6)
@@ -61,7 +61,7 @@ def test_terminal_counts_as_scipy_does(tree, terminal, direction):
 def test_what_is_no_count_is_refused(tree):
     for terminal in [0, False, None]:
         run = tree.integrate(START, [0, 5], events=stopping(0, terminal))
-        assert run.report.startswith("end reached") and len(run.t_events[0]) > 3
+        assert run.message.startswith("end reached") and len(run.t_events[0]) > 3
     for terminal in [-1, 2.5, np.nan]:
         with pytest.raises(ValueError, match=r"events\[1\]\.terminal must be True, False or a positive"):
             tree.integrate(START, [0, 5], events=[angle(0), stopping(0, terminal)])

@@ -56,7 +56,7 @@ def test_forms_of_the_transfer(model):
         np.testing.assert_allclose(parts.sum(-1), model.transfer(motion.y, form))
     with pytest.raises(ValueError, match="there is no form `exakt` of W"):
         model.transfer(motion.y, "exakt")
-    with pytest.raises(ValueError, match="the last axis of y must have 6 numbers"):
+    with pytest.raises(ValueError, match="y must have 6 numbers along its last axis"):
         model.transfer(motion.y[:, :3])
 
 

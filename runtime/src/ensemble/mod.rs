@@ -22,9 +22,13 @@ use std::thread;
 
 pub use self::lanes::Samples;
 use self::queue::Queue;
+use crate::interruption::{self, SharedWatcher, Watcher};
 use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
+
+/// Time between two looks at threads that are waited for.
+const LOOK: std::time::Duration = std::time::Duration::from_micros(200);
 
 /// Computation of an ensemble.
 ///
@@ -140,9 +144,21 @@ impl<'a> Ensemble<'a> {
             .min(items);
         let mut results: Vec<(usize, R)> = thread::scope(|scope| {
             // This thread works too.
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
+            let watcher = Watcher::of_others();
+            let watched = |watcher: Option<SharedWatcher>| match watcher {
+                Some(watcher) => watcher.watch(worker),
+                None => worker(),
+            };
+            let others: Vec<_> = (1..threads)
+                .map(|_| watcher.clone())
+                .map(|watcher| scope.spawn(move || watched(watcher)))
+                .collect();
             let mut results = worker();
             for other in others {
+                while watcher.is_some() && !other.is_finished() {
+                    thread::sleep(LOOK);
+                    interruption::look();
+                }
                 match other.join() {
                     Ok(more) => results.extend(more),
                     Err(panic) => resume_unwind(panic),

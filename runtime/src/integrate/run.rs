@@ -13,6 +13,7 @@ use super::piece::Piece;
 use super::report::{Report, Solution, StopReason};
 use super::request::{check_end, check_start, check_times};
 use super::steps::{Goal, Steps};
+use crate::interruption;
 use crate::scalar::Real;
 use crate::system::{Ode, State, Workspace};
 
@@ -125,6 +126,7 @@ impl<B: Borrow<O>, O: Ode<T> + ?Sized, S: Steps<T, O>, T: Real> Run<B, O, S, T> 
             self.steps.advance();
             self.made = false;
         }
+        interruption::look();
         let start = self.times[1];
         self.times = [start; 2];
         let (steps, mut system) = self.parts();

@@ -1,30 +1,32 @@
 """Types of the compiled module; the docstrings are those of the module itself."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
-from typing import ClassVar, Literal, final
+from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
+from ._drawing import Picture
+from ._results import Growth, Identification, ScaleBudget, SectorBudget, Solution
+
 __all__ = [
     "BranchedDouble",
+    "DenseOutput",
     "DescriptionError",
     "FailedMotions",
-    "Growth",
     "IntegrationError",
     "Lines",
     "Pendulum",
     "ReadError",
     "Recording",
     "RequestError",
-    "ScaleBudget",
     "SmoothedMotion",
-    "Solution",
     "Tree",
     "__version__",
+    "example_texts",
     "lines",
     "read",
     "running_integral",
@@ -35,12 +37,68 @@ __all__ = [
 __version__: str
 
 _Array = NDArray[np.float64]
+# An array, or of one state a number.
+_Values = Any
+_Method = Literal[
+    "dop853",
+    "dopri5",
+    "verner98",
+    "taylor",
+    "rk4",
+    "gauss2",
+    "gauss4",
+    "gauss6",
+    "gauss8",
+    "animation",
+]
+_Form = Literal[
+    "exact",
+    "angle order 1",
+    "amplitude order 2",
+]
+_TreeForm = Literal[
+    "exact",
+    "growth",
+    "forcing",
+    "angle order 1",
+    "angle order 2",
+    "angle order 3",
+    "angle order 4",
+    "angle order 5",
+    "angle order 6",
+    "angle order 7",
+    "angle order 8",
+    "angle order 9",
+    "angle order 10",
+    "angle order 11",
+    "angle order 12",
+    "angle order 13",
+    "angle order 14",
+    "angle order 15",
+    "amplitude order 1",
+    "amplitude order 2",
+    "amplitude order 3",
+    "amplitude order 4",
+    "amplitude order 5",
+    "amplitude order 6",
+    "amplitude order 7",
+    "amplitude order 8",
+    "amplitude order 9",
+    "amplitude order 10",
+    "amplitude order 11",
+    "amplitude order 12",
+    "amplitude order 13",
+    "amplitude order 14",
+    "amplitude order 15",
+]
 _Event = Callable[[float, _Array], float]
 
 class DescriptionError(ValueError):
     mistakes: list[tuple[int, int, str]]
 
-class IntegrationError(RuntimeError): ...
+class IntegrationError(RuntimeError):
+    solution: Solution | None
+
 class RequestError(IntegrationError, ValueError): ...
 
 class FailedMotions(RuntimeWarning):
@@ -53,52 +111,46 @@ class ReadError(ValueError):
     name: str | None
 
 @final
-class Solution:
-    @property
-    def t(self) -> _Array: ...
-    @property
-    def y(self) -> _Array: ...
-    @property
-    def t_events(self) -> list[_Array]: ...
-    @property
-    def y_events(self) -> list[_Array]: ...
-    @property
-    def report(self) -> str: ...
-    @property
-    def steps(self) -> int: ...
-    @property
-    def evaluations(self) -> int: ...
+class DenseOutput:
     def __call__(self, t: ArrayLike) -> _Array: ...
-    def frame(self) -> pd.DataFrame: ...
+    @staticmethod
+    def _read(bytes: bytes, dimension: int) -> DenseOutput: ...
 
 @disjoint_base
 class Pendulum:
     @property
     def names(self) -> list[str]: ...
     def __len__(self) -> int: ...
-    def rhs(self, t: float, y: ArrayLike) -> _Array: ...
-    def energy(self, y: ArrayLike) -> _Array: ...
+    def rhs(self, t: ArrayLike, y: ArrayLike) -> _Array: ...
+    def energy(self, y: ArrayLike) -> _Values: ...
     def integrate(
         self,
         y0: ArrayLike,
         t: ArrayLike,
-        method: str = "dop853",
+        method: _Method = "dop853",
         rtol: float = 1e-9,
-        atol: float | None = None,
+        atol: ArrayLike | None = None,
         step: float | None = None,
         events: _Event | Sequence[_Event] | None = None,
         dense_output: bool = False,
         max_steps: int = 1_000_000,
+        *,
+        first_step: float | None = None,
+        max_step: float | None = None,
     ) -> Solution: ...
     def ensemble(
         self,
         starts: ArrayLike,
         t: ArrayLike,
-        method: str = "dop853",
+        method: Literal["dop853", "dopri5", "verner98", "taylor"] = "dop853",
         rtol: float = 1e-9,
-        atol: float | None = None,
+        atol: ArrayLike | None = None,
         threads: int | None = None,
         max_steps: int = 1_000_000,
+        *,
+        first_step: float | None = None,
+        max_step: float | None = None,
+        parameters: Mapping[str, ArrayLike] | None = None,
     ) -> _Array: ...
     def lyapunov(
         self,
@@ -131,24 +183,17 @@ class Pendulum:
     ) -> SmoothedMotion: ...
 
 @final
-class Growth:
-    @property
-    def factors(self) -> _Array: ...
-    @property
-    def factor_changes(self) -> _Array: ...
-    @property
-    def rates(self) -> _Array: ...
-    @property
-    def frequencies(self) -> _Array: ...
-    @property
-    def horizons(self) -> _Array: ...
-
-@final
 class Tree(Pendulum):
     def __new__(cls, text: str, /, **parameters: float) -> Tree: ...
     def changed(self, **parameters: float) -> Tree: ...
     @property
+    def text(self) -> str: ...
+    @property
     def parameters(self) -> dict[str, float]: ...
+    @property
+    def parents(self) -> list[int | None]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def accelerations(
         self,
         theta: ArrayLike,
@@ -156,9 +201,9 @@ class Tree(Pendulum):
         time: float = 0.0,
         torques: ArrayLike | None = None,
     ) -> _Array: ...
-    def kinetic_energy(self, theta: ArrayLike, omega: ArrayLike) -> float: ...
-    def potential_energy(self, theta: ArrayLike) -> float: ...
-    def friction_power(self, y: ArrayLike) -> _Array: ...
+    def kinetic_energy(self, theta: ArrayLike, omega: ArrayLike) -> _Values: ...
+    def potential_energy(self, theta: ArrayLike) -> _Values: ...
+    def friction_power(self, y: ArrayLike) -> _Values: ...
     def budget(self, y: ArrayLike, t: ArrayLike | None = None) -> ScaleBudget: ...
     def momenta(self, theta: ArrayLike, omega: ArrayLike) -> _Array: ...
     def mass_matrix(self, theta: ArrayLike) -> _Array: ...
@@ -168,28 +213,48 @@ class Tree(Pendulum):
     def points(
         self, theta: ArrayLike, point: Literal["pivot", "centre", "end"] = "end"
     ) -> _Array: ...
-
-@final
-class ScaleBudget:
     @property
-    def energies(self) -> _Array: ...
+    def sectors(self) -> list[str]: ...
+    def sector_energies(self, y: ArrayLike, sector: str | None = None) -> _Values: ...
+    def transfer(
+        self, y: ArrayLike, form: _TreeForm = "exact", into: str | None = None
+    ) -> _Values: ...
+    def transfer_parts(
+        self, y: ArrayLike, form: _TreeForm = "exact", into: str | None = None
+    ) -> _Array: ...
+    def sector_budget(
+        self,
+        y: ArrayLike,
+        t: ArrayLike | None = None,
+        definition: Literal["canonical", "rest", "parseval", "velocity"] = "canonical",
+    ) -> SectorBudget: ...
     @property
-    def transfers(self) -> _Array: ...
-    @property
-    def friction(self) -> _Array: ...
-    @property
-    def drag(self) -> _Array: ...
-    @property
-    def drive(self) -> _Array: ...
+    def observables(self) -> list[str]: ...
+    def observable(self, name: str, y: ArrayLike) -> _Values: ...
+    def observable_rate(self, name: str, y: ArrayLike, t: float = 0.0) -> _Array: ...
+    def identify(
+        self,
+        t: ArrayLike,
+        theta: ArrayLike,
+        unknown: Sequence[str] | Mapping[str, float],
+        *,
+        until: float | None = None,
+        offsets: bool = True,
+        nonnegative: Sequence[str] = ...,
+        window: float = 1.0,
+    ) -> Identification: ...
+    def draw(self, theta: ArrayLike | None = None) -> Picture: ...
 
 @final
 class BranchedDouble(Pendulum):
     FORMS: ClassVar[list[str]]
     def __new__(cls) -> BranchedDouble: ...
     def canonical_variables(self, y: ArrayLike) -> _Array: ...
-    def antiphase_energy(self, y: ArrayLike) -> _Array: ...
-    def transfer(self, y: ArrayLike, form: str = "exact") -> _Array: ...
-    def transfer_parts(self, y: ArrayLike, form: str = "exact") -> _Array: ...
+    def antiphase_energy(self, y: ArrayLike) -> _Values: ...
+    def transfer(self, y: ArrayLike, form: _Form = "exact") -> _Values: ...
+    def transfer_parts(self, y: ArrayLike, form: _Form = "exact") -> _Array: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @final
 class Recording:
@@ -305,3 +370,5 @@ def spectrum(
     remove_mean: bool = True,
 ) -> tuple[_Array, _Array]: ...
 def running_integral(t: ArrayLike, x: ArrayLike) -> _Array: ...
+
+def example_texts() -> list[tuple[str, str]]: ...

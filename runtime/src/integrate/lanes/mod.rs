@@ -30,6 +30,7 @@ use super::error::InputError;
 use super::registers::{self, Numbers, WIDEST, register};
 use super::request::{check_end, check_start, check_times};
 use super::right_hand_side::StepSpan;
+use crate::interruption;
 use crate::scalar::{InstructionSet, Lane};
 use crate::simd::{Kernel, Simd, dispatch};
 use crate::system::{LaneOde, State};
@@ -96,6 +97,7 @@ where
         let mut samples = LaneSamples::new(dimension);
         let mut fresh = self.fill(&mut steps, &mut runs);
         while runs.active.contains(&true) {
+            interruption::look();
             steps.prepare(&mut runs, &fresh);
             self.hand_over_failed(&mut steps, &mut runs);
             let (span, size) = self.plan(&mut steps, &mut runs);

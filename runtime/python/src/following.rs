@@ -1,0 +1,225 @@
+//! One motion: `Pendulum.integrate`.
+
+use branched_pendulum::integrate::{AnyIntegrator, DenseError, Report, RunError, Trajectory};
+use branched_pendulum::system::State;
+use numpy::IntoPyArray;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use crate::IntegrationError;
+use crate::arrays::{Numbers, Times, matrix};
+use crate::events::{Crossings, Watched, find_events};
+use crate::failures::failed;
+use crate::interrupts::detached;
+use crate::memory::room;
+use crate::motions::Motions;
+use crate::pendulum::Pendulum;
+use crate::results::{DenseOutput, report, result};
+use crate::stepping::Stepping;
+
+/// Times at which states are wanted.
+#[derive(Clone, Copy)]
+pub(crate) enum Wanted<'a> {
+    At(&'a [f64]),
+    /// The ends of all steps up to a time.
+    AllSteps(f64),
+}
+
+/// What is kept of a motion, as far as it came.
+pub(crate) struct Kept {
+    pub(crate) times: Vec<f64>,
+    pub(crate) states: Vec<f64>,
+    /// All steps, if they are wanted.
+    pub(crate) trajectory: Option<Trajectory<f64>>,
+}
+
+/// Why nothing more is kept.
+pub(crate) enum KeepError {
+    Dense(DenseError<f64>),
+    Memory,
+}
+
+impl Kept {
+    /// Adds a state.
+    pub(crate) fn push(&mut self, time: f64, state: &[f64]) -> Result<(), KeepError> {
+        let is_there = self.times.try_reserve(1).is_ok();
+        if !(is_there && self.states.try_reserve(state.len()).is_ok()) {
+            return Err(KeepError::Memory);
+        }
+        self.times.push(time);
+        self.states.extend_from_slice(state);
+        Ok(())
+    }
+
+    /// Adds the states at those times that the steps came by: all, if they came to their end.
+    pub(crate) fn sample(&mut self, times: &[f64], at_end: bool) -> Result<(), KeepError> {
+        let Some(trajectory) = self.trajectory.take() else {
+            return Ok(());
+        };
+        for &time in times {
+            match trajectory.at(time) {
+                Ok(state) => self.push(time, &state)?,
+                Err(DenseError::OutsideStep { .. }) if !at_end => break,
+                Err(error) => return Err(KeepError::Dense(error)),
+            }
+        }
+        self.trajectory = Some(trajectory);
+        Ok(())
+    }
+}
+
+/// A motion to follow.
+struct Motion<'a> {
+    motions: &'a dyn Motions,
+    method: AnyIntegrator<f64>,
+    start: State<f64>,
+    dense: bool,
+}
+
+/// Its end: the account, or why it ended before.
+pub(crate) type End = Result<Report<f64>, Box<RunError<f64, KeepError>>>;
+
+impl Motion<'_> {
+    /// Follows it; what it kept is there after a failure too, with the last good state.
+    fn follow(&self, py: Python<'_>, wanted: Wanted<'_>) -> PyResult<(Kept, End)> {
+        let dimension = self.start.values.len();
+        let (times, states) = match wanted {
+            Wanted::At(times) => (room(&[times.len()])?, room(&[times.len(), dimension])?),
+            Wanted::AllSteps(_) => (Vec::new(), Vec::new()),
+        };
+        let mut kept = Kept {
+            times,
+            states,
+            trajectory: self.dense.then(|| Trajectory::new(self.start.clone())),
+        };
+        let end = detached(py, || {
+            self.motions
+                .follow(&self.method, &self.start, wanted, &mut kept)
+        })?;
+        if let Err(error) = &end
+            && let RunError::Integration(failure) = &**error
+            && let Some(last) = failure.last_state()
+            && kept.times.last() != Some(&last.time)
+        {
+            // Without room for it the failure counts.
+            drop(kept.push(last.time, &last.values));
+        }
+        Ok((kept, end))
+    }
+
+    fn solution<'py>(
+        &self,
+        py: Python<'py>,
+        kept: Kept,
+        account: &Report<f64>,
+        crossings: Crossings,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let dimension = self.start.values.len();
+        let (t_events, y_events) = (PyList::empty(py), PyList::empty(py));
+        for (times, states) in crossings {
+            t_events.append(times.into_pyarray(py))?;
+            y_events.append(matrix(py, states, dimension)?)?;
+        }
+        let dense = kept.trajectory.map(|trajectory| DenseOutput {
+            trajectory,
+            dimension,
+        });
+        let fields = [
+            ("t", kept.times.into_pyarray(py).into_any()),
+            ("y", matrix(py, kept.states, dimension)?.into_any()),
+            ("t_events", t_events.into_any()),
+            ("y_events", y_events.into_any()),
+            ("report", report(py, account)?),
+            ("names", self.motions.names().into_pyobject(py)?.into_any()),
+            ("dense", dense.into_pyobject(py)?.into_any()),
+        ];
+        result(py, "Solution", &fields)
+    }
+
+    /// The solution, or the exception with what there is of it.
+    fn end<'py>(
+        &self,
+        py: Python<'py>,
+        (kept, end): (Kept, End),
+        crossings: Crossings,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let error = match end {
+            Ok(account) => return self.solution(py, kept, &account, crossings),
+            Err(error) => *error,
+        };
+        let failure = match error {
+            RunError::Integration(failure) => failure,
+            RunError::Observer { error, .. } => {
+                return Err(match error {
+                    KeepError::Memory => PyMemoryError::new_err("no memory for all steps is left"),
+                    KeepError::Dense(error) => IntegrationError::new_err(error.to_string()),
+                });
+            }
+            _ => return Err(IntegrationError::new_err("the motion could not be kept")),
+        };
+        let account = failure.report().copied();
+        let error = failed(failure);
+        if let Some(account) = account {
+            let solution = self.solution(py, kept, &account, crossings)?;
+            error.value(py).setattr("solution", solution)?;
+        }
+        Err(error)
+    }
+}
+
+impl Pendulum {
+    pub(crate) fn follow<'py>(
+        &self,
+        py: Python<'py>,
+        y0: &Numbers<'py>,
+        t: &Times<'py>,
+        stepping: &Stepping<'_, 'py>,
+        events: Option<&Bound<'py, PyAny>>,
+        dense: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let motions = &*self.motions;
+        let dimension = motions.dimension();
+        let method = stepping.integrator(dimension)?;
+        let mut times = t.numbers.list("t")?;
+        let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
+            return Err(PyValueError::new_err("t has no times"));
+        };
+        let motion = Motion {
+            motions,
+            method,
+            start: State::new(first, y0.row("y0", dimension)?),
+            dense,
+        };
+        let watched = match events {
+            Some(events) => Watched::all(events)?,
+            None => Vec::new(),
+        };
+        if watched.is_empty() {
+            let kept = motion.follow(py, wanted(t.is_span, &times, last))?;
+            return motion.end(py, kept, Vec::new());
+        }
+        let found = find_events(motions, &motion.method, &motion.start, last, &watched)?;
+        let (end, account) = match found.outcome {
+            Ok(solution) => (solution.state.time, Ok(solution.report)),
+            Err(failure) => match failure.last_state() {
+                Some(last) => (last.time, Err(Box::new(RunError::Integration(failure)))),
+                None => return Err(failed(failure)),
+            },
+        };
+        if end != last {
+            times.retain(|time| (first..=end).contains(time) || (end..=first).contains(time));
+        }
+        // The motion goes its way again: the search for events keeps no states, and calls of
+        // Python take most of its time.
+        let (kept, own) = motion.follow(py, wanted(t.is_span, &times, end))?;
+        motion.end(py, (kept, own.and(account)), found.crossings)
+    }
+}
+
+fn wanted(is_span: bool, times: &[f64], end: f64) -> Wanted<'_> {
+    match is_span {
+        true => Wanted::AllSteps(end),
+        false => Wanted::At(times),
+    }
+}

@@ -1,0 +1,394 @@
+//! Mechanics of trees: accelerations, energies, momenta, matrices, modes and positions.
+
+use branched_pendulum::system::{Energy, Forced, LinkPoint, Model, Pendulum as _, Positions};
+use numpy::IntoPyArray;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::arrays::{Matrix, Numbers, Row, Together, by_state, matrix};
+use crate::budget::scale_budget;
+use crate::interrupts::on_own_thread;
+use crate::memory::{bytes, need};
+use crate::tree::Tree;
+
+/// Copies of a matrix that its eigenvectors take.
+const MATRICES: usize = 6;
+
+impl Tree {
+    /// Angles that were given, or zeros.
+    fn angles(&self, theta: Option<Numbers<'_>>) -> PyResult<Vec<f64>> {
+        let links = self.tree().links();
+        match theta {
+            Some(theta) => theta.row("theta", links),
+            None => Ok(vec![0.0; links]),
+        }
+    }
+
+    fn matrices<'py>(
+        &self,
+        py: Python<'py>,
+        theta: &Numbers<'py>,
+        of: impl Fn(&[f64]) -> Vec<Vec<f64>> + Send + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let n = self.tree().links();
+        need("a matrix of all links", bytes(&[n, n], 2))?;
+        let together = Together::of(&[("theta", theta, n)])?;
+        together.each(py, &[n, n], |given, out| {
+            for (row, values) in out.chunks_exact_mut(n.max(1)).zip(of(given[0])) {
+                row.copy_from_slice(&values);
+            }
+        })
+    }
+}
+
+#[pymethods]
+impl Tree {
+    /// Returns the angular accelerations.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta, omega : array, shape (..., n)
+    ///     Angles (rad) and angular velocities (rad/s).
+    /// time : float
+    ///     Time of the drive, s.
+    /// torques : array, shape (..., n)
+    ///     Torques (N m) from outside on each link.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n)
+    ///     Angular accelerations, rad/s².
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.accelerations([0.0], [0.0], torques=[1.0])
+    /// array([3.])
+    #[pyo3(signature = (theta, omega, time = 0.0, torques = None))]
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+        omega: Numbers<'py>,
+        time: f64,
+        torques: Option<Numbers<'py>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (tree, n) = (self.tree(), self.tree().links());
+        let states = [("theta", &theta, n), ("omega", &omega, n)];
+        match &torques {
+            None => Together::of(&states)?.each(py, &[n], |given, out| {
+                tree.accelerations_into(time, given[0], given[1], out);
+            }),
+            Some(torques) => {
+                let [theta, omega] = states;
+                let all = Together::of(&[theta, omega, ("torques", torques, n)])?;
+                all.each(py, &[n], |given, out| {
+                    tree.accelerations_under_into(time, given[0], given[1], given[2], out);
+                })
+            }
+        }
+    }
+
+    /// Returns the kinetic energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta, omega : array, shape (..., n)
+    ///     Angles (rad) and angular velocities (rad/s).
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float
+    ///     Kinetic energies (J), in the frame that moves with the root's pivot.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1)")
+    /// >>> float(rod.kinetic_energy([0.0], [3.0]))
+    /// 1.5
+    fn kinetic_energy<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+        omega: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (tree, n) = (self.tree(), self.tree().links());
+        let together = Together::of(&[("theta", &theta, n), ("omega", &omega, n)])?;
+        together.each(py, &[], |given, out| {
+            out.fill(tree.kinetic_energy_of(given[0], given[1]));
+        })
+    }
+
+    /// Returns the potential energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (..., n)
+    ///     Angles, rad.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float
+    ///     Potential energies, J.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 1)")
+    /// >>> float(rod.potential_energy([np.pi]) - rod.potential_energy([0.0]))
+    /// 10.0
+    fn potential_energy<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let tree = self.tree();
+        let together = Together::of(&[("theta", &theta, tree.links())])?;
+        together.each(py, &[], |given, out| {
+            out.fill(tree.potential_energy_of(given[0]));
+        })
+    }
+
+    /// Returns the power of friction and drag.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 2 n)
+    ///     States.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (...), or float
+    ///     Powers (W), never positive.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 1, length = 1, friction = 0.1)")
+    /// >>> float(rod.friction_power([0.0, 2.0]).round(12))
+    /// -0.4
+    fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (tree, n) = (self.tree(), self.tree().links());
+        by_state(py, &y, 2 * n, |state| {
+            [tree.friction_power(state.get(n..).unwrap_or_default())]
+        })
+    }
+
+    /// Returns energies by scale, what scales give each other and the powers on them.
+    ///
+    /// Parameters
+    /// ----------
+    /// y : array, shape (..., 2 n)
+    ///     States of a tree whose links of one generation are alike.
+    /// t : float or array
+    ///     Times (s) of the drive, one for all states or one for each.
+    ///
+    /// Returns
+    /// -------
+    /// ScaleBudget
+    ///     Arrays with the axes of the states, then those of scales.
+    ///
+    /// Examples
+    /// --------
+    /// >>> tree = bp.Tree('''gravity = 9.81,
+    /// ...     tree: generations(count = 3, branching = 2, shape = rod, mass = 1, length = 1)''')
+    /// >>> y = np.arange(14.0)
+    /// >>> budget = tree.budget(y)
+    /// >>> bool(np.isclose(budget.energies.sum(), tree.energy(y)))
+    /// True
+    #[pyo3(signature = (y, t = None))]
+    fn budget<'py>(
+        &self,
+        py: Python<'py>,
+        y: Numbers<'py>,
+        t: Option<Numbers<'py>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let times = t.map_or(vec![0.0], |times| times.to_vec());
+        scale_budget(py, self.tree(), &y, &times)
+    }
+
+    /// Returns the generalized momenta.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta, omega : array, shape (..., n)
+    ///     Angles (rad) and angular velocities (rad/s).
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n)
+    ///     Momenta, kg m²/s.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 3, length = 1)")
+    /// >>> rod.momenta([0.0], [2.0])
+    /// array([2.])
+    fn momenta<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+        omega: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (tree, n) = (self.tree(), self.tree().links());
+        let together = Together::of(&[("theta", &theta, n), ("omega", &omega, n)])?;
+        together.each(py, &[n], |given, out| {
+            out.copy_from_slice(&tree.momenta(given[0], given[1]));
+        })
+    }
+
+    /// Returns mass matrices.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (..., n)
+    ///     Angles, rad.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n, n)
+    ///     Mass matrices, kg m².
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 9.81, rod: rod(mass = 3, length = 1)")
+    /// >>> rod.mass_matrix([0.0])
+    /// array([[1.]])
+    fn mass_matrix<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.matrices(py, &theta, |theta| self.tree().mass_matrix(theta))
+    }
+
+    /// Returns second derivatives of the potential energy.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (..., n)
+    ///     Angles, rad.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n, n)
+    ///     Stiffness matrices, N m/rad.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.stiffness_matrix([0.0])
+    /// array([[5.]])
+    fn stiffness_matrix<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.matrices(py, &theta, |theta| self.tree().stiffness_matrix(theta))
+    }
+
+    /// Returns the linear modes about an equilibrium.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (n,)
+    ///     Angles (rad) at which the tree is at rest: zeros, if none are given. `equilibrium`
+    ///     finds some.
+    ///
+    /// Returns
+    /// -------
+    /// frequencies : array, shape (n,)
+    ///     Frequencies (Hz), ascending.
+    /// shapes : array, shape (n, n)
+    ///     A row for each mode.
+    ///
+    /// Examples
+    /// --------
+    /// >>> frequencies, shapes = bp.Tree(bp.examples.PAPER, friction=0).modes()
+    /// >>> frequencies.round(7)
+    /// array([0.8731696, 1.2580584, 1.5825567])
+    #[pyo3(signature = (theta = None))]
+    fn modes<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Option<Numbers<'py>>,
+    ) -> PyResult<(Row<'py>, Matrix<'py>)> {
+        let n = self.tree().links();
+        let theta = self.angles(theta)?;
+        need("modes of all links", bytes(&[n, n], MATRICES))?;
+        let tree = self.tree().clone();
+        let modes = on_own_thread(py, move || tree.modes(&theta))?;
+        let modes = modes.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let shapes = matrix(py, modes.shapes.concat(), n)?;
+        Ok((modes.frequencies_hz.into_pyarray(py), shapes))
+    }
+
+    /// Returns angles at which the tree stays at rest, stable or not; the drive is left out.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (n,)
+    ///     Angles (rad) near which it is looked for: zeros, if none are given.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (n,)
+    ///     Angles, rad.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 1)")
+    /// >>> rod.equilibrium([3.0]).round(6)
+    /// array([3.141593])
+    #[pyo3(signature = (theta = None))]
+    fn equilibrium<'py>(&self, py: Python<'py>, theta: Option<Numbers<'py>>) -> PyResult<Row<'py>> {
+        let (tree, theta) = (self.tree().clone(), self.angles(theta)?);
+        need("stiffness of all links", bytes(&[theta.len(); 2], MATRICES))?;
+        let found = on_own_thread(py, move || tree.equilibrium(&theta))?;
+        let found = found.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok(found.into_pyarray(py))
+    }
+
+    /// Returns positions of a point of each link.
+    ///
+    /// Parameters
+    /// ----------
+    /// theta : array, shape (..., n)
+    ///     Angles, rad.
+    /// point : {"end", "centre", "pivot"}
+    ///     The point: where children hang, the centre of mass, or the pivot.
+    ///
+    /// Returns
+    /// -------
+    /// array, shape (..., n, 2)
+    ///     Positions x, y (m) from the root's pivot; y is upwards, in trees that stand too.
+    ///
+    /// Examples
+    /// --------
+    /// >>> rod = bp.Tree("gravity = 10, rod: rod(mass = 1, length = 2)")
+    /// >>> rod.points([[0.0], [np.pi / 2]]).round(12)[:, 0] + 0.0
+    /// array([[ 0., -2.],
+    ///        [ 2.,  0.]])
+    #[pyo3(signature = (theta, point = "end"))]
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers<'py>,
+        point: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let point = match point {
+            "pivot" => LinkPoint::Pivot,
+            "centre" => LinkPoint::Centre,
+            "end" => LinkPoint::End,
+            _ => {
+                let text = format!("point is {point:?}, must be \"pivot\", \"centre\" or \"end\"");
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        let (tree, n) = (self.tree(), self.tree().links());
+        let together = Together::of(&[("theta", &theta, n)])?;
+        together.each(py, &[n, 2], |given, out| {
+            for (place, point) in out.chunks_exact_mut(2).zip(tree.points(point, given[0])) {
+                place.copy_from_slice(&point);
+            }
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! Memory that is asked for before it is filled.
+
+use std::fs;
+
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+
+use crate::arrays::shown;
+
+/// Bytes below which nobody asks how much is free.
+const SMALL: usize = 64 << 20;
+
+/// Bytes that the machine can still give, where it tells.
+fn free() -> Option<usize> {
+    let number = |text: &str| text.split_whitespace().next()?.parse::<usize>().ok();
+    let meminfo = fs::read_to_string("/proc/meminfo").ok()?;
+    let available = meminfo
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let machine = number(available)?.checked_mul(1024)?;
+    let of_group = |name: &str| number(&fs::read_to_string(format!("/sys/fs/cgroup/{name}")).ok()?);
+    let group = of_group("memory.max")
+        .zip(of_group("memory.current"))
+        .map(|(most, used)| most.saturating_sub(used));
+    Some(group.map_or(machine, |group| group.min(machine)))
+}
+
+/// Passes a number of bytes that are there.
+///
+/// # Errors
+/// MemoryError.
+pub(crate) fn need(what: &str, bytes: Option<usize>) -> PyResult<()> {
+    let gigabytes = |bytes: usize| bytes as f64 / 1e9;
+    let Some(bytes) = bytes else {
+        let text = format!("{what} would take more bytes than any machine has");
+        return Err(PyMemoryError::new_err(text));
+    };
+    if bytes < SMALL {
+        return Ok(());
+    }
+    let is_there = free().is_none_or(|free| bytes <= free);
+    let mut trial: Vec<u8> = Vec::new();
+    if !is_there || trial.try_reserve_exact(bytes).is_err() {
+        let text = format!(
+            "{what} would take {:.1} GB, more than are free",
+            gigabytes(bytes)
+        );
+        return Err(PyMemoryError::new_err(text));
+    }
+    Ok(())
+}
+
+/// Bytes of so many numbers along each axis, `times` times.
+pub(crate) fn bytes(shape: &[usize], times: usize) -> Option<usize> {
+    let sizes = shape.iter().copied().chain([times, size_of::<f64>()]);
+    sizes.into_iter().try_fold(1_usize, usize::checked_mul)
+}
+
+/// Room for an array of this shape.
+///
+/// # Errors
+/// MemoryError.
+pub(crate) fn room(shape: &[usize]) -> PyResult<Vec<f64>> {
+    let what = format!("an array of shape {}", shown(shape));
+    need(&what, bytes(shape, 1))?;
+    let mut values = Vec::new();
+    let count = shape.iter().product();
+    values
+        .try_reserve_exact(count)
+        .map_err(|_| PyMemoryError::new_err(format!("there is no memory for {what}")))?;
+    Ok(values)
+}

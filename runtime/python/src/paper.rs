@@ -1,0 +1,1 @@
+../../../tests/fixtures/expanded/paper.rs
