@@ -8,10 +8,10 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, Item, ItemMod, ItemUse, UseTree, Visibility};
 
 /// Path of a module or item within its package; empty at the root.
-pub type ModulePath = Vec<String>;
+pub(super) type ModulePath = Vec<String>;
 
 /// The modules that each module names, and by which names.
-pub type NamedModules = BTreeMap<ModulePath, BTreeMap<ModulePath, BTreeSet<String>>>;
+pub(super) type NamedModules = BTreeMap<ModulePath, BTreeMap<ModulePath, BTreeSet<String>>>;
 
 /// What the file of a module says of others.
 #[derive(Default)]
@@ -22,7 +22,7 @@ struct ModuleSource {
 }
 
 /// The source of a package, without its tests.
-pub struct PackageSource {
+pub(super) struct PackageSource {
     modules: BTreeMap<ModulePath, ModuleSource>,
 }
 
@@ -31,7 +31,7 @@ impl PackageSource {
     ///
     /// # Panics
     /// If one cannot be read or is not Rust.
-    pub fn read(root: &Path) -> Self {
+    pub(super) fn read(root: &Path) -> Self {
         let mut files = Vec::new();
         sources(root, &mut files);
         let paths: BTreeMap<ModulePath, PathBuf> = files
@@ -56,13 +56,13 @@ impl PackageSource {
     }
 
     /// The modules, the root left out.
-    pub fn modules(&self) -> impl Iterator<Item = &ModulePath> {
+    pub(super) fn modules(&self) -> impl Iterator<Item = &ModulePath> {
         self.modules.keys().filter(|path| !path.is_empty())
     }
 
     /// Which modules each module names, itself left out: where what it names is defined, not
     /// where it is exported again.
-    pub fn named(&self) -> NamedModules {
+    pub(super) fn named(&self) -> NamedModules {
         let modules = self.modules.iter().map(|(path, module)| {
             let mut found: BTreeMap<ModulePath, BTreeSet<String>> = BTreeMap::new();
             for named in &module.named {
