@@ -82,6 +82,23 @@ pub enum Counts {
 }
 
 impl MeasuredFile {
+    /// Names of the options that say something of the file.
+    pub const OPTIONS: [&str; 13] = [
+        "columns",
+        "unit",
+        "zero",
+        "dots",
+        "pivot",
+        "y_down",
+        "y_up",
+        "relative",
+        "tilt",
+        "leave_out",
+        "time",
+        "frame_rate",
+        "drop_repeated",
+    ];
+
     /// Reads `file` with what is known of it, as a pendulum whose links hang on these `parents`.
     ///
     /// # Errors
@@ -186,7 +203,7 @@ impl MeasuredFile {
         }
     }
 
-    /// Refuses options of a file where there is none, and of angles beside those of dots.
+    /// Refuses options of angles beside those of dots.
     ///
     /// # Errors
     /// A sentence about the options.
@@ -203,13 +220,6 @@ impl MeasuredFile {
             ("--y-down", self.y_down),
             ("--y-up", self.y_up),
         ];
-        let of_all = [
-            ("--tilt", self.tilt.is_some()),
-            ("--leave-out", !self.leave_out.is_empty()),
-            ("--time", self.time.is_some()),
-            ("--frame-rate", self.frame_rate.is_some()),
-            ("--drop-repeated", self.drop_repeated.is_some()),
-        ];
         let given = |options: &[(&'static str, bool)]| {
             let mut given = options.iter().filter(|(_, is_given)| *is_given);
             given.next().map(|(option, _)| *option)
@@ -225,12 +235,7 @@ impl MeasuredFile {
                 "--pivot beside --dots: name its place among them, as in `0,0:a,a:b`".into(),
             );
         }
-        match columns.or(dots).or(given(&of_all)) {
-            Some(option) if self.file.is_none() => Err(format!(
-                "{option} is of a file of measurements, and none is given"
-            )),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Command, Parser, value_parser};
+use clap::{Arg, ArgMatches, Command, Id, Parser, value_parser};
 use serde_json::{Map, Value};
 
 use super::sweep::Shard;
@@ -22,6 +22,12 @@ pub trait Arguments: Parser {
         None
     }
 
+    /// The options that a record decides on which is measured or simulated; none of a program
+    /// that has no such record.
+    fn of_records() -> RecordOptions {
+        RecordOptions::default()
+    }
+
     /// Compares options with each other.
     ///
     /// # Errors
@@ -29,6 +35,52 @@ pub trait Arguments: Parser {
     fn check(&self) -> Result<(), String> {
         Ok(())
     }
+}
+
+/// Options, by their names, of a program whose record is measured where a [`FILE`] is given, and
+/// simulated without one: each list means nothing to the record of the other kind.
+#[derive(Clone, Debug, Default)]
+pub struct RecordOptions {
+    /// Options of a file of measurements.
+    pub measured: Vec<&'static str>,
+    /// Options of a simulated record.
+    pub simulated: Vec<&'static str>,
+}
+
+/// Name of the argument that is a file of measurements.
+pub const FILE: &str = "file";
+
+impl RecordOptions {
+    /// Refuses options of the record that is not taken. Values by default are none that are given.
+    fn check(&self, command: &Command, matches: &ArgMatches) -> Result<(), String> {
+        let is_of = |id: &Id, options: &[&str]| options.contains(&id.as_str());
+        let given = |options: &[&str]| {
+            let mut all = command.get_arguments();
+            let given =
+                all.find(|own| is_of(own.get_id(), options) && is_given(matches, own.get_id()))?;
+            Some(given.get_long().unwrap_or(given.get_id().as_str()))
+        };
+        let is_measured = matches!(matches.try_contains_id(FILE), Ok(true));
+        match is_measured {
+            true => given(&self.simulated).map(|option| {
+                format!(
+                    "--{option} is of a simulated record, and a file of measurements is given: \
+                     leave out one of the two"
+                )
+            }),
+            false => given(&self.measured).map(|option| {
+                format!(
+                    "--{option} is of a file of measurements, and none is given: name the file, \
+                     or leave out --{option}"
+                )
+            }),
+        }
+        .map_or(Ok(()), Err)
+    }
+}
+
+fn is_given(matches: &ArgMatches, id: &Id) -> bool {
+    matches.value_source(id.as_str()) == Some(ValueSource::CommandLine)
 }
 
 /// The options that all programs have: the folder of results, and a run to repeat.
@@ -61,6 +113,10 @@ pub fn parse<A: Arguments>(
             .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
         let name = given.into_iter().take(1);
         matches = command.try_get_matches_from_mut(name.chain(words))?;
+    } else {
+        // A record restates all values, those by default too.
+        let checked = A::of_records().check(&command, &matches);
+        checked.map_err(|message| command.error(ErrorKind::ArgumentConflict, message))?;
     }
     let arguments = A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
     arguments
@@ -95,10 +151,9 @@ fn repeated(
     matches: &ArgMatches,
     file: &std::path::Path,
 ) -> Result<Vec<OsString>, String> {
-    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
     let ids = command.get_arguments().map(|argument| argument.get_id());
     let mut others = ids.filter(|id| *id != OUTPUT && *id != REPEAT);
-    if let Some(id) = others.find(|id| given(id.as_str())) {
+    if let Some(id) = others.find(|id| is_given(matches, id)) {
         return Err(format!(
             "`--repeat` takes the value of `{id}` from its file"
         ));

@@ -26,7 +26,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 pub use checkpoint::Checkpoint;
-pub use command_line::{Arguments, CommandLine};
+pub use command_line::{Arguments, CommandLine, RecordOptions};
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Parser;
 
+use crate::frame::RecordOptions;
 use crate::frame::command_line::number;
 use crate::measured_file::MeasuredFile;
 use crate::motion::MethodArguments;
@@ -82,6 +83,19 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
+
+    fn of_records() -> RecordOptions {
+        let own = ["difference", "duration", "rate", "noise", "real", "turned"];
+        RecordOptions {
+            measured: [&MeasuredFile::OPTIONS[..], &["every"]].concat(),
+            simulated: [
+                &own[..],
+                &ReleaseArguments::OPTIONS,
+                &MethodArguments::OPTIONS,
+            ]
+            .concat(),
+        }
+    }
 
     fn check(&self) -> Result<(), String> {
         self.measured.check()
