@@ -16,13 +16,15 @@ use crate::frame::command_line::parts;
 /// Options that name a tree.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct TreeArguments {
-    /// the tree: a text file with its description, `-` for standard input, or a shipped one:
-    /// paper, apparatus, double-pendulum, chain, triple, y, branch, cascade
+    /// The tree.
     #[arg(
-        verbatim_doc_comment,
         long,
         value_name = "FILE|NAME",
-        default_value = "paper"
+        default_value = "paper",
+        help = format!(
+            "the tree: a text file with its description, `-` for standard input, or a shipped one:\n{}",
+            shipped()
+        )
     )]
     pub tree: String,
     /// values of parameters of the description, in SI units
@@ -118,6 +120,12 @@ const SHIPPED: [Shipped; 8] = [
     },
 ];
 
+/// Returns the names of the trees that are shipped.
+fn shipped() -> String {
+    let names = SHIPPED.each_ref().map(|shipped| shipped.name);
+    names.join(", ")
+}
+
 /// A tree with where it came from.
 #[derive(Clone, Debug)]
 pub struct Subject {
@@ -208,6 +216,7 @@ impl TreeArguments {
         };
         read.map_err(|source| Failure::NoTree {
             name: self.tree.clone(),
+            shipped: shipped(),
             source,
         })
     }

@@ -45,7 +45,8 @@ fn mistakes_are_named_with_their_place() {
         (
             &["describe", "--tree", "nowhere.txt"][..],
             1,
-            "there is no tree `nowhere.txt`",
+            "there is no tree `nowhere.txt`: neither a shipped one (paper, apparatus, double-pendulum, \
+             chain, triple, y, branch, cascade) nor",
         ),
         (
             &["simulate", "--start", "1,2"],
