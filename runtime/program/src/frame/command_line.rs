@@ -17,6 +17,9 @@ pub trait Arguments: Parser {
     /// files only where it is asked to.
     const FOLDER: Option<&'static str>;
 
+    /// True if the program draws charts, whose width may be asked for.
+    const CHARTS: bool = false;
+
     /// The shard of the run that is computed, if it is not all of it.
     fn shard(&self) -> Option<Shard> {
         None
@@ -86,6 +89,8 @@ fn is_given(matches: &ArgMatches, id: &Id) -> bool {
 /// The options that all programs have: the folder of results, and a run to repeat.
 const OUTPUT: &str = "output";
 const REPEAT: &str = "repeat";
+/// The option of programs that draw charts.
+const FIGURE_WIDTH: &str = "figure-width";
 
 /// A command line that was read.
 #[derive(Debug)]
@@ -94,6 +99,8 @@ pub struct CommandLine<A> {
     pub arguments: A,
     /// The folder of results, if there is one.
     pub output: Option<PathBuf>,
+    /// Width of the charts as figures of a paper, mm, where it is asked for.
+    pub figure_width: Option<f64>,
     /// All values as text, those by default included, for `run.json`.
     pub values: Map<String, Value>,
 }
@@ -125,6 +132,10 @@ pub fn parse<A: Arguments>(
     Ok(CommandLine {
         arguments,
         output: matches.get_one(OUTPUT).cloned(),
+        figure_width: match A::CHARTS {
+            true => matches.get_one(FIGURE_WIDTH).copied(),
+            false => None,
+        },
         values: values(&command, &matches),
     })
 }
@@ -142,7 +153,13 @@ fn command<A: Arguments>() -> Command {
     let repeat = path(REPEAT)
         .value_name("FILE")
         .help("repeats the run that a run.json records; no other option but --output");
-    A::command().args([output, repeat])
+    let width = Arg::new(FIGURE_WIDTH)
+        .long(FIGURE_WIDTH)
+        .value_name("MM")
+        .value_parser(millimetres)
+        .help("width of charts as figures of a paper, 66 to 400 mm, with type of 7 and 8\npoints: 85mm is a column of many journals");
+    let own = A::command().args([output, repeat]);
+    if A::CHARTS { own.arg(width) } else { own }
 }
 
 /// The words of the run that `file` records, with the output folder of this one.
@@ -203,6 +220,11 @@ fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
         }
     }
     values
+}
+
+/// Reads a width in millimetres, with the unit or without.
+fn millimetres(text: &str) -> Result<f64, String> {
+    number(66.0..=400.0, "mm")(text.trim_end_matches("mm"))
 }
 
 /// The parts of a list that stand between commas.

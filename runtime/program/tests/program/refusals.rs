@@ -78,6 +78,16 @@ fn mistakes_are_named_with_their_place() {
             "outputs: angles, energy, pixels, transfer",
         ),
         (&["grow"], 2, "growth"),
+        (
+            &["simulate", "--figure-width", "2cm"],
+            2,
+            "it must be from 66 to 400 mm",
+        ),
+        (
+            &["modes", "--figure-width", "85mm"],
+            2,
+            "unexpected argument '--figure-width'",
+        ),
     ] {
         let text = refusal(words, code);
         assert!(text.contains(told), "{words:?}: {text}");

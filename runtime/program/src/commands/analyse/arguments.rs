@@ -83,6 +83,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
+    const CHARTS: bool = true;
 
     fn of_records() -> RecordOptions {
         let own = ["difference", "duration", "rate", "noise", "real", "turned"];

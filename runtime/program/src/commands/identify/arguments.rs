@@ -107,6 +107,7 @@ impl Default for Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
+    const CHARTS: bool = true;
 
     fn of_records() -> RecordOptions {
         let own = ["noise", "duration", "rate"];
