@@ -3,12 +3,14 @@
 
 pub mod budget;
 pub mod commands;
+pub mod constants;
 pub mod failure;
 pub mod film;
 pub mod frame;
 pub mod measured_file;
 pub mod motion;
 pub mod release;
+pub mod shipped;
 pub mod smoothed;
 pub mod subject;
 pub mod windows;

@@ -1,6 +1,7 @@
 //! The command, run as its users run it, with trees that nobody compiled.
 
 mod answers;
+mod held_out;
 mod identify;
 mod measured;
 mod refusals;

@@ -1,7 +1,5 @@
 //! The command line.
 
-use std::path::PathBuf;
-
 use clap::Parser;
 
 use crate::frame::RecordOptions;
@@ -29,10 +27,6 @@ pub struct Arguments {
     /// The tree that was measured.
     #[command(flatten)]
     pub tree: TreeArguments,
-    /// constants of the tree, a table of names and values (JSON), as `identify` writes it; `--set`
-    /// wins over it
-    #[arg(verbatim_doc_comment, long, value_name = "FILE")]
-    pub parameters: Option<PathBuf>,
     /// sector whose energy is told, by its name, or `whole` for that of the tree; the first
     /// difference between copies without it, and the whole where there are none
     #[arg(verbatim_doc_comment, long, value_name = "NAME")]
