@@ -31,7 +31,7 @@ const PANEL_GAP: f64 = 18.0;
 const COLUMN_GAP: f64 = 20.0;
 pub(crate) const LEGEND_GAP: f64 = 10.0;
 
-const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
+pub(crate) const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
 /// Least width and height of a panel that can be read.
 const LEAST_PANEL: (f64, f64) = (120.0, 100.0);
 

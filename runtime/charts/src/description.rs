@@ -1,12 +1,12 @@
 use std::fs;
 use std::path::Path;
 
-use crate::arrange;
+use crate::arrange::{self, LEAST_SIZE, TICK_SIZE};
 use crate::compose;
 use crate::error::ChartError;
 use crate::font::Font;
 use crate::style::{Color, Dash, Symbol, ramp};
-use crate::{png, svg};
+use crate::{pdf, png, svg};
 
 /// Description of a chart: plain data until it is rendered.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,16 @@ pub struct Chart {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) scale: f64,
+    /// Size of a px in a figure of a fixed width, mm.
+    pub(crate) unit: Option<f64>,
 }
+
+/// Size of a px where no width is fixed, mm.
+const UNIT: f64 = 25.4 / 96.0;
+/// Size of a px in a figure, mm: tick labels have 7 points there.
+const FIGURE_UNIT: f64 = 7.0 / 72.0 * 25.4 / TICK_SIZE;
+/// Pixels of a figure's PNG in a millimetre: 600 in an inch.
+const FIGURE_PIXELS: f64 = 600.0 / 25.4;
 
 /// An axis: its label, its kind and, where given, its range.
 #[derive(Clone, Debug, PartialEq)]
@@ -264,6 +273,7 @@ impl Chart {
             width: 900.0,
             height: 560.0,
             scale: 2.0,
+            unit: None,
         }
     }
 
@@ -301,6 +311,18 @@ impl Chart {
         self
     }
 
+    /// Makes a figure of this width (mm, at least 66) whose type has a fixed size, 7 points at ticks
+    /// and 8 at axes. Its height keeps the proportion, unless panels would be too low; its
+    /// PNG has 600 pixels in an inch.
+    pub fn figure(mut self, width: f64) -> Self {
+        let px = width / FIGURE_UNIT;
+        self.height = (self.height * px / self.width).max(LEAST_SIZE.1);
+        self.width = px;
+        self.unit = Some(FIGURE_UNIT);
+        self.scale = FIGURE_UNIT * FIGURE_PIXELS;
+        self
+    }
+
     /// Renders to a self-contained SVG document.
     ///
     /// # Errors
@@ -308,7 +330,17 @@ impl Chart {
     pub fn to_svg(&self) -> Result<String, ChartError> {
         let font = Font::embedded()?;
         let drawing = compose::draw(self, &arrange::arrange(self, &font)?);
-        Ok(svg::document(&drawing))
+        Ok(svg::document(&drawing, self.unit))
+    }
+
+    /// Renders to the bytes of a PDF file of one page.
+    ///
+    /// # Errors
+    /// Every variant of [`ChartError`] but `Encode` and `Io`.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
+        let font = Font::embedded()?;
+        let drawing = compose::draw(self, &arrange::arrange(self, &font)?);
+        Ok(pdf::document(&drawing, &font, self.unit.unwrap_or(UNIT)))
     }
 
     /// Renders to the bytes of a PNG file of `scale` pixels per px, RGBA.
@@ -318,7 +350,7 @@ impl Chart {
     pub fn to_png(&self) -> Result<Vec<u8>, ChartError> {
         let font = Font::embedded()?;
         let drawing = compose::draw(self, &arrange::arrange(self, &font)?);
-        png::encode(&drawing, &font, self.scale)
+        png::encode(&drawing, &font, self.scale, self.unit.unwrap_or(UNIT))
     }
 
     /// Writes [`Chart::to_svg`] to a file, replacing what was there.
@@ -335,6 +367,14 @@ impl Chart {
     /// As [`Chart::to_png`], and [`ChartError::Io`].
     pub fn write_png(&self, path: impl AsRef<Path>) -> Result<(), ChartError> {
         write(path.as_ref(), &self.to_png()?)
+    }
+
+    /// Writes [`Chart::to_pdf`] to a file, replacing what was there.
+    ///
+    /// # Errors
+    /// As [`Chart::to_pdf`], and [`ChartError::Io`].
+    pub fn write_pdf(&self, path: impl AsRef<Path>) -> Result<(), ChartError> {
+        write(path.as_ref(), &self.to_pdf()?)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::error::ChartError;
 
 const DATA: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
-/// The embedded font: metrics for the layout, outlines for the PNG.
+/// The embedded font: metrics for the layout, outlines for the PNG, and the whole of it for the PDF.
 pub(crate) struct Font {
     face: Face<'static>,
     units_per_em: f64,
@@ -27,36 +27,74 @@ impl Font {
     }
 
     /// Outlines of `text`, the pen at `(x, y)` (px, y down).
-    pub(crate) fn outline(
+    pub(crate) fn outline(&self, text: &str, pen: (f64, f64), size: f64, sink: &mut impl Outline) {
+        for Placed { id, origin, .. } in self.place(text, pen, size) {
+            let mut pen = Pen {
+                origin,
+                scale: size / self.units_per_em,
+                sink: &mut *sink,
+            };
+            // `None` stands for a glyph without outline, such as a space.
+            let _ = self.face.outline_glyph(id, &mut pen);
+        }
+    }
+
+    /// Glyphs of `text`, the pen at `(x, y)` (px, y down).
+    pub(crate) fn place(
         &self,
         text: &str,
         (mut x, y): (f64, f64),
         size: f64,
-        sink: &mut impl Outline,
-    ) {
+    ) -> impl Iterator<Item = Placed> {
         let scale = size / self.units_per_em;
         let mut base: Option<(GlyphId, f64)> = None;
-        for character in text.chars() {
-            let glyph = self.glyph(character);
-            let (dx, dy) = match base {
+        text.chars().map(move |character| {
+            let id = self.glyph(character);
+            let origin = match base {
                 Some((base, pen)) if is_combining(character) => {
-                    let (dx, dy) = self.accent_shift(base, glyph);
-                    (pen - x + dx * scale, dy * scale)
+                    let (dx, dy) = self.accent_shift(base, id);
+                    (pen + dx * scale, y - dy * scale)
                 }
-                _ => (0.0, 0.0),
+                _ => (x, y),
             };
-            let mut pen = Pen {
-                origin: (x + dx, y - dy),
-                scale,
-                sink: &mut *sink,
-            };
-            // `None` stands for a glyph without outline, such as a space.
-            let _ = self.face.outline_glyph(glyph, &mut pen);
             if !is_combining(character) {
-                base = Some((glyph, x));
+                base = Some((id, x));
             }
-            x += self.advance(character) * size;
-        }
+            let advance = self.advance(character) * size;
+            x += advance;
+            Placed {
+                id,
+                origin,
+                advance,
+                next: x,
+            }
+        })
+    }
+
+    /// The file of the font.
+    pub(crate) const fn data() -> &'static [u8] {
+        DATA
+    }
+
+    /// Index of the glyph of a character, 0 of one that is not there.
+    pub(crate) fn index(&self, character: char) -> u16 {
+        self.glyph(character).0
+    }
+
+    /// Widths in em of all glyphs, in their order.
+    pub(crate) fn advances(&self) -> impl Iterator<Item = f64> {
+        let all = 0..self.face.number_of_glyphs();
+        all.map(|glyph| {
+            let units = self.face.glyph_hor_advance(GlyphId(glyph));
+            f64::from(units.unwrap_or(0)) / self.units_per_em
+        })
+    }
+
+    /// Left, lower, right and upper bounds of all glyphs, in em.
+    pub(crate) fn bounds(&self) -> [f64; 4] {
+        let all = self.face.global_bounding_box();
+        [all.x_min, all.y_min, all.x_max, all.y_max]
+            .map(|units| f64::from(units) / self.units_per_em)
     }
 
     /// Shift, in font units and relative to the pen before the base, that
@@ -79,6 +117,17 @@ impl Font {
     fn glyph(&self, character: char) -> GlyphId {
         self.face.glyph_index(character).unwrap_or_default()
     }
+}
+
+/// A glyph of a text.
+pub(crate) struct Placed {
+    pub(crate) id: GlyphId,
+    /// Where the pen is for it, px, y down.
+    pub(crate) origin: (f64, f64),
+    /// The way by which it moves the pen, px.
+    pub(crate) advance: f64,
+    /// Where the pen is after it.
+    pub(crate) next: f64,
 }
 
 fn is_combining(character: char) -> bool {

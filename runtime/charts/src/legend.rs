@@ -16,6 +16,8 @@ pub(crate) const SIDE_GAP: f64 = 14.0;
 
 /// Part of the chart's width that a legend at the right may take.
 const WIDEST_SIDE: f64 = 0.3;
+/// Least width in px of a chart beside whose panels it stands.
+const LEAST_WIDTH: f64 = 500.0;
 
 /// The explanation of the series, with its place.
 pub(crate) struct Legend {
@@ -55,7 +57,8 @@ impl Legend {
                 list.iter().map(Entry::height).sum::<f64>() <= *height + ROW_GAP
             });
         let shaded = panels_shaded(chart);
-        if chart.columns == 1 && !shaded && fits && at_right.cell <= WIDEST_SIDE * chart.width {
+        let is_narrow = at_right.cell <= WIDEST_SIDE * chart.width && chart.width >= LEAST_WIDTH;
+        if chart.columns == 1 && !shaded && fits && is_narrow {
             return at_right;
         }
         let text_width = width - SAMPLE - GAP;

@@ -1,4 +1,4 @@
-//! Charts from one description, and films of trees, as SVG and as PNG.
+//! Charts from one description, as SVG, PNG and PDF, and films of trees, as SVG and PNG.
 //!
 //! A [`Chart`] is a title, a shared x axis and one or more [`Panel`]s, above each
 //! other or in columns; a panel holds [`Series`] (lines, symbols, bands, the cells
@@ -21,6 +21,8 @@
 //!     );
 //! chart.write_svg("energy.svg")?;
 //! chart.write_png("energy.png")?;
+//! // For a column of a paper: 85 mm wide, labels of 7 and 8 points.
+//! chart.figure(85.0).write_pdf("energy.pdf")?;
 //! # Ok(())
 //! # }
 //! ```
@@ -32,7 +34,7 @@
 //! nothing to act on, or with a brace that is never closed, stands for itself.
 //! Line feeds and other control characters become spaces. A character that
 //! the embedded font lacks (it has Latin, Greek, Cyrillic and common
-//! mathematics) is a hollow box in the PNG; the SVG leaves it to the viewer.
+//! mathematics) is a hollow box in PNG and PDF; the SVG leaves it to the viewer.
 //!
 //! # Samples
 //! A sample whose x or y is not finite, or not positive on a logarithmic axis,
@@ -73,6 +75,7 @@ mod font;
 mod guides;
 mod label;
 mod legend;
+mod pdf;
 mod png;
 mod shades;
 mod style;

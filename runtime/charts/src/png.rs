@@ -9,10 +9,29 @@ use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 
 const BLACK: Color = Color::rgb(0, 0, 0);
 
-/// The drawing as a PNG of `scale` pixels per px.
-pub(crate) fn encode(drawing: &Drawing, font: &Font, scale: f64) -> Result<Vec<u8>, ChartError> {
-    let bytes = raster(drawing, font, scale, WHITE)?.encode_png();
-    bytes.map_err(|source| ChartError::Encode(Box::new(source)))
+/// The drawing as a PNG of `scale` pixels per px, each of `unit` mm.
+pub(crate) fn encode(
+    drawing: &Drawing,
+    font: &Font,
+    scale: f64,
+    unit: f64,
+) -> Result<Vec<u8>, ChartError> {
+    let failed = |source: png::EncodingError| ChartError::Encode(Box::new(source));
+    let image = raster(drawing, font, scale, WHITE)?;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    encoder.set_color(png::ColorType::Rgba);
+    let metre = (1e3 * scale / unit).round() as u32;
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: metre,
+        yppu: metre,
+        unit: png::Unit::Meter,
+    }));
+    let mut writer = encoder.write_header().map_err(failed)?;
+    // The background is opaque, and so is what lies on it: colours are as they stand.
+    writer.write_image_data(image.data()).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
 }
 
 /// Drawings of one size as an animated PNG, which shows each for `interval` (s).

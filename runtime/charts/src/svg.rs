@@ -8,10 +8,10 @@ use crate::style::{Color, Dash, Fill, Symbol, WHITE};
 /// as wide or narrower. Kerning, which the layout leaves out, stays off.
 const FAMILIES: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
 
-/// The drawing as an SVG 1.1 document.
-pub(crate) fn document(drawing: &Drawing) -> String {
+/// The drawing as an SVG 1.1 document, `unit` mm a px where that is given.
+pub(crate) fn document(drawing: &Drawing, unit: Option<f64>) -> String {
     let size = (drawing.width, drawing.height);
-    let mut out = opening(&drawing.title, size, WHITE);
+    let mut out = opening(&drawing.title, size, unit, WHITE);
     for mark in &drawing.marks {
         push_mark(&mut out, mark);
     }
@@ -19,12 +19,23 @@ pub(crate) fn document(drawing: &Drawing) -> String {
     out
 }
 
-/// The beginning of a document of this size (px): title and background.
-pub(crate) fn opening(title: &str, (width, height): Point, background: Color) -> String {
+/// The beginning of a document of this size (px, which have `unit` mm each where that is given):
+/// title and background.
+pub(crate) fn opening(
+    title: &str,
+    (width, height): Point,
+    unit: Option<f64>,
+    background: Color,
+) -> String {
+    let side = |side: f64| match unit {
+        Some(unit) => format!("{}mm", Px(side * unit)),
+        None => Px(side).to_string(),
+    };
+    let (outer_width, outer_height) = (side(width), side(height));
     let (width, height) = (Px(width), Px(height));
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
-         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{outer_width}\" \
+         height=\"{outer_height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
          font-family=\"{FAMILIES}\" style=\"font-kerning:none\">\n<title>{}</title>\n\
          <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
         escape(title),

@@ -36,11 +36,13 @@ pub enum Failure {
     },
     /// A file with a description that could not be read.
     #[error(
-        "there is no tree `{name}`: neither a shipped one (paper, apparatus, double-pendulum, chain, triple, y, branch, cascade) nor a file that can be read"
+        "there is no tree `{name}`: neither a shipped one ({shipped}) nor a file that can be read"
     )]
     NoTree {
         /// The name given.
         name: String,
+        /// Names of the shipped trees.
+        shipped: String,
         /// The system's error.
         source: io::Error,
     },

@@ -3,6 +3,7 @@
 
 pub mod budget;
 pub mod commands;
+pub mod constants;
 pub mod failure;
 pub mod film;
 pub mod frame;
@@ -10,6 +11,7 @@ pub mod measured_file;
 pub mod motion;
 pub mod quadrature;
 pub mod release;
+pub mod shipped;
 pub mod smoothed;
 pub mod subject;
 pub mod windows;

@@ -21,6 +21,9 @@ pub struct MethodArguments {
 }
 
 impl MethodArguments {
+    /// Names of the options.
+    pub const OPTIONS: [&str; 2] = ["method", "tolerance"];
+
     /// Returns the method with its tolerance or step.
     pub fn integrator(&self) -> AnyIntegrator<f64> {
         let usual = if self.method.is_adaptive() {

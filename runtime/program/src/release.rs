@@ -32,6 +32,9 @@ pub struct ReleaseArguments {
 }
 
 impl ReleaseArguments {
+    /// Names of the options.
+    pub const OPTIONS: [&str; 2] = ["start", "rates"];
+
     /// Returns the state at the start.
     ///
     /// # Errors

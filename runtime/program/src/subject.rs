@@ -1,127 +1,42 @@
 //! The tree that a command answers for: read from a file, or one of those that are shipped.
 
 use std::io::Read;
+use std::path::PathBuf;
 
 use branched_pendulum::Positions;
 use branched_pendulum::sectors::{Sector, Sectors};
 use branched_pendulum::system::Model;
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
-use serde_json::{Map, Value};
-
 use crate::Failure;
+use crate::constants::KnownConstants;
 use crate::frame::Job;
 use crate::frame::command_line::parts;
+use crate::shipped::{self, SHIPPED, Shipped};
 
 /// Options that name a tree.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct TreeArguments {
-    /// the tree: a text file with its description, `-` for standard input, or a shipped one:
-    /// paper, apparatus, double-pendulum, chain, triple, y, branch, cascade
+    /// The tree.
     #[arg(
-        verbatim_doc_comment,
         long,
         value_name = "FILE|NAME",
-        default_value = "paper"
+        default_value = "paper",
+        help = format!(
+            "the tree: a text file with its description, `-` for standard input, or a shipped one:\n{}",
+            shipped::names()
+        )
     )]
     pub tree: String,
     /// values of parameters of the description, in SI units
     #[arg(long, value_name = "NAME=VALUE[,..]", value_parser = assignments)]
     // By its full path, clap takes each for one value.
     pub set: Vec<::std::vec::Vec<(String, f64)>>,
+    /// constants of the tree: a table of names and values (JSON), as `identify` writes it, or the
+    /// run.json of a run; `--set` wins over it. Offsets of links in it count where angles are read
+    #[arg(long, value_name = "FILE")]
+    pub parameters: Option<PathBuf>,
 }
-
-/// A description that is shipped.
-struct Shipped {
-    name: &'static str,
-    text: &'static str,
-    /// Values of parameters that are not set.
-    values: &'static [(&'static str, f64)],
-}
-
-const SHIPPED: [Shipped; 8] = [
-    Shipped {
-        name: "paper",
-        text: include_str!("../trees/paper.txt"),
-        values: &[("friction", 0.0)],
-    },
-    Shipped {
-        name: "apparatus",
-        text: include_str!("../trees/apparatus.txt"),
-        values: &[
-            ("gravity", 9.80665),
-            ("mass_1", 0.12880),
-            ("com_1", 0.084),
-            ("inertia_1", 1.88e-3),
-            ("joint_1", 0.27),
-            ("viscous_1", 1e-4),
-            ("coulomb_1", 0.0),
-            ("quadratic_1", 0.0),
-            ("mass_2", 0.10531),
-            ("com_2", 0.043),
-            ("inertia_2", 0.516e-3),
-            ("viscous_2", 2e-5),
-            ("coulomb_2", 0.0),
-            ("quadratic_2", 0.0),
-        ],
-    },
-    Shipped {
-        name: "double-pendulum",
-        text: include_str!("../trees/double-pendulum.txt"),
-        // Those that the authors of its measurements fitted (K. Kaheman et al., arXiv:2205.06231;
-        // their repository's `ParameterEstimation/DoublePendulum`), whose friction is viscous.
-        values: &[
-            ("gravity", 9.80858023),
-            ("mass_1", 0.0938439748),
-            ("com_1", 0.108565215),
-            ("inertia_1", 4.37529430e-4),
-            ("joint_1", 0.172719204),
-            ("viscous_1", 2.37142783e-4),
-            ("coulomb_1", 0.0),
-            ("quadratic_1", 0.0),
-            ("mass_2", 0.137595970),
-            ("com_2", 0.116779018),
-            ("inertia_2", 1.26882939e-3),
-            ("viscous_2", 1.00000019e-5),
-            ("coulomb_2", 0.0),
-            ("quadratic_2", 0.0),
-        ],
-    },
-    Shipped {
-        name: "chain",
-        text: include_str!("../trees/chain.txt"),
-        values: &[
-            ("upper_length", 0.3),
-            ("lower_length", 0.2),
-            ("friction", 0.0),
-        ],
-    },
-    Shipped {
-        name: "triple",
-        text: include_str!("../trees/triple.txt"),
-        values: &[("friction", 0.0)],
-    },
-    Shipped {
-        name: "y",
-        text: include_str!("../trees/y.txt"),
-        values: &[],
-    },
-    Shipped {
-        name: "branch",
-        text: include_str!("../trees/branch.txt"),
-        values: &[],
-    },
-    Shipped {
-        name: "cascade",
-        text: include_str!("../trees/cascade.txt"),
-        values: &[
-            ("mass_ratio", 0.5),
-            ("length_ratio", 0.7),
-            ("friction", 1e-5),
-            ("friction_ratio", 1e6),
-        ],
-    },
-];
 
 /// A tree with where it came from.
 #[derive(Clone, Debug)]
@@ -145,8 +60,10 @@ pub struct Described {
     pub description: TreeDescription,
     /// Values by `--set`.
     pub set: Vec<(String, f64)>,
-    /// Values that a shipped tree has where none are set.
-    pub defaults: &'static [(&'static str, f64)],
+    /// Values where none are set: of `--parameters`, and of a shipped tree.
+    pub defaults: Vec<(String, f64)>,
+    /// Offsets of links by `--parameters`, rad.
+    pub offsets: Vec<(String, f64)>,
 }
 
 impl TreeArguments {
@@ -154,7 +71,8 @@ impl TreeArguments {
     ///
     /// # Errors
     /// [`Failure::NoTree`] where there is no such file; [`Failure::Tree`] with all mistakes of the
-    /// description, and for values that it has not or no pendulum can have.
+    /// description, and for values that it has not or no pendulum can have;
+    /// [`Failure::Parameters`].
     pub fn read(&self) -> Result<Subject, Failure> {
         self.described()?.read()
     }
@@ -162,7 +80,8 @@ impl TreeArguments {
     /// Reads the description, without a value for each of its parameters.
     ///
     /// # Errors
-    /// [`Failure::NoTree`], and [`Failure::Tree`] with all mistakes of the description.
+    /// [`Failure::NoTree`], [`Failure::Parameters`], and [`Failure::Tree`] with all mistakes of the
+    /// description.
     pub fn described(&self) -> Result<Described, Failure> {
         let text = match self.shipped() {
             Some(shipped) => shipped.text.to_owned(),
@@ -179,16 +98,26 @@ impl TreeArguments {
     /// where none are set.
     ///
     /// # Errors
-    /// [`Failure::Tree`] with all mistakes of the description.
+    /// [`Failure::Parameters`], and [`Failure::Tree`] with all mistakes of the description.
     pub fn described_as(&self, text: String) -> Result<Described, Failure> {
-        let defaults = self
-            .shipped()
-            .map_or([].as_slice(), |shipped| shipped.values);
+        let shipped = self.shipped();
+        let shipped = shipped.map_or([].as_slice(), |shipped| shipped.values);
         let description = TreeDescription::parse(&text);
         let description = description.map_err(|error| Failure::Tree {
             name: self.tree.clone(),
             source: error.into(),
         })?;
+        let known = self.parameters.as_deref();
+        let known = known.map(|path| KnownConstants::read(path, &description));
+        let KnownConstants {
+            values: mut defaults,
+            offsets,
+        } = known.transpose()?.unwrap_or_default();
+        for &(name, value) in shipped {
+            if defaults.iter().all(|(own, _)| own != name) {
+                defaults.push((name.to_owned(), value));
+            }
+        }
         let set = self.set.concat();
         let is_again = |(place, (name, _)): &(usize, &(String, f64))| {
             set.iter().take(*place).any(|(other, _)| other == name)
@@ -208,6 +137,7 @@ impl TreeArguments {
             description,
             set,
             defaults,
+            offsets,
         })
     }
 
@@ -219,26 +149,27 @@ impl TreeArguments {
         };
         read.map_err(|source| Failure::NoTree {
             name: self.tree.clone(),
+            shipped: shipped::names(),
             source,
         })
     }
 }
 
 impl Described {
-    /// Returns the tree with the values that are set, and those of the shipped tree elsewhere.
+    /// Returns the tree with the values that are known.
     ///
     /// # Errors
     /// As [`subject`](Self::subject).
     pub fn read(&self) -> Result<Subject, Failure> {
-        let set = self.set.iter();
-        let mut values: Vec<(&str, f64)> =
-            set.map(|(name, value)| (name.as_str(), *value)).collect();
-        for &(name, value) in self.defaults {
-            if values.iter().all(|(own, _)| *own != name) {
-                values.push((name, value));
-            }
-        }
-        self.subject(&values)
+        self.subject(&self.known())
+    }
+
+    /// Returns the values that are known: those that are set, and others by default.
+    pub fn known(&self) -> Vec<(&str, f64)> {
+        let is_set = |name: &str| self.set.iter().any(|(own, _)| own == name);
+        let others = self.defaults.iter().filter(|(name, _)| !is_set(name));
+        let known = self.set.iter().chain(others);
+        known.map(|(name, value)| (name.as_str(), *value)).collect()
     }
 
     /// Returns the tree with these values of its parameters.
@@ -272,11 +203,16 @@ impl Described {
 impl Subject {
     /// Puts the description and the values of its parameters into the record of a run.
     pub fn record(&self, job: &Job) {
+        self.record_with(job, Vec::new());
+    }
+
+    /// Puts the offsets of links into the record too, rad.
+    pub fn record_with(&self, job: &Job, offsets: Vec<(String, f64)>) {
         let description = self.tree.description();
-        let value = |name: &str| (name.to_owned(), self.tree.value(name).into());
-        let values: Map<String, Value> = description.parameters().map(value).collect();
+        let value = |name: &str| Some((name.to_owned(), self.tree.value(name)?));
+        let values = description.parameters().filter_map(value).collect();
         job.report("description", self.text.as_str());
-        job.report("parameters", values);
+        job.report("parameters", KnownConstants { values, offsets }.table());
     }
 
     /// Returns the tree with another value of a parameter.
@@ -383,6 +319,7 @@ mod tests {
             let arguments = TreeArguments {
                 tree: shipped.name.to_owned(),
                 set: Vec::new(),
+                parameters: None,
             };
             let subject = arguments.read().unwrap();
             assert_eq!(subject.parents().iter().filter(|p| p.is_none()).count(), 1);
@@ -401,6 +338,7 @@ mod tests {
         let chain = TreeArguments {
             tree: "chain".to_owned(),
             set: Vec::new(),
+            parameters: None,
         };
         assert_eq!(chain.read().unwrap().first_copies(), None);
     }
@@ -410,6 +348,7 @@ mod tests {
         let arguments = TreeArguments {
             tree: "paper".to_owned(),
             set: vec![assignments("friction=1e-5").unwrap()],
+            parameters: None,
         };
         let subject = arguments.read().unwrap();
         assert_eq!(subject.links_named("child").unwrap(), [1, 2]);

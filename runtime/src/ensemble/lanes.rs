@@ -4,7 +4,7 @@ use std::slice::ChunksExact;
 
 use super::Ensemble;
 use crate::integrate::lanes::{self, Cases, Outcome, Task};
-use crate::integrate::{IntegrationError, LaneMethod, Solution};
+use crate::integrate::{Ending, IntegrationError, LaneMethod, Solution};
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::{LaneOde, State};
 
@@ -74,7 +74,62 @@ impl Ensemble<'_> {
         O: LaneOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
-        self.ends(method, Cases::Starts(system, starts), end)
+        self.ends(method, Cases::Starts(system, starts), end, &[])
+    }
+
+    /// Integrates a system from every start to the time `end`, or until one of the endings is
+    /// met, in lanes as [`integrate_in_lanes`](Self::integrate_in_lanes): times at which links
+    /// turn over, or at which a motion leaves a region.
+    ///
+    /// A trajectory that ends so has the time and the state of the crossing, by the dense
+    /// output of the method, and
+    /// [`StopReason::StoppedByEvent`](crate::integrate::StopReason::StoppedByEvent); its lane
+    /// takes the next start. The search is that of
+    /// [`integrate_with_events`](crate::integrate::Integrator::integrate_with_events), lane by lane.
+    ///
+    /// # Examples
+    ///
+    /// Time until a rod goes over the top, by its release:
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use branched_pendulum::integrate::{Crossing, Ending, StopReason};
+    /// use branched_pendulum::prelude::*;
+    ///
+    /// #[branched_pendulum(gravity = 9.80665, rod(mass = 0.2, com = 0.25, inertia = 4e-3))]
+    /// struct Rod;
+    ///
+    /// let starts = [5.0, 9.0, 12.0].map(|speed| State::new(0.0, vec![0.0, speed]));
+    /// let top = |_: f64, state: &[f64]| state[0] - std::f64::consts::PI;
+    /// let method = Dop853::new(Options::with_tolerance(1e-10));
+    /// let rod = AbsoluteAngles(Rod::new());
+    /// let ends = Ensemble::new().integrate_in_lanes_until(
+    ///     &method,
+    ///     &rod,
+    ///     &starts,
+    ///     10.0,
+    ///     &[Ending::new(Crossing::Rising, &top)],
+    /// );
+    /// let ends = ends.into_iter().collect::<Result<Vec<_>, _>>()?;
+    /// assert_eq!(ends[0].report.stop, StopReason::EndReached);
+    /// assert_eq!(ends[2].report.stop, StopReason::StoppedByEvent);
+    /// assert!((ends[2].state.values[0] - std::f64::consts::PI).abs() < 1e-9);
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    pub fn integrate_in_lanes_until<T, O, M>(
+        &self,
+        method: &M,
+        system: &O,
+        starts: &[State<T>],
+        end: T,
+        endings: &[Ending<'_, T>],
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
+    {
+        self.ends(method, Cases::Starts(system, starts), end, endings)
     }
 
     /// Integrates systems that differ in their constants, each from its own
@@ -128,7 +183,7 @@ impl Ensemble<'_> {
         O: LaneOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
-        self.ends(method, Cases::Pairs(releases), end)
+        self.ends(method, Cases::Pairs(releases), end, &[])
     }
 
     /// The states of a system at the given times, from every start, in lanes as
@@ -200,13 +255,14 @@ impl Ensemble<'_> {
         method: &M,
         cases: Cases<'_, O, T>,
         end: T,
+        endings: &[Ending<'_, T>],
     ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
     where
         T: Lane,
         O: LaneOde<T> + Sync,
         M: LaneMethod<O, T>,
     {
-        let outcomes = self.in_lanes(method, cases, &[], Some(end));
+        let outcomes = self.in_lanes(method, cases, &[], Some(end), endings);
         outcomes.map(|outcome| outcome.end).collect()
     }
 
@@ -217,7 +273,7 @@ impl Ensemble<'_> {
         M: LaneMethod<O, T>,
     {
         let dimension = cases.get(0).map_or(0, |(system, _)| system.dimension());
-        let outcomes = self.in_lanes(method, cases, times, times.last().copied());
+        let outcomes = self.in_lanes(method, cases, times, times.last().copied(), &[]);
         outcomes
             .map(|Outcome { end, samples }| Samples {
                 dimension,
@@ -234,6 +290,7 @@ impl Ensemble<'_> {
         cases: Cases<'_, O, T>,
         times: &[T],
         end: Option<T>,
+        endings: &[Ending<'_, T>],
     ) -> impl Iterator<Item = Outcome<T>> + use<T, O, M>
     where
         T: Lane,
@@ -246,6 +303,7 @@ impl Ensemble<'_> {
             cases,
             times,
             end,
+            endings,
         };
         let outcomes = self.on_threads(task.cases.len(), |queue| {
             let mut results = Vec::new();

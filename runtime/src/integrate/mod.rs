@@ -56,7 +56,7 @@ pub use fixed::{Gauss, Projected, Rk4, Solver};
 pub use frames::{Frames, longest_sub_step};
 pub use integrator::Integrator;
 #[cfg(feature = "std")]
-pub use lanes::LaneMethod;
+pub use lanes::{Ending, LaneMethod};
 pub use method::{AnyIntegrator, Method, UnknownMethod};
 pub use options::{Options, Tolerance};
 pub use piece::GaussOrder;

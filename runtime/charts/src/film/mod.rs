@@ -230,7 +230,12 @@ impl Film {
     /// width is not usable.
     pub fn to_svg(&self) -> Result<String, ChartError> {
         let layout = self.layout()?;
-        let mut out = svg::opening(&self.title, (layout.width, layout.height), self.background);
+        let mut out = svg::opening(
+            &self.title,
+            (layout.width, layout.height),
+            None,
+            self.background,
+        );
         for ((tree, root), marks) in self
             .trees
             .iter()

@@ -1,4 +1,5 @@
 mod awkward;
 mod charts;
+mod figures;
 mod films;
 mod parts;

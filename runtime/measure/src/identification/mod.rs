@@ -74,3 +74,5 @@ pub use identifiability::{Identifiability, OpenChange};
 pub use problem::{Identification, Shooting};
 pub use ratios::{DIVIDED, TIMES};
 pub use record::AngleRecord;
+pub use release::Unrest;
+pub use resolve::OFFSET_OF;

@@ -1,6 +1,32 @@
-//! Where a record begins before the links are let go.
+//! Where links rest: before they are let go, and in a stretch in which they hang still.
 
-use super::record::AngleRecord;
+use super::record::{AngleRecord, MeasuredLink};
+
+/// A link that does not rest in a stretch in which it should.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unrest {
+    /// Too few angles to tell.
+    #[error("`{link}` has {found} angles there, and a place of rest needs {FEW}")]
+    TooFew {
+        /// Name of the link.
+        link: String,
+        /// Number of its angles.
+        found: usize,
+    },
+    /// The link moves.
+    #[error(
+        "`{link}` moves there by {deviation:.1e} rad (rms), where its noise is {noise:.1e} rad"
+    )]
+    Moves {
+        /// Name of the link.
+        link: String,
+        /// Deviation of its angles from their mean, rad.
+        deviation: f64,
+        /// Deviation of their noise, rad.
+        noise: f64,
+    },
+}
 
 /// Samples without which nothing is said of a beginning.
 const FEW: usize = 5;
@@ -22,10 +48,13 @@ impl AngleRecord {
         let times = self.times();
         let links: Vec<Vec<(usize, f64)>> = self.links.iter().map(|link| link.data()).collect();
         let left = links.iter().filter_map(|data| departure(data)).min()?;
-        let rests: Vec<(f64, f64)> = links
-            .iter()
-            .map(|data| rest(&data[..data.partition_point(|(sample, _)| *sample < left)]))
-            .collect::<Option<_>>()?;
+        let rests = links.iter().map(|data| {
+            let before = &data[..data.partition_point(|(sample, _)| *sample < left)];
+            let rest = (before.len() >= FEW).then(|| Rest::of(before));
+            let rest = rest.filter(Rest::is_quiet)?;
+            Some((rest.mean, rest.deviation.max(rest.floor)))
+        });
+        let rests: Vec<(f64, f64)> = rests.collect::<Option<_>>()?;
         let far = |(data, &(mean, deviation)): (&Vec<(usize, f64)>, &(f64, f64))| {
             let is_far = |&&(sample, angle): &&(usize, f64)| {
                 sample > left && (angle - mean).abs() > FAR * deviation
@@ -34,6 +63,33 @@ impl AngleRecord {
         };
         let far = links.iter().zip(&rests).filter_map(far).min()?;
         (times[left] - times[0] > times[far] - times[left]).then_some(times[left])
+    }
+
+    /// Returns the mean angle of each link (rad) over the record, in which all of them rest.
+    ///
+    /// # Errors
+    /// [`Unrest`] for a link that moves by more than its noise.
+    pub fn means_at_rest(&self) -> Result<Vec<f64>, Unrest> {
+        let mean = |link: &MeasuredLink| {
+            let data = link.data();
+            if data.len() < FEW {
+                return Err(Unrest::TooFew {
+                    link: link.name.clone(),
+                    found: data.len(),
+                });
+            }
+            let mut rest = Rest::of(&data);
+            rest.noise = usual_noise(&data);
+            match rest.is_quiet() {
+                true => Ok(rest.mean),
+                false => Err(Unrest::Moves {
+                    link: link.name.clone(),
+                    deviation: rest.deviation,
+                    noise: rest.noise,
+                }),
+            }
+        };
+        self.links.iter().map(mean).collect()
     }
 }
 
@@ -59,18 +115,46 @@ fn departure(data: &[(usize, f64)]) -> Option<usize> {
     None
 }
 
-/// Mean and deviation of angles at rest; none where more than their noise moves them.
-fn rest(data: &[(usize, f64)]) -> Option<(f64, f64)> {
-    let angles = || data.iter().map(|(_, angle)| *angle);
-    let number = data.len() as f64;
-    let mean = angles().sum::<f64>() / number;
-    let squares: f64 = angles().map(|angle| (angle - mean).powi(2)).sum();
-    let deviation = (squares / (number - 1.0)).sqrt();
-    let angles: Vec<f64> = angles().collect();
-    let noise = (bends(&angles) / (number - 2.0)).sqrt();
-    let floor = resolution(angles.iter().copied());
-    let is_quiet = data.len() >= FEW && deviation <= QUIET * noise.max(floor);
-    is_quiet.then_some((mean, deviation.max(floor)))
+/// Angles that may be those of a link at rest.
+struct Rest {
+    mean: f64,
+    deviation: f64,
+    /// Deviation of the noise, by second differences.
+    noise: f64,
+    /// Deviation of the rounding.
+    floor: f64,
+}
+
+impl Rest {
+    fn of(data: &[(usize, f64)]) -> Self {
+        let angles: Vec<f64> = data.iter().map(|(_, angle)| *angle).collect();
+        let number = angles.len() as f64;
+        let mean = angles.iter().sum::<f64>() / number;
+        let squares: f64 = angles.iter().map(|angle| (angle - mean).powi(2)).sum();
+        Self {
+            mean,
+            deviation: (squares / (number - 1.0)).sqrt(),
+            noise: (bends(&angles) / (number - 2.0)).sqrt(),
+            floor: resolution(angles.iter().copied()),
+        }
+    }
+
+    /// Returns true if nothing but noise moves the link.
+    fn is_quiet(&self) -> bool {
+        self.deviation <= QUIET * self.noise.max(self.floor)
+    }
+}
+
+/// Deviation of the noise by the usual second difference: one leap does not change it.
+fn usual_noise(data: &[(usize, f64)]) -> f64 {
+    /// Part of the deviation of normal numbers below which half of them are.
+    const HALF: f64 = 0.674_489_75;
+    let bends = data
+        .windows(3)
+        .map(|three| three[0].1 - 2.0 * three[1].1 + three[2].1);
+    let mut bends: Vec<f64> = bends.map(f64::abs).collect();
+    bends.sort_by(f64::total_cmp);
+    bends[bends.len() / 2] / (HALF * 6.0_f64.sqrt())
 }
 
 /// Sum over second differences of the variance of white noise that has such: a sixth of their

@@ -11,6 +11,8 @@ use super::task::{FitTask, LinkData};
 
 /// Change of an offset that matters, rad.
 const OFFSET: f64 = 0.01;
+/// Beginning of the names of offsets, before that of a link.
+pub const OFFSET_OF: &str = "offset of ";
 /// Offsets within a turn.
 const TURN: [f64; 2] = [-core::f64::consts::PI, core::f64::consts::PI];
 
@@ -115,7 +117,7 @@ impl<F: Family> Identification<F> {
         }
         if self.offsets {
             for link in &record.links {
-                names.push(format!("offset of {}", link.name));
+                names.push(format!("{OFFSET_OF}{}", link.name));
                 scales.push(OFFSET);
                 globals.push(0.0);
                 bounds.push(TURN);

@@ -74,6 +74,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("growth-output");
+    const CHARTS: bool = true;
 }
 
 impl Arguments {

@@ -58,6 +58,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("map-output");
+    const CHARTS: bool = true;
 
     fn check(&self) -> Result<(), String> {
         match self.x.name == self.y.name {

@@ -33,6 +33,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("methods-output");
+    const CHARTS: bool = true;
 }
 
 const METHODS: [Method; 7] = [

@@ -42,6 +42,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("simulate-output");
+    const CHARTS: bool = true;
 
     fn check(&self) -> Result<(), String> {
         match self.duration * self.rate <= MOST_SAMPLES {

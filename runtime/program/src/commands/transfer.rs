@@ -43,6 +43,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("transfer-output");
+    const CHARTS: bool = true;
 }
 
 const FORMS: [(TransferForm, &str); 6] = [

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Command, Parser, value_parser};
+use clap::{Arg, ArgMatches, Command, Id, Parser, value_parser};
 use serde_json::{Map, Value};
 
 use super::sweep::Shard;
@@ -17,9 +17,18 @@ pub trait Arguments: Parser {
     /// files only where it is asked to.
     const FOLDER: Option<&'static str>;
 
+    /// True if the program draws charts, whose width may be asked for.
+    const CHARTS: bool = false;
+
     /// The shard of the run that is computed, if it is not all of it.
     fn shard(&self) -> Option<Shard> {
         None
+    }
+
+    /// The options that a record decides on which is measured or simulated; none of a program
+    /// that has no such record.
+    fn of_records() -> RecordOptions {
+        RecordOptions::default()
     }
 
     /// Compares options with each other.
@@ -31,9 +40,57 @@ pub trait Arguments: Parser {
     }
 }
 
+/// Options, by their names, of a program whose record is measured where a [`FILE`] is given, and
+/// simulated without one: each list means nothing to the record of the other kind.
+#[derive(Clone, Debug, Default)]
+pub struct RecordOptions {
+    /// Options of a file of measurements.
+    pub measured: Vec<&'static str>,
+    /// Options of a simulated record.
+    pub simulated: Vec<&'static str>,
+}
+
+/// Name of the argument that is a file of measurements.
+pub const FILE: &str = "file";
+
+impl RecordOptions {
+    /// Refuses options of the record that is not taken. Values by default are none that are given.
+    fn check(&self, command: &Command, matches: &ArgMatches) -> Result<(), String> {
+        let is_of = |id: &Id, options: &[&str]| options.contains(&id.as_str());
+        let given = |options: &[&str]| {
+            let mut all = command.get_arguments();
+            let given =
+                all.find(|own| is_of(own.get_id(), options) && is_given(matches, own.get_id()))?;
+            Some(given.get_long().unwrap_or(given.get_id().as_str()))
+        };
+        let is_measured = matches!(matches.try_contains_id(FILE), Ok(true));
+        match is_measured {
+            true => given(&self.simulated).map(|option| {
+                format!(
+                    "--{option} is of a simulated record, and a file of measurements is given: \
+                     leave out one of the two"
+                )
+            }),
+            false => given(&self.measured).map(|option| {
+                format!(
+                    "--{option} is of a file of measurements, and none is given: name the file, \
+                     or leave out --{option}"
+                )
+            }),
+        }
+        .map_or(Ok(()), Err)
+    }
+}
+
+fn is_given(matches: &ArgMatches, id: &Id) -> bool {
+    matches.value_source(id.as_str()) == Some(ValueSource::CommandLine)
+}
+
 /// The options that all programs have: the folder of results, and a run to repeat.
 const OUTPUT: &str = "output";
 const REPEAT: &str = "repeat";
+/// The option of programs that draw charts.
+const FIGURE_WIDTH: &str = "figure-width";
 
 /// A command line that was read.
 #[derive(Debug)]
@@ -42,6 +99,8 @@ pub struct CommandLine<A> {
     pub arguments: A,
     /// The folder of results, if there is one.
     pub output: Option<PathBuf>,
+    /// Width of the charts as figures of a paper, mm, where it is asked for.
+    pub figure_width: Option<f64>,
     /// All values as text, those by default included, for `run.json`.
     pub values: Map<String, Value>,
 }
@@ -61,6 +120,10 @@ pub fn parse<A: Arguments>(
             .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
         let name = given.into_iter().take(1);
         matches = command.try_get_matches_from_mut(name.chain(words))?;
+    } else {
+        // A record restates all values, those by default too.
+        let checked = A::of_records().check(&command, &matches);
+        checked.map_err(|message| command.error(ErrorKind::ArgumentConflict, message))?;
     }
     let arguments = A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
     arguments
@@ -69,6 +132,10 @@ pub fn parse<A: Arguments>(
     Ok(CommandLine {
         arguments,
         output: matches.get_one(OUTPUT).cloned(),
+        figure_width: match A::CHARTS {
+            true => matches.get_one(FIGURE_WIDTH).copied(),
+            false => None,
+        },
         values: values(&command, &matches),
     })
 }
@@ -86,7 +153,13 @@ fn command<A: Arguments>() -> Command {
     let repeat = path(REPEAT)
         .value_name("FILE")
         .help("repeats the run that a run.json records; no other option but --output");
-    A::command().args([output, repeat])
+    let width = Arg::new(FIGURE_WIDTH)
+        .long(FIGURE_WIDTH)
+        .value_name("MM")
+        .value_parser(millimetres)
+        .help("width of charts as figures of a paper, 66 to 400 mm, with type of 7 and 8\npoints: 85mm is a column of many journals");
+    let own = A::command().args([output, repeat]);
+    if A::CHARTS { own.arg(width) } else { own }
 }
 
 /// The words of the run that `file` records, with the output folder of this one.
@@ -95,10 +168,9 @@ fn repeated(
     matches: &ArgMatches,
     file: &std::path::Path,
 ) -> Result<Vec<OsString>, String> {
-    let given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
     let ids = command.get_arguments().map(|argument| argument.get_id());
     let mut others = ids.filter(|id| *id != OUTPUT && *id != REPEAT);
-    if let Some(id) = others.find(|id| given(id.as_str())) {
+    if let Some(id) = others.find(|id| is_given(matches, id)) {
         return Err(format!(
             "`--repeat` takes the value of `{id}` from its file"
         ));
@@ -148,6 +220,11 @@ fn values(command: &Command, matches: &ArgMatches) -> Map<String, Value> {
         }
     }
     values
+}
+
+/// Reads a width in millimetres, with the unit or without.
+fn millimetres(text: &str) -> Result<f64, String> {
+    number(66.0..=400.0, "mm")(text.trim_end_matches("mm"))
 }
 
 /// The parts of a list that stand between commas.

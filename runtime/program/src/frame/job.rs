@@ -119,6 +119,8 @@ pub struct Job {
     pub(super) progress: Arc<Mutex<Progress>>,
     pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
+    /// Width of charts as figures, mm.
+    figure_width: Option<f64>,
     /// Nobody reads the standard output any more.
     closed: Cell<bool>,
     /// Text that tests read in place of the standard output.
@@ -166,9 +168,18 @@ impl Job {
             progress: Arc::default(),
             interruption: Arc::default(),
             folder,
+            figure_width: None,
             closed: Cell::new(false),
             kept: None,
         })
+    }
+
+    /// Draws charts of that width (mm) as figures of a paper from now on, where one is given.
+    pub fn with_figure_width(self, figure_width: Option<f64>) -> Self {
+        Self {
+            figure_width,
+            ..self
+        }
     }
 
     /// A run of a test, which prints nothing.
@@ -300,7 +311,7 @@ impl Job {
         writer.finish()?.finish().map_err(failed)
     }
 
-    /// Draws a chart as SVG and PNG; `name` has no extension.
+    /// Draws a chart as SVG, PNG and PDF; `name` has no extension.
     ///
     /// # Errors
     /// [`Failure::Chart`] or [`Failure::File`].
@@ -308,7 +319,10 @@ impl Job {
         if self.folder.is_none() {
             return Ok(());
         }
+        let figure = self.figure_width.map(|width| chart.clone().figure(width));
+        let chart = figure.as_ref().unwrap_or(chart);
         self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
+        self.write(&format!("{name}.pdf"), &chart.to_pdf()?)?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
     }
 

@@ -26,7 +26,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 pub use checkpoint::Checkpoint;
-pub use command_line::{Arguments, CommandLine};
+pub use command_line::{Arguments, CommandLine, RecordOptions};
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;
@@ -59,6 +59,7 @@ pub fn run<A: Arguments>(
     let CommandLine {
         arguments,
         output: mut folder,
+        figure_width,
         values,
     } = match command_line::parse::<A>(words) {
         Ok(line) => line,
@@ -69,7 +70,7 @@ pub fn run<A: Arguments>(
         folder.push(shard.folder());
     }
     let job = match Job::start(&name, folder, values) {
-        Ok(job) => job,
+        Ok(job) => job.with_figure_width(figure_width),
         Err(failure) => {
             say(&name, &messages(&failure).join(": "));
             return ExitCode::FAILURE;

@@ -1,15 +1,13 @@
 //! Files of measured angles, as programs that analyse them take them.
 
-use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+mod angles;
 
-use branched_pendulum_data::{
-    AngleColumns, AngleUnit, AngleZero, Basis, Clock, Finding, LinkMarkers, Markers, Recording,
-    Repeated, Sample, Table, TableOptions, read_angles,
-};
+use std::path::PathBuf;
+
+use branched_pendulum_data::{AngleUnit, Table};
 use clap::{Args, ValueEnum};
 
-use crate::Failure;
+pub use self::angles::{MeasuredAngles, MeasuredLinks};
 use crate::frame::command_line::{number, parts};
 
 /// A file of angles or of dots against time, and what is known of it.
@@ -49,6 +47,16 @@ pub struct MeasuredFile {
     /// encoder are not plumb
     #[arg(verbatim_doc_comment, long, value_name = "DEG", value_parser = number(-180.0..=180.0, "°"), allow_hyphen_values = true)]
     pub tilt: Option<f64>,
+    /// a stretch of time in which all links hang at rest, s: what they show there is their direction
+    /// of gravity, whatever camera, dots or encoders are turned by
+    #[arg(verbatim_doc_comment, long, value_name = "FROM:TO", value_parser = stretch, allow_hyphen_values = true)]
+    pub rest: Option<[f64; 2]>,
+    /// time at which the motion begins, s; where links are held at first, it is found without it
+    #[arg(long, value_name = "S", value_parser = number(-1e9..=1e9, "s"), allow_hyphen_values = true)]
+    pub from: Option<f64>,
+    /// time at which it ends, s
+    #[arg(long, value_name = "S", value_parser = number(-1e9..=1e9, "s"), allow_hyphen_values = true)]
+    pub to: Option<f64>,
     /// stretches of time that are left out, s
     #[arg(long, value_name = "FROM:TO,...", value_parser = stretches, default_value = "", allow_hyphen_values = true)]
     pub leave_out: ::std::vec::Vec<[f64; 2]>,
@@ -82,71 +90,25 @@ pub enum Counts {
 }
 
 impl MeasuredFile {
-    /// Reads `file` with what is known of it, as a pendulum whose links hang on these `parents`.
-    ///
-    /// # Errors
-    /// [`Failure::Reading`] or [`Failure::Links`].
-    pub fn read(&self, file: &Path, parents: &[Option<usize>]) -> Result<Recording, Failure> {
-        self.angles(&Table::read(file, &TableOptions::default())?, parents)
-    }
-
-    /// Takes the angles of links that hang on these `parents` out of a table.
-    ///
-    /// # Errors
-    /// Errors of [`read`](Self::read).
-    pub fn angles(&self, table: &Table, parents: &[Option<usize>]) -> Result<Recording, Failure> {
-        let links = parents.len();
-        let clock = self.clock();
-        let mut table = Cow::Borrowed(table);
-        if let Some(counts) = self.drop_repeated {
-            let counts = match counts {
-                Counts::First => Repeated::First,
-                Counts::Last => Repeated::Last,
-            };
-            table = Cow::Owned(table.into_owned().without_repeated_times(&clock, counts)?);
-        }
-        if !self.leave_out.is_empty() {
-            table = Cow::Owned(table.into_owned().leaving_out(&clock, &self.leave_out)?);
-        }
-        let relative_to = self.relative.then(|| parents.to_vec());
-        let columns = AngleColumns {
-            clock: clock.clone(),
-            columns: self.columns.clone(),
-            unit: self.unit,
-            zero: self.zero.map(|zero| match zero {
-                Zero::Down => AngleZero::Down,
-                Zero::Up => AngleZero::Up,
-            }),
-            relative_to: relative_to.unwrap_or_default(),
-            ..AngleColumns::default()
-        };
-        let dots = self.dots.iter().cloned();
-        let markers = Markers {
-            clock,
-            links: dots
-                .map(|(upper, lower)| LinkMarkers { upper, lower })
-                .collect(),
-            pivot: self.pivot,
-            y_down: (self.y_down || self.y_up).then_some(self.y_down),
-            ..Markers::default()
-        };
-        let mut recording = read_angles(&table, &columns, &markers)?;
-        let found = recording.links.len();
-        if found != links {
-            return Err(Failure::Links {
-                path: table.path().to_path_buf(),
-                found,
-                needed: links,
-            });
-        }
-        if let Some(tilt) = self.tilt {
-            turn_back(&mut recording, tilt);
-        }
-        if !self.leave_out.is_empty() {
-            trim(&mut recording);
-        }
-        Ok(recording)
-    }
+    /// Names of the options that say something of the file.
+    pub const OPTIONS: [&str; 16] = [
+        "columns",
+        "unit",
+        "zero",
+        "dots",
+        "pivot",
+        "y_down",
+        "y_up",
+        "relative",
+        "tilt",
+        "rest",
+        "from",
+        "to",
+        "leave_out",
+        "time",
+        "frame_rate",
+        "drop_repeated",
+    ];
 
     /// Returns true where angles follow from the dots of a table.
     pub fn is_of_dots(&self, table: &Table) -> bool {
@@ -178,15 +140,7 @@ impl MeasuredFile {
         }
     }
 
-    fn clock(&self) -> Clock {
-        match (&self.time, self.frame_rate) {
-            (Some(column), _) => Clock::Column(column.clone()),
-            (None, Some(rate)) => Clock::FrameRate(rate),
-            (None, None) => Clock::Detect,
-        }
-    }
-
-    /// Refuses options of a file where there is none, and of angles beside those of dots.
+    /// Refuses options of angles beside those of dots, and a motion that ends before it begins.
     ///
     /// # Errors
     /// A sentence about the options.
@@ -203,13 +157,6 @@ impl MeasuredFile {
             ("--y-down", self.y_down),
             ("--y-up", self.y_up),
         ];
-        let of_all = [
-            ("--tilt", self.tilt.is_some()),
-            ("--leave-out", !self.leave_out.is_empty()),
-            ("--time", self.time.is_some()),
-            ("--frame-rate", self.frame_rate.is_some()),
-            ("--drop-repeated", self.drop_repeated.is_some()),
-        ];
         let given = |options: &[(&'static str, bool)]| {
             let mut given = options.iter().filter(|(_, is_given)| *is_given);
             given.next().map(|(option, _)| *option)
@@ -225,52 +172,14 @@ impl MeasuredFile {
                 "--pivot beside --dots: name its place among them, as in `0,0:a,a:b`".into(),
             );
         }
-        match columns.or(dots).or(given(&of_all)) {
-            Some(option) if self.file.is_none() => Err(format!(
-                "{option} is of a file of measurements, and none is given"
-            )),
-            _ => Ok(()),
+        if let (Some(from), Some(to)) = (self.from, self.to)
+            && from >= to
+        {
+            return Err(format!(
+                "--from {from} is no earlier than --to {to}: nothing is left of the motion"
+            ));
         }
-    }
-}
-
-/// Counts angles from the direction that gravity has at `tilt` (degrees).
-fn turn_back(recording: &mut Recording, tilt: f64) {
-    let offset = tilt.to_radians();
-    for sample in recording
-        .links
-        .iter_mut()
-        .flat_map(|link| &mut link.samples)
-    {
-        match sample {
-            Sample::Measured(angle) | Sample::Outlier(angle) | Sample::Unlikely(angle) => {
-                *angle -= offset;
-            }
-            _ => {}
-        }
-    }
-    recording.findings.push(Finding {
-        basis: Basis::Given,
-        text: format!("angles less {tilt}°, at which a link hangs at rest"),
-    });
-}
-
-/// Begins and ends a recording with a time at which something was measured.
-fn trim(recording: &mut Recording) {
-    let is_measured = |row: &usize| {
-        recording
-            .links
-            .iter()
-            .any(|link| link.angle(*row).is_some())
-    };
-    let count = recording.times.len();
-    let first = (0..count).find(is_measured).unwrap_or(count);
-    let last = (0..count).rfind(is_measured).map_or(count, |last| last + 1);
-    recording.times.truncate(last);
-    recording.times.drain(..first);
-    for link in &mut recording.links {
-        link.samples.truncate(last);
-        link.samples.drain(..first);
+        Ok(())
     }
 }
 
@@ -298,16 +207,18 @@ fn place(text: &str) -> Result<[f64; 2], String> {
     place.ok_or_else(|| "two numbers with a comma between, X,Y, or `origin`".to_owned())
 }
 
+/// Reads a stretch of time.
+fn stretch(text: &str) -> Result<[f64; 2], String> {
+    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    let ends = text.split_once(':');
+    let ends = ends.and_then(|(from, to)| Some([number(from)?, number(to)?]));
+    let ends = ends.filter(|[from, to]| from <= to);
+    ends.ok_or_else(|| "two times with a colon between, the earlier first: FROM:TO".to_owned())
+}
+
 /// Reads stretches of time.
 fn stretches(text: &str) -> Result<Vec<[f64; 2]>, String> {
-    let number = |part: &str| part.trim().parse().ok().filter(|x: &f64| x.is_finite());
-    let stretch = |part: &str| {
-        let (from, to) = part.split_once(':')?;
-        let [from, to] = [number(from)?, number(to)?];
-        (from <= to).then_some([from, to])
-    };
-    let all = parts(text).map(stretch).collect::<Option<_>>();
-    all.ok_or_else(|| "two times with a colon between, the earlier first: FROM:TO".to_owned())
+    parts(text).map(stretch).collect()
 }
 
 /// Reads pairs of dots; the comma of a place X,Y parts no pairs.

@@ -1,8 +1,9 @@
 //! Options of files.
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
 use super::MeasuredFile;
+use crate::frame::command_line::FILE;
 use branched_pendulum_data::AngleUnit;
 
 #[derive(Parser)]
@@ -78,17 +79,20 @@ fn options_that_cannot_apply_are_refused() {
         ("a.csv --leave-out 0:1,3:2", "the earlier first: FROM:TO"),
         ("a.csv --leave-out 1:inf", "the earlier first: FROM:TO"),
         ("a.csv --tilt 181", "must be from -180 to 180"),
-        ("--tilt 1", "--tilt is of a file"),
-        ("--leave-out 1:2", "--leave-out is of a file"),
-        ("--y-up", "--y-up is of a file"),
-        ("--relative", "--relative is of a file"),
-        ("--columns a", "--columns is of a file"),
-        ("--unit deg", "--unit is of a file"),
-        ("--pivot 0,0", "--pivot is of a file"),
-        ("--frame-rate 60", "--frame-rate is of a file"),
-        ("--drop-repeated", "--drop-repeated is of a file"),
     ] {
         let error = read(line).unwrap_err();
         assert!(error.contains(message), "{line}: {error}");
     }
+}
+
+/// Every option of files is named among them.
+#[test]
+fn options_of_files_have_names() {
+    let command = Line::command();
+    let all = command.get_arguments().map(|own| own.get_id().as_str());
+    let mut all: Vec<&str> = all.filter(|name| *name != FILE).collect();
+    let mut named = MeasuredFile::OPTIONS;
+    all.sort_unstable();
+    named.sort_unstable();
+    assert_eq!(all, named);
 }

@@ -220,6 +220,17 @@ fn both_refuse_alike() {
         ("a.csv --time t --frame-rate 60", "cannot be used with"),
         ("a.csv --pivot 1", "X,Y, or `origin`"),
         ("--columns a,b", "--columns is of a file of measurements"),
+        ("--tilt 1", "--tilt is of a file"),
+        ("--leave-out 1:2", "--leave-out is of a file"),
+        ("--y-up", "--y-up is of a file"),
+        ("--unit deg", "name the file, or leave out --unit"),
+        ("a.csv --start 10", "--start is of a simulated record"),
+        ("a.csv --noise 1e-3", "leave out one of the two"),
+        (
+            "a.csv --duration 10 --columns a,b",
+            "--duration is of a simulated record",
+        ),
+        ("a.csv --method rk4", "--method is of a simulated record"),
     ] {
         for command in ["analyse", "identify"] {
             let words = std::iter::once(command).chain(line.split_whitespace());

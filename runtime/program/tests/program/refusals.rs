@@ -45,7 +45,8 @@ fn mistakes_are_named_with_their_place() {
         (
             &["describe", "--tree", "nowhere.txt"][..],
             1,
-            "there is no tree `nowhere.txt`",
+            "there is no tree `nowhere.txt`: neither a shipped one (paper, apparatus, double-pendulum, \
+             chain, triple, y, branch, cascade) nor",
         ),
         (
             &["simulate", "--start", "1,2"],
@@ -77,6 +78,16 @@ fn mistakes_are_named_with_their_place() {
             "outputs: angles, energy, pixels, transfer",
         ),
         (&["grow"], 2, "growth"),
+        (
+            &["simulate", "--figure-width", "2cm"],
+            2,
+            "it must be from 66 to 400 mm",
+        ),
+        (
+            &["modes", "--figure-width", "85mm"],
+            2,
+            "unexpected argument '--figure-width'",
+        ),
     ] {
         let text = refusal(words, code);
         assert!(text.contains(told), "{words:?}: {text}");

@@ -19,8 +19,23 @@ fn a_record_repeats_the_run() {
         "--start",
         "stem=10,arm_1=3",
     ];
-    folder.answer(&[&words[..], &["--set", "stiffness=3", "--rates", "arm=-20"]].concat());
+    let others = [
+        "--set",
+        "stiffness=3",
+        "--rates",
+        "arm=-20",
+        "--figure-width",
+        "85mm",
+    ];
+    folder.answer(&[&words[..], &others].concat());
     let first = folder.read("results/motion.csv");
+    // Its charts are figures of a paper, in three formats.
+    let chart = folder.read("results/motion.svg");
+    assert!(chart.contains("width=\"85mm\""), "{chart:.200}");
+    for format in ["pdf", "png"] {
+        let file = folder.0.join(format!("results/motion.{format}"));
+        assert!(std::fs::metadata(file).unwrap().len() > 1000);
+    }
     let record = folder.0.join("results/run.json");
     let again = folder.0.join("again");
     let output = command(&["simulate", "--repeat", record.to_str().unwrap(), "--output"])
@@ -33,6 +48,7 @@ fn a_record_repeats_the_run() {
         String::from_utf8_lossy(&output.stderr)
     );
     assert_eq!(first, folder.read("again/motion.csv"));
+    assert_eq!(chart, folder.read("again/motion.svg"));
     // A record of another subcommand is none of this one.
     let output = command(&["modes", "--repeat", record.to_str().unwrap()])
         .output()

@@ -6,7 +6,7 @@ use core::borrow::Borrow;
 use core::fmt;
 use core::ops::ControlFlow;
 
-use self::search::{CrossingSearch, SearchError};
+pub(super) use self::search::{CrossingSearch, SearchError, SearchedStep};
 use super::error::{IntegrationError, RunError};
 use super::report::{Solution, StopReason};
 use super::run::Run;

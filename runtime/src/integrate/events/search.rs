@@ -19,8 +19,30 @@ const DEPARTURES: [f64; 3] = [1.0 / 8192.0, 1.0 / 512.0, 1.0 / 32.0];
 /// Places at which several functions are asked whether all are behind their zeros.
 const MEETINGS: u32 = 8;
 
+/// An accepted step within which crossings are looked for: one of a run, or one in a lane.
+pub(in crate::integrate) trait SearchedStep<T> {
+    /// Times at its start and at its end.
+    fn ends(&self) -> [T; 2];
+
+    /// Writes the solution at a time within the step: at its ends the state there.
+    ///
+    /// # Errors
+    /// [`DenseError`] where the step has no value.
+    fn value(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>>;
+}
+
+impl<T: Real> SearchedStep<T> for DenseStep<'_, T> {
+    fn ends(&self) -> [T; 2] {
+        [self.start_time(), self.end_time()]
+    }
+
+    fn value(&mut self, time: T, out: &mut [T]) -> Result<(), DenseError<T>> {
+        self.eval(time, out)
+    }
+}
+
 /// Why a step could not be searched.
-pub(super) enum SearchError<T> {
+pub(in crate::integrate) enum SearchError<T> {
     /// The step has no value to give.
     Dense(DenseError<T>),
     /// A function is NaN.
@@ -42,7 +64,7 @@ struct Found<T> {
 }
 
 /// The search along a run.
-pub(super) struct CrossingSearch<'a, T> {
+pub(in crate::integrate) struct CrossingSearch<'a, T> {
     events: &'a [Event<'a, T>],
     /// Number of occurrences of each so far.
     counts: Vec<u32>,
@@ -53,7 +75,7 @@ pub(super) struct CrossingSearch<'a, T> {
     /// Crossings of the current step, in their order along the run.
     found: Vec<Found<T>>,
     /// State at the last place looked at.
-    pub(super) state: Vec<T>,
+    pub(in crate::integrate) state: Vec<T>,
 }
 
 /// A place of a step and the value of a function there.
@@ -64,7 +86,7 @@ struct EventSample<T> {
 }
 
 impl<'a, T: Real> CrossingSearch<'a, T> {
-    pub(super) fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
+    pub(in crate::integrate) fn new(events: &'a [Event<'a, T>], state: &[T]) -> Self {
         Self {
             events,
             counts: alloc::vec![0; events.len()],
@@ -79,9 +101,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     /// is to end, the state there being that of the search, and why: it is asked for, or
     /// the visitor failed. Others at that time have been visited too.
     #[allow(clippy::type_complexity)]
-    pub(super) fn visit<E>(
+    pub(in crate::integrate) fn visit<E>(
         &mut self,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
         visit: &mut impl FnMut(Occurrence<'_, T>) -> Result<ControlFlow<()>, E>,
     ) -> Result<Option<(T, Result<(), E>)>, SearchError<T>> {
         self.step(step)?;
@@ -119,18 +141,19 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     fn meet(
         &mut self,
         first: usize,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<(T, usize), SearchError<T>> {
         let start = self.found[first].time;
         let near = rounding(ONE_TIME, start);
         let at_once = |found: &&Found<T>| (found.time - start).abs() <= near;
         let mut next = first + self.found[first..].iter().take_while(at_once).count();
         let mut time = self.found[next - 1].time;
-        step.eval(time, &mut self.state)?;
+        step.value(time, &mut self.state)?;
         if first + 1 == self.found.len() {
             return Ok((time, next));
         }
-        let (end, length) = (step.end_time(), step.end_time() - step.start_time());
+        let [begin, end] = step.ends();
+        let length = end - begin;
         let mut hop = near.max(T::EPSILON * length.abs()).min(length.abs());
         for _ in 0..MEETINGS {
             if self.are_behind(first, &mut next, time, step)? || time == end {
@@ -141,7 +164,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
             } else {
                 time - hop
             };
-            time = if step.contains(further) { further } else { end };
+            // In the direction of the step.
+            let is_beyond = (further - end) * length > T::ZERO;
+            time = if is_beyond { end } else { further };
             hop = hop + hop;
         }
         Ok((time, next))
@@ -154,7 +179,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         first: usize,
         next: &mut usize,
         time: T,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<bool, SearchError<T>> {
         let mut all = true;
         for index in first..self.found.len() {
@@ -184,9 +209,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
     }
 
     /// Finds the crossings within `step`, in their order.
-    fn step(&mut self, step: &mut DenseStep<'_, T>) -> Result<(), SearchError<T>> {
+    fn step(&mut self, step: &mut impl SearchedStep<T>) -> Result<(), SearchError<T>> {
         self.found.clear();
-        let (start, end) = (step.start_time(), step.end_time());
+        let [start, end] = step.ends();
         for index in 0..self.events.len() {
             let checks = self.events[index].checks;
             let value = if self.begun {
@@ -225,9 +250,9 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         &mut self,
         event: usize,
         time: T,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<T, SearchError<T>> {
-        step.eval(time, &mut self.state)?;
+        step.value(time, &mut self.state)?;
         let value = (self.events[event].function)(time, &self.state);
         // An infinite value has a sign; NaN has none.
         match value.partial_cmp(&T::ZERO) {
@@ -243,7 +268,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         left: EventSample<T>,
         right: T,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<EventSample<T>, SearchError<T>> {
         if left.value != T::ZERO {
             return Ok(left);
@@ -265,7 +290,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         left: EventSample<T>,
         right: EventSample<T>,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<(), SearchError<T>> {
         let rising = left.value < T::ZERO && right.value >= T::ZERO;
         let falling = left.value > T::ZERO && right.value <= T::ZERO;
@@ -276,7 +301,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         };
         if counts {
             let time = self.locate(event, left, right, step)?;
-            let start = step.start_time();
+            let [start, _] = step.ends();
             if self.begun || (time - start).abs() > rounding(AT_START, start) {
                 self.found.push(Found {
                     event,
@@ -296,7 +321,7 @@ impl<'a, T: Real> CrossingSearch<'a, T> {
         event: usize,
         mut left: EventSample<T>,
         mut right: EventSample<T>,
-        step: &mut DenseStep<'_, T>,
+        step: &mut impl SearchedStep<T>,
     ) -> Result<T, SearchError<T>> {
         let half = T::from_f64(0.5);
         let negative = left.value < T::ZERO;

@@ -9,6 +9,7 @@
 #![allow(clippy::needless_range_loop)]
 
 mod cases;
+mod endings;
 mod method;
 mod models;
 mod runs;
@@ -20,6 +21,8 @@ pub(in crate::integrate) mod tests;
 use alloc::vec::Vec;
 
 pub(crate) use self::cases::Cases;
+pub use self::endings::Ending;
+use self::endings::{LaneEndings, events};
 pub use self::method::LaneMethod;
 pub(crate) use self::method::LaneSteps;
 pub(crate) use self::models::Models;
@@ -44,6 +47,8 @@ pub(crate) struct Task<'a, M, O, T> {
     pub(crate) times: &'a [T],
     /// None: where it starts.
     pub(crate) end: Option<T>,
+    /// What ends a trajectory before.
+    pub(crate) endings: &'a [Ending<'a, T>],
 }
 
 /// Integrates the cases whose indices `next` gives, until it gives none, and
@@ -95,9 +100,14 @@ where
         let mut steps = method.steps::<R>(first);
         let mut runs = Runs::new();
         let mut samples = LaneSamples::new(dimension);
+        let events = events(self.task.endings);
+        let mut endings = LaneEndings::new(&events, dimension);
         let mut fresh = self.fill(&mut steps, &mut runs);
         while runs.active.contains(&true) {
             interruption::look();
+            if !events.is_empty() {
+                endings.begin(&steps, &fresh);
+            }
             steps.prepare(&mut runs, &fresh);
             self.hand_over_failed(&mut steps, &mut runs);
             let (span, size) = self.plan(&mut steps, &mut runs);
@@ -105,6 +115,9 @@ where
             let accepted = steps.judge(&mut runs);
             if !self.task.times.is_empty() {
                 samples.take(&mut steps, &mut runs, self.task.times, &accepted, span);
+            }
+            if !events.is_empty() {
+                endings.take(&mut steps, &mut runs, &accepted, span);
             }
             let ended = runs.advance(R::LANES, &accepted);
             steps.advance(R::mask(|lane| accepted[lane]));
@@ -214,7 +227,7 @@ where
         (span, register(&size))
     }
 
-    /// Hands over the trajectories that have failed.
+    /// Hands over the trajectories that have failed or were stopped.
     #[inline(always)]
     fn hand_over_failed<R: Simd<T>>(
         &mut self,

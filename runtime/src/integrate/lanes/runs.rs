@@ -59,7 +59,7 @@ pub struct Runs<T> {
     samples: [Vec<T>; WIDEST],
     /// Number of times that these belong to.
     sampled: [usize; WIDEST],
-    /// Trajectories that have failed since one last looked, with their lanes.
+    /// Trajectories that have failed or were stopped since one last looked, with their lanes.
     failed: Vec<(usize, usize, Outcome<T>)>,
 }
 
@@ -246,7 +246,38 @@ impl<T: Real> Runs<T> {
         self.fail(lane, NonFinite { time, values }.into(), last);
     }
 
-    /// Takes out a trajectory that has failed, and was not taken yet.
+    /// The trajectory in a lane ends because the function of an event is NaN; `last` is the last
+    /// good state.
+    #[cold]
+    pub(super) fn undefined(&mut self, lane: usize, event: usize, time: T, last: State<T>) {
+        let report = Report {
+            stop: StopReason::NonFinite,
+            ..self.report(lane)
+        };
+        let end = Err(IntegrationError::Event {
+            event,
+            time,
+            last,
+            report,
+        });
+        let (index, samples) = self.leave(lane);
+        self.failed.push((lane, index, Outcome { end, samples }));
+    }
+
+    /// The trajectory in a lane ends at an event, at this time and in this state.
+    #[cold]
+    pub(super) fn stop(&mut self, lane: usize, time: T, values: Vec<T>) {
+        let report = Report {
+            stop: StopReason::StoppedByEvent,
+            ..self.report(lane)
+        };
+        let state = State { time, values };
+        let (index, samples) = self.leave(lane);
+        let end = Ok(Solution { state, report });
+        self.failed.push((lane, index, Outcome { end, samples }));
+    }
+
+    /// Takes out a trajectory that has failed or was stopped, and was not taken yet.
     #[inline(always)]
     pub(super) fn take_failed(&mut self) -> Option<(usize, usize, Outcome<T>)> {
         self.failed.pop()

@@ -1,9 +1,8 @@
 //! The command line.
 
-use std::path::PathBuf;
-
 use clap::Parser;
 
+use crate::frame::RecordOptions;
 use crate::frame::command_line::number;
 use crate::measured_file::MeasuredFile;
 use crate::motion::MethodArguments;
@@ -28,10 +27,6 @@ pub struct Arguments {
     /// The tree that was measured.
     #[command(flatten)]
     pub tree: TreeArguments,
-    /// constants of the tree, a table of names and values (JSON), as `identify` writes it; `--set`
-    /// wins over it
-    #[arg(verbatim_doc_comment, long, value_name = "FILE")]
-    pub parameters: Option<PathBuf>,
     /// sector whose energy is told, by its name, or `whole` for that of the tree; the first
     /// difference between copies without it, and the whole where there are none
     #[arg(verbatim_doc_comment, long, value_name = "NAME")]
@@ -82,6 +77,20 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
+    const CHARTS: bool = true;
+
+    fn of_records() -> RecordOptions {
+        let own = ["difference", "duration", "rate", "noise", "real", "turned"];
+        RecordOptions {
+            measured: [&MeasuredFile::OPTIONS[..], &["every"]].concat(),
+            simulated: [
+                &own[..],
+                &ReleaseArguments::OPTIONS,
+                &MethodArguments::OPTIONS,
+            ]
+            .concat(),
+        }
+    }
 
     fn check(&self) -> Result<(), String> {
         self.measured.check()

@@ -8,7 +8,7 @@ use super::estimate::{Estimate, quantity};
 use super::source::Source;
 use super::subject::{MeasuredSubject, Names};
 
-const BLUE: Color = Color::rgb(0, 114, 178);
+const BLUE: Color = Color::of_series(0);
 const BLACK: Color = Color::rgb(0, 0, 0);
 const LIGHT: Color = Color::rgb(176, 208, 232);
 
@@ -84,7 +84,7 @@ fn with_band(
     };
     let mean: Vec<f64> = rows().map(|(mean, _)| mean[index]).collect();
     let panel = Panel::new(axis)
-        .series(Series::band("95 %", times, &edge(-1.0), &edge(1.0)).color(LIGHT))
+        .series(Series::band("95 %", times, &edge(-1.0), &edge(1.0)).color(BLUE))
         .series(
             Series::line("estimated", times, &mean)
                 .color(BLUE)

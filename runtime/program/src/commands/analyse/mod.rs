@@ -35,7 +35,8 @@ use branched_pendulum_data::{Table, TableOptions};
 
 use crate::Failure;
 use crate::frame::{Job, Progress};
-use crate::subject::Subject;
+use crate::measured_file::MeasuredLinks;
+use crate::subject::{Described, Subject};
 use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
@@ -49,19 +50,21 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let file = arguments.measured.file.as_deref();
     let table = file.map(|file| Table::read(file, &TableOptions::default()));
     let table = table.transpose()?;
-    let (described, impossible) = constants::assumed(arguments)?;
+    let known = arguments.tree.described()?;
+    let (described, impossible) = constants::assumed(&known)?;
     if let Some(error) = impossible {
         job.print(&format!(
             "No pendulum is such, but taken as it is: {error}.\n"
         ))?;
     }
+    let both = (&known, &described);
     match described.tree.links() {
-        1 => of_links::<1, 2>(arguments, job, &described, table.as_ref()),
-        2 => of_links::<2, 4>(arguments, job, &described, table.as_ref()),
-        3 => of_links::<3, 6>(arguments, job, &described, table.as_ref()),
-        4 => of_links::<4, 8>(arguments, job, &described, table.as_ref()),
-        5 => of_links::<5, 10>(arguments, job, &described, table.as_ref()),
-        6 => of_links::<6, 12>(arguments, job, &described, table.as_ref()),
+        1 => of_links::<1, 2>(arguments, job, both, table.as_ref()),
+        2 => of_links::<2, 4>(arguments, job, both, table.as_ref()),
+        3 => of_links::<3, 6>(arguments, job, both, table.as_ref()),
+        4 => of_links::<4, 8>(arguments, job, both, table.as_ref()),
+        5 => of_links::<5, 10>(arguments, job, both, table.as_ref()),
+        6 => of_links::<6, 12>(arguments, job, both, table.as_ref()),
         links => Err(Failure::Lacking {
             what: format!(
                 "`{}` has {links} links, and motions of up to {MOST_LINKS} are estimated: describe \
@@ -79,22 +82,35 @@ const MOST_LINKS: usize = 6;
 fn of_links<const N: usize, const D: usize>(
     arguments: &Arguments,
     job: &Job,
-    described: &Subject,
+    (known, described): (&Described, &Subject),
     table: Option<&Table>,
 ) -> Result<(), Failure> {
     let subject = MeasuredTree::<N, D>::new(described, arguments.sector.as_deref())?;
+    let hung = MeasuredLinks::new(described, &known.offsets, &arguments.measured)?;
     let source = match table {
-        Some(table) => Source::read(table, arguments, subject.parents())?,
-        None => Source::simulate::<D>(arguments, &constants::real(arguments)?)?,
+        Some(table) => Source::read(table, arguments, &hung)?,
+        None => Source::simulate::<D>(
+            arguments,
+            &constants::real(known, &arguments.real.concat())?,
+        )?,
     };
-    analyse(arguments, job, &subject, table, &source)
+    let offsets = described.tree.names().iter().cloned();
+    let offsets = offsets.zip(source.offsets.iter().copied());
+    described.record_with(job, offsets.collect());
+    analyse(
+        arguments,
+        job,
+        &subject,
+        table.map(|table| (table, &hung)),
+        &source,
+    )
 }
 
 fn analyse<const N: usize>(
     arguments: &Arguments,
     job: &Job,
     subject: &dyn MeasuredSubject<N>,
-    table: Option<&Table>,
+    table: Option<(&Table, &MeasuredLinks)>,
     source: &Source<N>,
 ) -> Result<(), Failure> {
     let progress = job.progress(1 + usize::from(arguments.model));
@@ -119,7 +135,7 @@ fn analyse<const N: usize>(
 fn judged<const N: usize>(
     arguments: &Arguments,
     subject: &dyn MeasuredSubject<N>,
-    table: Option<&Table>,
+    table: Option<(&Table, &MeasuredLinks)>,
     source: &Source<N>,
     progress: &Progress,
 ) -> Result<(Estimate<N>, Verdict, Option<Search>), Failure> {
@@ -141,10 +157,12 @@ fn judged<const N: usize>(
         estimate = measured.by_model(&estimate, draws)?;
     }
     let verdict = Verdict::of(&source.times, &estimate, draws.count);
-    let unclosed = table.filter(|_| !verdict.closes()).map(|table| Unclosed {
+    let unclosed = table.filter(|_| !verdict.closes());
+    let unclosed = unclosed.map(|(table, hung)| Unclosed {
         arguments,
         subject,
         table,
+        hung,
         source,
         verdict: verdict.clone(),
     });

@@ -6,6 +6,7 @@ use super::arguments::Arguments;
 use super::camera::{Camera, Truth, motion};
 use super::subject::MeasuredTree;
 use crate::Failure;
+use crate::measured_file::MeasuredLinks;
 use crate::smoothed::Record;
 use crate::subject::Subject;
 
@@ -23,22 +24,24 @@ pub struct Source<const N: usize> {
     pub links: Vec<String>,
     /// How a file was read.
     pub findings: Vec<Finding>,
+    /// What the links show where they are at 0, rad, of a file; taken from the angles.
+    pub offsets: Vec<f64>,
     /// The motion as it is, of a simulated camera.
     pub truth: Vec<Truth<N>>,
 }
 
 impl<const N: usize> Source<N> {
-    /// Takes the angles of links that hang on these `parents` out of the table of the arguments'
-    /// file.
+    /// Takes the angles of the links of the tree out of the table of the arguments' file.
     ///
     /// # Errors
-    /// [`Failure::Reading`] or [`Failure::Links`].
+    /// Those of [`MeasuredFile::angles`](crate::measured_file::MeasuredFile::angles).
     pub fn read(
         table: &Table,
         arguments: &Arguments,
-        parents: [Option<usize>; N],
+        hung: &MeasuredLinks,
     ) -> Result<Self, Failure> {
-        let recording = arguments.measured.angles(table, &parents)?;
+        let read = arguments.measured.angles(table, hung)?;
+        let recording = read.recording;
         let row =
             |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
         let rows = (0..recording.times.len()).step_by(arguments.every);
@@ -47,6 +50,7 @@ impl<const N: usize> Source<N> {
             times: rows.map(|index| recording.times[index]).collect(),
             links: recording.links.into_iter().map(|link| link.name).collect(),
             findings: recording.findings,
+            offsets: read.offsets,
             truth: Vec::new(),
         })
     }
@@ -83,6 +87,7 @@ impl<const N: usize> Source<N> {
             angles: camera.angles(&truth),
             links: Vec::new(),
             findings: Vec::new(),
+            offsets: Vec::new(),
             truth,
         })
     }

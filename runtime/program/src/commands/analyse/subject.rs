@@ -51,9 +51,6 @@ pub trait MeasuredSubject<const N: usize> {
     /// Names of what is told.
     fn names(&self) -> &Names<N>;
 
-    /// The link that each hangs from.
-    fn parents(&self) -> [Option<usize>; N];
-
     /// Coordinates that are smoothed, from angles of links or from rates.
     fn coordinates(&self, links: &[f64; N]) -> [f64; N];
 
@@ -90,7 +87,6 @@ pub struct MeasuredTree<const N: usize, const D: usize> {
     tree: PendulumTree,
     /// The tree in numbers with a derivative.
     dual: PendulumTree<Dual<f64, 1>>,
-    parents: [Option<usize>; N],
     /// The sector that is told; none for the whole tree.
     told: Option<Told>,
     /// Columns by which links follow from coordinates.
@@ -146,7 +142,6 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
         });
         let told = told.transpose()?;
         let parents = described.parents();
-        let parents = std::array::from_fn(|link| parents.get(link).copied().flatten());
         let unit = |of: usize| std::array::from_fn(|link| f64::from(u8::from(link == of)));
         let columns = std::array::from_fn(|of| {
             let mut links = [0.0; N];
@@ -169,7 +164,6 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
             names: names_of(described, sector),
             dual: tree.cast(Dual::constant),
             tree,
-            parents,
             told,
             columns,
         })
@@ -270,10 +264,6 @@ fn sector_energy<T: Scalar, const N: usize>(
 impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
     fn names(&self) -> &Names<N> {
         &self.names
-    }
-
-    fn parents(&self) -> [Option<usize>; N] {
-        self.parents
     }
 
     fn coordinates(&self, links: &[f64; N]) -> [f64; N] {

@@ -2,6 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 
+use crate::frame::RecordOptions;
 use crate::frame::command_line::{number, parts};
 use crate::measured_file::MeasuredFile;
 use crate::motion::MethodArguments;
@@ -62,7 +63,7 @@ pub struct Arguments {
     /// simulated: pictures in a second, 1 to 1e4
     #[arg(long, value_name = "HZ", default_value = "100", value_parser = number(1.0..=1e4, "Hz"))]
     pub rate: f64,
-    /// simulated: seed of the noise
+    /// seed of all random numbers
     #[arg(long, value_name = "N", default_value = "1")]
     pub seed: u64,
 }
@@ -106,6 +107,20 @@ impl Default for Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
+    const CHARTS: bool = true;
+
+    fn of_records() -> RecordOptions {
+        let own = ["noise", "duration", "rate"];
+        RecordOptions {
+            measured: MeasuredFile::OPTIONS.to_vec(),
+            simulated: [
+                &own[..],
+                &ReleaseArguments::OPTIONS,
+                &MethodArguments::OPTIONS,
+            ]
+            .concat(),
+        }
+    }
 
     fn check(&self) -> Result<(), String> {
         self.measured.check()

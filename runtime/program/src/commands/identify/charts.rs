@@ -6,11 +6,6 @@ use branched_pendulum_measure::identification::AngleErrors;
 use super::source::Measurement;
 use super::study::{Energies, Outcome};
 
-const COLORS: [Color; 3] = [
-    Color::rgb(0, 114, 178),
-    Color::rgb(213, 94, 0),
-    Color::rgb(0, 158, 115),
-];
 const BLACK: Color = Color::rgb(0, 0, 0);
 
 /// Draws errors of the law that is reported in windows and of one motion, the latter beside
@@ -55,7 +50,7 @@ pub fn chart(
     let energy = Panel::new(Axis::linear("energy (J)"))
         .series(
             Series::line("measured", &energies.times, &energies.by_equations.values)
-                .color(COLORS[1])
+                .color(Color::of_series(1))
                 .dash(Dash::Solid),
         )
         .series(
@@ -73,7 +68,7 @@ fn errors(panel: Panel, errors: &AngleErrors) -> Panel {
         let values: Vec<f64> = errors.rows.iter().map(error).collect();
         panel.series(
             Series::line(link.clone(), &errors.times, &values)
-                .color(COLORS[index % COLORS.len()])
+                .color(Color::of_series(index))
                 .dash(Dash::Solid),
         )
     });

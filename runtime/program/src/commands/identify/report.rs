@@ -4,13 +4,14 @@ use std::fmt::Write;
 
 use branched_pendulum_data::Column;
 use branched_pendulum_measure::identification::{DIVIDED, ParameterEstimate, Standing, TIMES};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::arguments::Arguments;
 use super::source::Measurement;
 use super::study::{Energies, Found, MOST_LINKS, MeasuredEnergy, Mismatch, Outcome, best};
 use super::unknowns::{Parameter, Unknowns};
 use crate::Failure;
+use crate::constants::KnownConstants;
 use crate::frame::Job;
 
 /// The report.
@@ -37,11 +38,6 @@ pub fn report(
     }
     for finding in &measurement.findings {
         line(format!("  {finding}"));
-    }
-    if let Some(release) = measurement.release {
-        line(format!(
-            "  the links are held until {release} s: what comes before is left out"
-        ));
     }
     line(format!(
         "Fitted before {:.4} s, predicted from there on.\n",
@@ -260,10 +256,19 @@ pub fn write(
 ) -> Result<(), Failure> {
     if let Ok(fit) = outcome.result() {
         let values = unknowns.parameters.iter().zip(fit.parameters());
-        let values: Map<String, Value> = values
-            .map(|(own, value)| (own.name.clone(), json!(value)))
-            .collect();
-        let table = format!("{:#}\n", Value::Object(values));
+        let links = measurement.links.iter().zip(&measurement.offsets);
+        let found = KnownConstants {
+            values: values
+                .map(|(own, value)| (own.name.clone(), *value))
+                .collect(),
+            // Those of the fit come to those by which the file was read.
+            offsets: links
+                .map(|(link, offset)| (link.clone(), offset + fit.offset(link)))
+                .collect(),
+        };
+        let table = found.table();
+        job.report("parameters", table.clone());
+        let table = format!("{:#}\n", Value::Object(table));
         job.write("parameters.json", table.as_bytes())?;
     }
     let mut columns = vec![Column::new("time", "s")];

@@ -9,6 +9,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 use super::arguments::Arguments;
 use super::unknowns::Unknowns;
 use crate::Failure;
+use crate::measured_file::MeasuredLinks;
 use crate::motion::sample;
 
 /// Deviation of angles beside each other, rad: all are equally good.
@@ -26,6 +27,8 @@ pub struct Measurement {
     pub angles: Angles,
     /// Names of the links.
     pub links: Vec<String>,
+    /// What the links show where they are at 0, rad, which is taken from the angles.
+    pub offsets: Vec<f64>,
     /// The time until which the links were held, where the file begins before, s; the record
     /// begins there.
     pub release: Option<f64>,
@@ -41,18 +44,23 @@ impl Measurement {
     /// Reads the file of the arguments, or simulates the tree.
     ///
     /// # Errors
-    /// [`Failure::Reading`] or [`Failure::Links`]; of a simulation [`Failure::Tree`],
+    /// Those of [`MeasuredFile::read`](crate::measured_file::MeasuredFile::read); of a simulation [`Failure::Tree`],
     /// [`Failure::Start`] or [`Failure::Motion`].
     pub fn new(arguments: &Arguments, unknowns: &Unknowns) -> Result<Self, Failure> {
         let measured = &arguments.measured;
         let links = unknowns.links();
+        let (mut offsets, mut release) = (vec![0.0; links.len()], None);
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let recording = measured.read(file, &unknowns.parents())?;
+                let subject = unknowns.subject_as_given(&unknowns.guesses())?;
+                let hung = MeasuredLinks::new(&subject, unknowns.offsets(), measured)?;
+                let read = measured.read(file, &hung)?;
+                let recording = read.recording;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
                 let angles = angles.map(|link| (0..count).map(|index| link.angle(index)).collect());
                 let angles: Vec<Vec<Option<f64>>> = angles.collect();
+                (offsets, release) = (read.offsets, read.release);
                 (recording.times, angles, recording.findings, None)
             }
             None => {
@@ -63,17 +71,10 @@ impl Measurement {
                 (times, angles, Vec::new(), Some(truth))
             }
         };
-        let of = |times: &[f64], angles: &Angles| {
-            let record = links.iter().zip(angles);
-            record.fold(AngleRecord::new(times), |record, (link, angles)| {
-                record.with_link(link, angles, DEVIATION)
-            })
-        };
-        let release = of(&times, &angles).release();
-        let held = times.partition_point(|&time| release.is_some_and(|release| time < release));
-        let times = times[held..].to_vec();
-        let angles: Angles = angles.iter().map(|link| link[held..].to_vec()).collect();
-        let record = of(&times, &angles);
+        let record = links.iter().zip(&angles);
+        let record = record.fold(AngleRecord::new(&times), |record, (link, angles)| {
+            record.with_link(link, angles, DEVIATION)
+        });
         let (first, last) = match (times.first(), times.last()) {
             (Some(&first), Some(&last)) => (first, last),
             _ => (0.0, 0.0),
@@ -83,6 +84,7 @@ impl Measurement {
             record,
             angles,
             links,
+            offsets,
             release,
             until,
             findings,

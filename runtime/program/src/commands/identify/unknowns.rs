@@ -153,11 +153,6 @@ impl Unknowns {
         self.described.description.links()
     }
 
-    /// The link that each hangs from.
-    pub fn parents(&self) -> Vec<Option<usize>> {
-        self.described.description.parents()
-    }
-
     /// The family of the trees.
     pub fn family(&self) -> TreeFamily {
         TreeFamily(self.described.description.clone())
@@ -181,6 +176,20 @@ impl Unknowns {
         let described = &self.described;
         let tree = described.description.tree_as_given(values);
         Ok(described.with_tree(tree.map_err(|source| described.refused(source))?))
+    }
+
+    /// Values from which the search begins.
+    pub fn guesses(&self) -> Vec<f64> {
+        let values = self.parameters.iter().map(|own| match own.knowledge {
+            Knowledge::Known(value) | Knowledge::Guess(value) => value,
+            Knowledge::Size(_) => 0.0,
+        });
+        values.collect()
+    }
+
+    /// Offsets of links that are known, rad.
+    pub fn offsets(&self) -> &[(String, f64)] {
+        &self.described.offsets
     }
 
     /// Values of a simulated tree: unknown ones are some 20 % off from their guesses.

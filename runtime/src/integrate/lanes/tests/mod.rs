@@ -3,6 +3,7 @@
 mod agreement;
 mod backwards;
 mod bits;
+mod endings;
 mod failures;
 mod fixed;
 mod model;
@@ -11,7 +12,7 @@ mod models;
 use core::ops::ControlFlow;
 
 use self::model::{Lopsided, LopsidedOde, lopsided};
-use super::{Cases, LaneMethod, Outcome, Task, integrate};
+use super::{Cases, Ending, LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
     DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Options, Rk4,
     Solution, Solver, Taylor, Verner98,
@@ -151,6 +152,18 @@ fn outcomes<T: Lane, M: LaneMethod<LopsidedOde<T>, T>>(
     times: &[T],
     end: T,
 ) -> Vec<Outcome<T>> {
+    outcomes_until(instructions, method, cases, times, end, &[])
+}
+
+/// The same, or to where an ending is met.
+fn outcomes_until<T: Lane, M: LaneMethod<LopsidedOde<T>, T>>(
+    instructions: InstructionSet,
+    method: &M,
+    cases: Cases<'_, LopsidedOde<T>, T>,
+    times: &[T],
+    end: T,
+    endings: &[Ending<'_, T>],
+) -> Vec<Outcome<T>> {
     let count = cases.len();
     let task = Task {
         instructions,
@@ -158,6 +171,7 @@ fn outcomes<T: Lane, M: LaneMethod<LopsidedOde<T>, T>>(
         cases,
         times,
         end: Some(end),
+        endings,
     };
     let mut queue = 0..count;
     let mut outcomes = vec![None; count];

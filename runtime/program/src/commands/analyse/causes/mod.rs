@@ -14,7 +14,7 @@ use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::Failure;
 use crate::frame::Progress;
-use crate::measured_file::{MeasuredFile, Zero};
+use crate::measured_file::{MeasuredFile, MeasuredLinks, Zero};
 
 /// Draws from which the closure of another reading follows; so many less where that is hopeless.
 const DRAWS: usize = 40;
@@ -64,6 +64,8 @@ pub struct Unclosed<'a, const N: usize> {
     pub subject: &'a dyn MeasuredSubject<N>,
     /// The table.
     pub table: &'a Table,
+    /// The links whose angles it holds.
+    pub hung: &'a MeasuredLinks,
     /// What was read of it.
     pub source: &'a Source<N>,
     /// The verdict.
@@ -132,7 +134,7 @@ impl<const N: usize> Unclosed<'_, N> {
             measured: reading.clone(),
             ..self.arguments.clone()
         };
-        Source::read(self.table, &arguments, self.subject.parents()).ok()
+        Source::read(self.table, &arguments, self.hung).ok()
     }
 
     /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,

@@ -12,7 +12,7 @@ use super::super::subject::MeasuredSubject;
 use super::super::verdict::Verdict;
 use super::super::{Arguments, Source};
 use super::super::{judged, run};
-use super::{paper, tree};
+use super::{hung, tree};
 use crate::frame::command_line::parse_line;
 use crate::frame::{Job, Progress};
 
@@ -92,9 +92,11 @@ fn judge_as<const N: usize>(
     subject: &dyn MeasuredSubject<N>,
     table: &Table,
 ) -> (Verdict, Vec<String>) {
-    let source = Source::read(table, arguments, subject.parents()).unwrap();
+    let hung = hung(arguments);
+    let source = Source::read(table, arguments, &hung).unwrap();
     let progress = Progress::default();
-    let (_, verdict, search) = judged(arguments, subject, Some(table), &source, &progress).unwrap();
+    let table = Some((table, &hung));
+    let (_, verdict, search) = judged(arguments, subject, table, &source, &progress).unwrap();
     assert_eq!(verdict.closes(), search.is_none());
     let closing = search.unwrap_or_default().closing;
     (
@@ -359,7 +361,7 @@ fn the_verdict_comes_first() {
         ),
     ] {
         std::fs::write(&file, record.table(header, |_, a| a.to_vec())).unwrap();
-        let arguments = paper(&format!("{} --draws 20", file.display()));
+        let arguments = parse_line(&format!("{} --draws 20", file.display())).unwrap();
         let job = Job::quiet(&folder).unwrap();
         run(&arguments, &job).unwrap();
         let printed = job.printed();

@@ -13,6 +13,7 @@ use super::source::Source;
 use super::spectrogram::Spectrogram;
 use super::subject::{MeasuredSubject, MeasuredTree};
 use crate::frame::command_line::parse_line;
+use crate::measured_file::MeasuredLinks;
 use crate::subject::Subject;
 
 /// A camera before the paper's pendulum with these options.
@@ -24,9 +25,18 @@ pub(super) fn paper(options: &str) -> Arguments {
 pub(super) fn tree<const N: usize, const D: usize>(
     arguments: &Arguments,
 ) -> (Subject, MeasuredTree<N, D>) {
-    let (assumed, _) = constants::assumed(arguments).unwrap();
+    let described = arguments.tree.described().unwrap();
+    let (assumed, _) = constants::assumed(&described).unwrap();
     let subject = MeasuredTree::new(&assumed, arguments.sector.as_deref()).unwrap();
-    (constants::real(arguments).unwrap(), subject)
+    let real = constants::real(&described, &arguments.real.concat()).unwrap();
+    (real, subject)
+}
+
+/// The links whose angles are read.
+pub(super) fn hung(arguments: &Arguments) -> MeasuredLinks {
+    let described = arguments.tree.described().unwrap();
+    let (assumed, _) = constants::assumed(&described).unwrap();
+    MeasuredLinks::new(&assumed, &described.offsets, &arguments.measured).unwrap()
 }
 
 const DRAWS: Draws = Draws { count: 50, seed: 7 };
@@ -259,7 +269,7 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let arguments: Arguments = parse_line(&line).unwrap();
     let (_, chain) = tree::<2, 4>(&arguments);
     let table = Table::read(file, &TableOptions::default()).unwrap();
-    let mut source: Source<2> = Source::read(&table, &arguments, chain.parents()).unwrap();
+    let mut source: Source<2> = Source::read(&table, &arguments, &hung(&arguments)).unwrap();
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
     source.angles.truncate(count);
@@ -282,7 +292,8 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     let model = measured.by_model(&estimate, DRAWS).unwrap();
     assert!(model.noise < 2e-4 && model.whiteness > 3.0);
     assert!(Trust::of(&model).closure > 3.0 * Trust::of(&model).closure_deviation);
-    let refused = Source::<3>::read(&table, &arguments, [None, Some(0), Some(0)]).unwrap_err();
+    let paper = hung(&paper(""));
+    let refused = Source::<3>::read(&table, &arguments, &paper).unwrap_err();
     assert!(
         refused
             .to_string()
