@@ -5,7 +5,7 @@ use branched_pendulum_measure::identification::{
     AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, ImpossibleValue,
     SearchFailure, Shooting, Standing, Unfound,
 };
-use branched_pendulum_trees::{EquationsOfMotion, TreeDescription, TreeError};
+use branched_pendulum_trees::{EquationsOfMotion, ParameterUse, TreeDescription, TreeError};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -54,8 +54,9 @@ impl Family for TreeFamily {
     }
 }
 
-/// Size of a coefficient of friction that is searched for from 0: N m s, N m.
-const FRICTION: f64 = 1e-4;
+/// Sizes of coefficients of friction that are searched for from 0: viscous and Coulomb friction
+/// (N m s, N m), and quadratic (N m s²).
+const FRICTION: [f64; 2] = [1e-4, 1e-5];
 
 /// Numbers that a fit keeps of a datum, about.
 const NUMBERS_OF_A_DATUM: usize = 100;
@@ -96,31 +97,39 @@ impl Search {
         let found = match windows {
             Ok(windows) => match self.task.fit_from(&windows, &fitted) {
                 // A chaotic motion is lost as one, and has its windows.
-                Err(IdentificationError::NotFound(unfound)) => Found::of(windows, Some(&unfound)),
-                fit => Found::of(fit?, None),
+                Err(IdentificationError::NotFound(unfound)) => Found {
+                    errors: self.errors(&unfound.best)?,
+                    failure: Some(unfound.to_string()),
+                    fit: windows,
+                },
+                fit => self.found(fit?, None)?,
             },
             Err(IdentificationError::NotFound(unfound)) => {
-                Found::of(unfound.best.clone(), Some(&unfound))
+                self.found(unfound.best.clone(), Some(&unfound))?
             }
             Err(error) => return Err(error),
         };
-        let errors = match found.fit.starts.len() {
-            1 => self.task.errors(&found.fit, &self.record)?,
-            _ => AngleErrors::default(),
-        };
-        Ok(Found { errors, ..found })
+        Ok(found)
+    }
+
+    fn found(&self, fit: Fit, unfound: Option<&Unfound>) -> Result<Found, IdentificationError> {
+        Ok(Found {
+            errors: self.errors(&fit)?,
+            failure: unfound.map(ToString::to_string),
+            fit,
+        })
+    }
+
+    /// Errors of one motion, to the end of the record; none of windows.
+    fn errors(&self, fit: &Fit) -> Result<AngleErrors, IdentificationError> {
+        match fit.starts.len() {
+            1 => self.task.errors(fit, &self.record),
+            _ => Ok(AngleErrors::default()),
+        }
     }
 }
 
 impl Found {
-    fn of(fit: Fit, unfound: Option<&Unfound>) -> Self {
-        Self {
-            fit,
-            failure: unfound.map(ToString::to_string),
-            errors: AngleErrors::default(),
-        }
-    }
-
     fn result<'py>(&self, py: Python<'py>, tree: &Tree, until: f64) -> PyResult<Bound<'py, PyAny>> {
         let estimates = PyDict::new(py);
         for own in &self.fit.estimates {
@@ -207,7 +216,11 @@ impl Tree {
         for name in family.parameters() {
             let guess = guesses.iter().find(|(own, _)| *own == name);
             task = match guess {
-                Some((_, 0.0)) => task.unknown_from_zero(&name, FRICTION),
+                Some((_, 0.0)) => {
+                    let uses = tree.description().uses_of(&name);
+                    let quadratic = uses.contains(&ParameterUse::QuadraticFriction);
+                    task.unknown_from_zero(&name, FRICTION[usize::from(quadratic)])
+                }
                 Some((_, guess)) => task.unknown(&name, *guess),
                 None => task.known(&name, tree.value(&name).unwrap_or(f64::NAN)),
             };

@@ -303,8 +303,8 @@ class Identification(Result):
     rms : float
         Root mean square of angles less data in the last stage, rad.
     rms_fitted, rms_predicted : float
-        Of one motion over the part that was fitted and over the rest (rad); NaN where windows
-        count.
+        Of one motion over the part that was fitted and over the rest (rad), which a `failure` may
+        say to be another one; NaN where there are windows alone.
     residuals : array, shape (m, n)
         Angles of that motion less data, rad.
     stages : list of (int, float, float)
