@@ -10,6 +10,7 @@ pub mod measured_file;
 pub mod motion;
 pub mod quadrature;
 pub mod release;
+mod shipped;
 pub mod smoothed;
 pub mod subject;
 pub mod windows;
