@@ -22,8 +22,8 @@ use std::thread;
 
 pub use self::lanes::Samples;
 use self::queue::Queue;
-use crate::interruption::{self, SharedWatcher, Watcher};
 use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
+use crate::interruption::{self, SharedWatcher, Watcher};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
 
