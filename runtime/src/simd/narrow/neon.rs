@@ -29,7 +29,10 @@ pub(super) mod double {
         neg(a: Vector) -> Vector = vnegq_f64(a);
         sqrt(a: Vector) -> Vector = vsqrtq_f64(a);
         choose(mask: Mask, a: Vector, b: Vector) -> Vector = vbslq_f64(mask, a, b);
-        larger_size(a: Vector, b: Vector) -> Vector = vmaxq_f64(vabsq_f64(a), vabsq_f64(b));
+        larger_size(a: Vector, b: Vector) -> Vector = {
+            let (a, b) = (vabsq_f64(a), vabsq_f64(b));
+            vbslq_f64(vcltq_f64(a, b), b, a)
+        };
         all_below(a: Vector, limit: f64) -> bool = {
             let below = vcltq_f64(vabsq_f64(a), vdupq_n_f64(limit));
             vgetq_lane_u64::<0>(below) & vgetq_lane_u64::<1>(below) != 0
@@ -67,6 +70,9 @@ pub(super) mod single {
         neg(a: Vector) -> Vector = vnegq_f32(a);
         sqrt(a: Vector) -> Vector = vsqrtq_f32(a);
         choose(mask: Mask, a: Vector, b: Vector) -> Vector = vbslq_f32(mask, a, b);
-        larger_size(a: Vector, b: Vector) -> Vector = vmaxq_f32(vabsq_f32(a), vabsq_f32(b));
+        larger_size(a: Vector, b: Vector) -> Vector = {
+            let (a, b) = (vabsq_f32(a), vabsq_f32(b));
+            vbslq_f32(vcltq_f32(a, b), b, a)
+        };
     }
 }

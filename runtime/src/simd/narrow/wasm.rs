@@ -28,7 +28,7 @@ pub(super) mod double {
         neg(a: Vector) -> Vector = f64x2_neg(a);
         sqrt(a: Vector) -> Vector = f64x2_sqrt(a);
         choose(mask: Mask, a: Vector, b: Vector) -> Vector = v128_bitselect(a, b, mask);
-        larger_size(a: Vector, b: Vector) -> Vector = f64x2_max(f64x2_abs(a), f64x2_abs(b));
+        larger_size(a: Vector, b: Vector) -> Vector = f64x2_pmax(f64x2_abs(a), f64x2_abs(b));
         all_below(a: Vector, limit: f64) -> bool =
             i64x2_all_true(f64x2_lt(f64x2_abs(a), f64x2_splat(limit)));
         exchange(quarter: Vector, sine: Vector, cosine: Vector) -> (Vector, Vector) = {
@@ -62,6 +62,6 @@ pub(super) mod single {
         neg(a: Vector) -> Vector = f32x4_neg(a);
         sqrt(a: Vector) -> Vector = f32x4_sqrt(a);
         choose(mask: Mask, a: Vector, b: Vector) -> Vector = v128_bitselect(a, b, mask);
-        larger_size(a: Vector, b: Vector) -> Vector = f32x4_max(f32x4_abs(a), f32x4_abs(b));
+        larger_size(a: Vector, b: Vector) -> Vector = f32x4_pmax(f32x4_abs(a), f32x4_abs(b));
     }
 }
