@@ -99,7 +99,7 @@ impl SymmetricShape {
 impl SectorColumn {
     fn new(coordinate: &SectorCoordinate, is_below: bool) -> Self {
         Self {
-            weights: coordinate.weights().to_vec(),
+            weights: balanced(coordinate.weights()),
             norm: coordinate.norm(),
             is_below,
         }
@@ -121,6 +121,26 @@ impl SectorColumn {
             sum + weight * value(link)
         })
     }
+}
+
+/// Returns weights in an order in which their partial sums stay small: equal values cancel before
+/// sums of many of them are rounded, so that differences of equal numbers are zero exactly.
+fn balanced(weights: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    let (above, below): (Vec<_>, Vec<_>) = weights
+        .iter()
+        .copied()
+        .partition(|(_, weight)| *weight > 0.0);
+    let (mut above, mut below) = (above.into_iter(), below.into_iter());
+    let mut sum = 0.0;
+    let next = || {
+        let own = match sum > 0.0 {
+            true => below.next().or_else(|| above.next()),
+            false => above.next().or_else(|| below.next()),
+        }?;
+        sum += own.1;
+        Some(own)
+    };
+    core::iter::from_fn(next).collect()
 }
 
 impl BlockShape {
