@@ -10,7 +10,7 @@ use super::torques::TreeTorques;
 use super::tree::{Hanging, SeriesTree};
 use crate::scalar::Scalar;
 use crate::scalar::kind::ByKind;
-use crate::simd::{Quad, Simd};
+use crate::simd::{Kernel, Quad, Simd};
 
 impl<T: Scalar> SeriesTree<T> {
     /// Returns the number of quads that [`expand`](Self::expand) works in, to order `order`.
@@ -135,6 +135,17 @@ impl<T: Scalar> ByKind<T> for InRooms<'_, '_, T> {
     where
         T: Simd<W>,
     {
+        T::in_own_function(self);
+    }
+}
+
+/// For many states at once: in a function of its own, since compiling one takes longer than in
+/// proportion to its length, and steps in lanes are long.
+impl<W, T: Scalar> Kernel<W> for InRooms<'_, '_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<W>>(self) {
         self.in_lent_room();
     }
 }

@@ -85,16 +85,16 @@ impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
         coefficients: &mut [T],
         work: &mut [Quad<T>],
     ) {
-        let Some(drive) = &self.drive else {
-            return self.series.expand([theta, omega], None, coefficients, work);
-        };
         let order = (coefficients.len() / (2 * self.names().len()).max(1)).saturating_sub(1);
-        let Some((room, work)) = work.split_at_mut_checked(drive.room(order)) else {
-            return coefficients.fill(T::from_f64(f64::NAN));
-        };
-        let orders = drive.series(time, order, room);
-        self.series
-            .expand([theta, omega], Some(orders), coefficients, work);
+        let (mut orders, mut rest) = (None, work);
+        if let Some(drive) = &self.drive {
+            let Some((room, work)) = rest.split_at_mut_checked(drive.room(order)) else {
+                return coefficients.fill(T::from_f64(f64::NAN));
+            };
+            (orders, rest) = (Some(drive.series(time, order, room)), work);
+        }
+        // Once: it is long where it is inlined.
+        self.series.expand([theta, omega], orders, coefficients, rest);
     }
 
     #[inline(always)]
