@@ -182,7 +182,7 @@ fn the_program_prints_the_table_and_writes_what_it_says() {
     sorted.sort();
     present.sort();
     assert_eq!(sorted, present);
-    let mut kinds = [0; 3];
+    let mut kinds = [0; 4];
     for file in &listed {
         let bytes = fs::read(file).unwrap();
         match file.extension().and_then(|extension| extension.to_str()) {
@@ -195,13 +195,17 @@ fn the_program_prints_the_table_and_writes_what_it_says() {
                 kinds[1] += 1;
                 assert!(text(&bytes).contains("</svg>"));
             }
-            _ => {
+            Some("pdf") => {
                 kinds[2] += 1;
+                assert!(bytes.starts_with(b"%PDF-"));
+            }
+            _ => {
+                kinds[3] += 1;
                 assert!(bytes.starts_with(b"\x89PNG\r\n\x1a\n"));
             }
         }
     }
-    assert_eq!(kinds, [2, 5, 5]);
+    assert_eq!(kinds, [2, 5, 5, 5]);
 }
 
 fn check_csv(text: &str) {
