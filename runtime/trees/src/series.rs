@@ -94,7 +94,8 @@ impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
             (orders, rest) = (Some(drive.series(time, order, room)), work);
         }
         // Once: it is long where it is inlined.
-        self.series.expand([theta, omega], orders, coefficients, rest);
+        self.series
+            .expand([theta, omega], orders, coefficients, rest);
     }
 
     #[inline(always)]

@@ -362,7 +362,7 @@ fn release_map_draws_what_there_is() {
             text.contains("Mode f_+: 0.8732 Hz when small"),
             line.contains("30")
         );
-        for ending in ["csv", "svg", "png"] {
+        for ending in ["csv", "svg", "png", "pdf"] {
             let file = format!("{name}.{ending}");
             assert!(job.files().contains(&file), "{file}");
         }

@@ -221,7 +221,10 @@ fn a_tree_of_one_s_own_gets_table_csv_and_chart() {
     let job = Job::quiet(&folder).unwrap();
     output::write(&job, &study).unwrap();
     let files = job.files();
-    assert_eq!(files.len(), 6);
+    assert_eq!(files.len(), 7);
+    for ending in ["csv", "svg", "png", "pdf"] {
+        assert!(files.iter().any(|file| file.ends_with(ending)), "{ending}");
+    }
     let csv = std::fs::read_to_string(folder.join(&files[0])).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
     assert!(csv.starts_with("amplitude"), "{csv}");

@@ -85,6 +85,10 @@ fn assert_whole(folder: &Path, ended: &[&str]) {
             }
             Some("txt") => assert!(bytes.ends_with(b"\n"), "{name}"),
             Some("svg") => assert!(bytes.trim_ascii_end().ends_with(b"</svg>"), "{name}"),
+            Some("pdf") => {
+                let is_whole = bytes.trim_ascii_end().ends_with(b"%%EOF");
+                assert!(bytes.starts_with(b"%PDF-") && is_whole, "{name}");
+            }
             Some("png") => assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{name}"),
             Some("json") => {
                 let record: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
