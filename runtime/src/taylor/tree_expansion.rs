@@ -27,8 +27,8 @@ impl<T: Scalar> SeriesTree<T> {
     ///
     /// `drive` has for each order the acceleration of the root's pivot, across and along the
     /// direction of gravity, with gravity in order 0, and the torque on the root in N m, if
-    /// there is a drive; [`SeriesLink::weight`] is at a gravity of one then. Where lengths do
-    /// not fit, all coefficients are NaN.
+    /// there is a drive; [`SeriesLink::weight`](super::SeriesLink::weight) is at a gravity of one
+    /// then. Where lengths do not fit, all coefficients are NaN.
     #[inline(always)]
     pub fn expand(
         &self,

@@ -6,7 +6,9 @@ use core::borrow::Borrow;
 use core::fmt;
 use core::ops::ControlFlow;
 
-pub(super) use self::search::{CrossingSearch, SearchError, SearchedStep};
+#[cfg(feature = "std")]
+pub(super) use self::search::SearchedStep;
+pub(super) use self::search::{CrossingSearch, SearchError};
 use super::error::{IntegrationError, RunError};
 use super::report::{Solution, StopReason};
 use super::run::Run;

@@ -271,7 +271,10 @@ fn spread(tree: &UseTree, before: &mut Vec<String>, paths: &mut Vec<(Vec<String>
         }
         UseTree::Name(name) => {
             let name = name.ident.to_string();
-            paths.push(([before.as_slice(), std::slice::from_ref(&name)].concat(), name));
+            paths.push((
+                [before.as_slice(), std::slice::from_ref(&name)].concat(),
+                name,
+            ));
         }
         UseTree::Rename(renamed) => {
             let path = [before.as_slice(), &[renamed.ident.to_string()]].concat();
