@@ -92,7 +92,7 @@ fn one_by_one<M: Pendulum<f64> + 'static>(model: M) -> Passes {
     })
 }
 
-/// Those of a tree that is described while the program runs.
+/// Instructions of a tree that is described while the program runs.
 fn run_time_tree(text: &str) -> Passes {
     let tree = PendulumTree::parse(text).expect("a tree");
     let (states, mut alpha) = (states(tree.links()), vec![0.0; tree.links()]);

@@ -81,7 +81,7 @@ pub(crate) fn replace(
         |n| n.to_string_lossy().into_owned(),
     );
     let mut text = format!(
-        "// Expanded from {name} by `branched-pendulum` {}. Do not edit.\n",
+        "// Expanded from {name} by `cargo branched-pendulum` {}. Do not edit.\n",
         env!("CARGO_PKG_VERSION")
     );
     let mut at = 0;

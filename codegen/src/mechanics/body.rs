@@ -61,7 +61,7 @@ pub struct LinkBody {
     pub outside_power: Expr,
     /// A point, from the link's pivot.
     pub point: [Expr; 2],
-    /// Its velocity against that pivot.
+    /// Velocity of the point against that pivot.
     pub point_velocity: [Expr; 2],
     /// Torque of a force there about that pivot.
     pub point_torque: Expr,

@@ -4,8 +4,11 @@
 //! homogeneous: mass × length² for an inertia, so that a generation rule can
 //! scale the finished body.
 
+use super::values::unrepresentable;
 use super::{Offset, Quantity, Sign};
+use crate::description::Node;
 use crate::exact::ExactError;
+use crate::report::Faults;
 
 /// A link without its place in the tree.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +21,29 @@ pub(super) struct Body {
     pub(super) com: Offset,
     /// Attachment of the children, from the pivot, unless they name their own.
     pub(super) joint: Option<Offset>,
+}
+
+impl Body {
+    /// Checks that its numbers can be rounded to `f64`; reports one that cannot.
+    pub(super) fn accept(&self, node: &Node, report: &mut Faults) -> bool {
+        let Self {
+            mass,
+            inertia,
+            com,
+            joint,
+        } = self;
+        let points = [Some(com), joint.as_ref()].into_iter().flatten();
+        let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
+        // One message for a body is enough.
+        [mass, inertia].into_iter().chain(parts).all(|part| {
+            let fault = unrepresentable(part);
+            let fits = fault.is_none();
+            if let Some(message) = fault {
+                report.error(node.name.span(), message);
+            }
+            fits
+        })
+    }
 }
 
 /// A shape, and how its body follows from its dimensions.

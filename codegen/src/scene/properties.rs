@@ -5,7 +5,7 @@ use super::bodies::{Body, BodyShape, COMMON, Condition, Dimension, GivenProperti
 use super::names::motion;
 use super::rule::{COUNTS, Counts, GenerationRule, changes_shape, ratios, scaled};
 use super::shape_names::{find_shape, forgotten_shape};
-use super::values::{Usage, Values, message_for, unrepresentable};
+use super::values::{Usage, Values, message_for};
 use super::{Offset, Quantity, Sign};
 use crate::description::{Node, Property, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
@@ -320,7 +320,7 @@ impl LinkKind {
         if let Some(joint) = given.point("joint") {
             body.joint = Some(joint.clone());
         }
-        accept_body(&body, node, report).then_some(body)
+        body.accept(node, report).then_some(body)
     }
 }
 
@@ -385,25 +385,4 @@ fn in_words(name: &str) -> String {
         "drag(width)" => "width of drag".to_owned(),
         _ => name.replace('_', " "),
     }
-}
-
-/// Checks that the numbers of a body can be rounded to `f64`.
-fn accept_body(body: &Body, node: &Node, report: &mut Faults) -> bool {
-    let Body {
-        mass,
-        inertia,
-        com,
-        joint,
-    } = body;
-    let points = [Some(com), joint.as_ref()].into_iter().flatten();
-    let parts = points.flat_map(|Offset { along, lateral }| [along, lateral]);
-    // One message for a body is enough.
-    [mass, inertia].into_iter().chain(parts).all(|part| {
-        let fault = unrepresentable(part);
-        let fits = fault.is_none();
-        if let Some(message) = fault {
-            report.error(node.name.span(), message);
-        }
-        fits
-    })
 }

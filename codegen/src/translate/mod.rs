@@ -64,7 +64,7 @@ impl Translation<'_> {
         let links = list(links.iter().map(|link| link.name.as_str()).collect());
         let parameters = list(parameters.iter().map(|p| p.name.as_str()).collect());
         let lines = [
-            format!("{name}: equations of a pendulum tree. Written by `branched-pendulum`."),
+            format!("{name}: equations of a pendulum tree. Written by `cargo branched-pendulum`."),
             format!(
                 "SI units; angles in rad from the {}.",
                 self.scene.vertical()

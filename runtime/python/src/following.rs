@@ -20,7 +20,7 @@ use crate::stepping::Stepping;
 
 /// Times at which states are wanted.
 #[derive(Clone, Copy)]
-pub(crate) enum Wanted<'a> {
+pub(crate) enum OutputTimes<'a> {
     At(&'a [f64]),
     /// The ends of all steps up to a time.
     AllSteps(f64),
@@ -77,16 +77,16 @@ struct Motion<'a> {
     dense: bool,
 }
 
-/// Its end: the account, or why it ended before.
+/// End of a run: the account, or why it ended before.
 pub(crate) type End = Result<Report<f64>, Box<RunError<f64, KeepError>>>;
 
 impl Motion<'_> {
     /// Follows it; what it kept is there after a failure too, with the last good state.
-    fn follow(&self, py: Python<'_>, wanted: Wanted<'_>) -> PyResult<(Kept, End)> {
+    fn follow(&self, py: Python<'_>, wanted: OutputTimes<'_>) -> PyResult<(Kept, End)> {
         let dimension = self.start.values.len();
         let (times, states) = match wanted {
-            Wanted::At(times) => (room(&[times.len()])?, room(&[times.len(), dimension])?),
-            Wanted::AllSteps(_) => (Vec::new(), Vec::new()),
+            OutputTimes::At(times) => (room(&[times.len()])?, room(&[times.len(), dimension])?),
+            OutputTimes::AllSteps(_) => (Vec::new(), Vec::new()),
         };
         let mut kept = Kept {
             times,
@@ -217,9 +217,9 @@ impl Pendulum {
     }
 }
 
-fn wanted(is_span: bool, times: &[f64], end: f64) -> Wanted<'_> {
+fn wanted(is_span: bool, times: &[f64], end: f64) -> OutputTimes<'_> {
     match is_span {
-        true => Wanted::AllSteps(end),
-        false => Wanted::At(times),
+        true => OutputTimes::AllSteps(end),
+        false => OutputTimes::At(times),
     }
 }

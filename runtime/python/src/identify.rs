@@ -1,11 +1,7 @@
 //! Parameters of a tree from its measured motion: `Tree.identify`.
 
-use branched_pendulum::scalar::Scalar;
-use branched_pendulum_measure::identification::{
-    AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, ImpossibleValue,
-    SearchFailure, Shooting, Standing, Unfound,
-};
-use branched_pendulum_trees::{EquationsOfMotion, ParameterUse, TreeDescription, TreeError};
+use branched_pendulum_measure::identification::{AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, SearchFailure, Shooting, Standing, TreeFamily, Unfound};
+use branched_pendulum_trees::ParameterUse;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -16,43 +12,6 @@ use crate::memory::{bytes, need};
 use crate::results::{array, result};
 use crate::smoothing::rows;
 use crate::tree::Tree;
-
-/// All trees of a description.
-#[derive(Clone, Debug)]
-struct TreeFamily(TreeDescription);
-
-impl Family for TreeFamily {
-    type Equations<T: Scalar> = EquationsOfMotion<T>;
-
-    fn parameters(&self) -> Vec<String> {
-        self.0.parameters().map(str::to_owned).collect()
-    }
-
-    fn links(&self) -> Vec<String> {
-        self.0.links()
-    }
-
-    fn equations<T: Scalar>(&self, values: &[T]) -> EquationsOfMotion<T> {
-        self.0.equations(values)
-    }
-
-    fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue> {
-        let values: Vec<_> = self.0.parameters().zip(values.iter().copied()).collect();
-        match self.0.tree::<f64>(&values) {
-            Err(TreeError::Value {
-                what,
-                value,
-                requirement,
-            }) => Err(ImpossibleValue {
-                what,
-                value,
-                requirement,
-            }),
-            // Names and their number are those of the description.
-            _ => Ok(()),
-        }
-    }
-}
 
 /// Sizes of coefficients of friction that are searched for from 0: viscous and Coulomb friction
 /// (N m s, N m), and quadratic (N m s²).
@@ -181,7 +140,7 @@ impl Found {
 
 /// Names of unknowns with the values from which they are searched.
 #[derive(FromPyObject)]
-pub(crate) enum Unknowns {
+pub(crate) enum GuessesOrNames {
     Guesses(std::collections::BTreeMap<String, f64>),
     Names(Vec<String>),
 }
@@ -189,18 +148,18 @@ pub(crate) enum Unknowns {
 impl Tree {
     fn task(
         &self,
-        unknown: Unknowns,
+        unknown: GuessesOrNames,
         nonnegative: &[String],
     ) -> PyResult<Identification<TreeFamily>> {
         let tree = self.tree();
-        let family = TreeFamily(tree.description().clone());
+        let family = TreeFamily::new(tree.description().clone());
         let missing = |name: &str| {
             let names = family.parameters().join(", ");
             PyKeyError::new_err(format!("there is no parameter `{name}`: there are {names}"))
         };
         let guesses: Vec<(String, f64)> = match unknown {
-            Unknowns::Guesses(guesses) => guesses.into_iter().collect(),
-            Unknowns::Names(names) => names
+            GuessesOrNames::Guesses(guesses) => guesses.into_iter().collect(),
+            GuessesOrNames::Names(names) => names
                 .into_iter()
                 .map(|name| {
                     let value = tree.value(&name).ok_or_else(|| missing(&name))?;
@@ -282,7 +241,7 @@ impl Tree {
         py: Python<'py>,
         t: Numbers<'py>,
         theta: Numbers<'py>,
-        unknown: Unknowns,
+        unknown: GuessesOrNames,
         until: Option<f64>,
         offsets: bool,
         nonnegative: Vec<String>,

@@ -81,7 +81,7 @@ pub(crate) fn spectrum<'py>(
 #[pyclass(frozen, module = "branched_pendulum.analysis")]
 pub(crate) struct Lines {
     found: Found,
-    /// Those by which they were found.
+    /// Arguments by which they were found.
     arguments: Py<PyTuple>,
 }
 

@@ -125,7 +125,10 @@ def test_pickles_and_copies(tree):
         motion.report,
         motion.dense,
         tree.growth(alike, ("child_1", "child_2"), [1.0]),
-        bp.Tree(bp.examples.CASCADE, friction=0).budget(np.ones(30)),
+        bp.Tree(
+            bp.examples.CASCADE,
+            mass_ratio=0.5, length_ratio=0.7, friction=0, friction_ratio=1,
+        ).budget(np.ones(62)),
         tree.sector_budget(START),
         smooth,
         bp.analysis.smooth(T, motion.y),

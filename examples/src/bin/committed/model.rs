@@ -1,4 +1,4 @@
-// Expanded from scene.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from scene.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The scene that `model.rs` is the expansion of.
 
 #[allow(unused_imports)]

@@ -14,6 +14,9 @@ use super::{Counts, MeasuredFile, Zero};
 use crate::Failure;
 use crate::subject::Subject;
 
+/// Angles of rest that differ by less are one place, rad: what a search for it leaves.
+const SAME_PLACE: f64 = 1e-6;
+
 /// The links of a tree whose angles are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredLinks {
@@ -69,6 +72,14 @@ impl MeasuredLinks {
             names,
             rest,
         })
+    }
+}
+
+impl MeasuredLinks {
+    /// Returns true if the tree of the other hangs at rest at other angles.
+    pub fn rests_elsewhere(&self, other: &Self) -> bool {
+        let pairs = self.rest.iter().zip(&other.rest);
+        pairs.into_iter().any(|(a, b)| (a - b).abs() > SAME_PLACE)
     }
 }
 

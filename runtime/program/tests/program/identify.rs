@@ -112,6 +112,26 @@ fn parameters_of_a_tree_in_a_text_are_found() {
     );
 }
 
+/// Angles are not counted from a place that follows from what is looked for.
+#[test]
+fn a_place_of_rest_that_is_looked_for_is_refused() {
+    let folder = folder("identify-rest");
+    fs::create_dir_all(&folder).unwrap();
+    let (tree, file) = (folder.join("bent.txt"), folder.join("swing.csv"));
+    let bent = "gravity = 9.81, arm(mass = 0.2, com = (0.1, aside), inertia = 1e-3, friction = f)";
+    fs::write(&tree, bent).unwrap();
+    fs::write(&file, "t [s],arm [rad]\n0,0\n0.1,0\n").unwrap();
+    let rest = format!("--tree {} --rest 0:0.1 --unknown", tree.display());
+    let (code, printed) = identify(&file, &format!("{rest} aside=0.02,f"));
+    assert_eq!(code, Some(1), "{printed}");
+    let told =
+        "where the tree rests depends on `aside`, which is looked for: set it by `--set aside=";
+    assert!(printed.contains(told), "{printed}");
+    // Friction moves no place of rest.
+    let (_, printed) = identify(&file, &format!("{rest} f --set aside=0.02"));
+    assert!(!printed.contains("depends on"), "{printed}");
+}
+
 #[test]
 fn what_is_not_known_or_not_there_is_refused() {
     let (tree, file) = measured("refusals");

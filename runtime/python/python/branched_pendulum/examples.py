@@ -20,7 +20,8 @@ CHAIN: str = _texts["CHAIN"]
 TRIPLE: str = _texts["TRIPLE"]
 #: A branch that stands on springs.
 Y: str = _texts["Y"]
-#: Four generations of rods; parameter `friction`.
+#: Five generations of rods; parameters `mass_ratio`, `length_ratio`, `friction` (of the youngest
+#: pivots, N m s) and `friction_ratio` (of one generation over the one above).
 CASCADE: str = _texts["CASCADE"]
 #: A branch of 31 rods that stands, held up by springs.
 BRANCH: str = _texts["BRANCH"]

@@ -1,4 +1,4 @@
-// Expanded from by_rule.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from by_rule.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The equations of a link in a tree by rule, for energies and transfers by scale.
 
 /// The equations of one link, by articulated-body recursion in the plane

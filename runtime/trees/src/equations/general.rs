@@ -1,4 +1,4 @@
-// Expanded from general.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from general.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The equations of a link that may have all that links can have.
 
 /// The equations of one link, by articulated-body recursion in the plane

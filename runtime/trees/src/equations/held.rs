@@ -1,4 +1,4 @@
-// Expanded from held.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from held.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The equations of a link that may have all that links can have and whose motion may be given
 //! from outside.
 

@@ -1,4 +1,4 @@
-// Expanded from rough.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from rough.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The equations of a link that may have all that links can have, friction that is not viscous
 //! among it.
 

@@ -1,4 +1,4 @@
-// Expanded from straight.rs by `branched-pendulum` 0.1.0. Do not edit.
+// Expanded from straight.rs by `cargo branched-pendulum` 0.1.0. Do not edit.
 //! The equations of a link without torques in its joint and without lateral offsets, whose
 //! children share a pivot.
 

@@ -34,7 +34,7 @@ impl<const N: usize> Source<N> {
     /// Takes the angles of the links of the tree out of the table of the arguments' file.
     ///
     /// # Errors
-    /// Those of [`MeasuredFile::angles`](crate::measured_file::MeasuredFile::angles).
+    /// Errors of [`MeasuredFile::angles`](crate::measured_file::MeasuredFile::angles).
     pub fn read(
         table: &Table,
         arguments: &Arguments,

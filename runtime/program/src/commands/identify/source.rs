@@ -7,9 +7,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
 use super::arguments::Arguments;
-use super::unknowns::Unknowns;
+use super::unknowns::{Knowledge, Unknowns};
 use crate::Failure;
-use crate::measured_file::MeasuredLinks;
+use crate::measured_file::{MeasuredFile, MeasuredLinks};
 use crate::motion::sample;
 
 /// Deviation of angles beside each other, rad: all are equally good.
@@ -44,7 +44,7 @@ impl Measurement {
     /// Reads the file of the arguments, or simulates the tree.
     ///
     /// # Errors
-    /// Those of [`MeasuredFile::read`](crate::measured_file::MeasuredFile::read); of a simulation [`Failure::Tree`],
+    /// Errors of [`MeasuredFile::read`]; of a simulation [`Failure::Tree`],
     /// [`Failure::Start`] or [`Failure::Motion`].
     pub fn new(arguments: &Arguments, unknowns: &Unknowns) -> Result<Self, Failure> {
         let measured = &arguments.measured;
@@ -52,9 +52,7 @@ impl Measurement {
         let (mut offsets, mut release) = (vec![0.0; links.len()], None);
         let (times, angles, findings, truth) = match &measured.file {
             Some(file) => {
-                let subject = unknowns.subject_as_given(&unknowns.guesses())?;
-                let hung = MeasuredLinks::new(&subject, unknowns.offsets(), measured)?;
-                let read = measured.read(file, &hung)?;
+                let read = measured.read(file, &measured_links(unknowns, measured)?)?;
                 let recording = read.recording;
                 let count = recording.times.len();
                 let angles = recording.links.iter();
@@ -101,6 +99,38 @@ impl Measurement {
     pub fn later(&self) -> AngleRecord {
         self.record.between(self.until, f64::INFINITY)
     }
+}
+
+/// Returns the links of the tree, with its place of rest where the file has a stretch at rest.
+///
+/// # Errors
+/// Errors of [`MeasuredLinks::new`]; [`Failure::Lacking`] where the place follows from what is
+/// looked for, and offsets from it would be those of the guess.
+fn measured_links(unknowns: &Unknowns, file: &MeasuredFile) -> Result<MeasuredLinks, Failure> {
+    let links = |values: &[f64]| {
+        let subject = unknowns.subject_as_given(values)?;
+        MeasuredLinks::new(&subject, unknowns.offsets(), file)
+    };
+    let guesses = unknowns.guesses();
+    let own = links(&guesses)?;
+    for (index, parameter) in unknowns.parameters.iter().enumerate() {
+        let is_guess = matches!(parameter.knowledge, Knowledge::Guess(_));
+        if file.rest.is_none() || !is_guess {
+            continue;
+        }
+        let mut others = guesses.clone();
+        others[index] *= 1.1;
+        if links(&others)?.rests_elsewhere(&own) {
+            return Err(Failure::Lacking {
+                what: format!(
+                    "where the tree rests depends on `{name}`, which is looked for: set it by `--set \
+                     {name}=VALUE`, or give what links show at rest by --tilt in place of --rest",
+                    name = parameter.name
+                ),
+            });
+        }
+    }
+    Ok(own)
 }
 
 fn simulate(

@@ -4,7 +4,8 @@ use branched_pendulum::Energy;
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum_measure::identification::{
-    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, Unfound,
+    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, TreeFamily,
+    Unfound,
 };
 use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, bands};
 use rand_distr::{Distribution, StandardNormal};
@@ -13,7 +14,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 use super::arguments::{Arguments, Law, Sign};
 use super::source::Measurement;
-use super::unknowns::{Knowledge, TreeFamily, Unknowns};
+use super::unknowns::{Knowledge, Unknowns};
 use crate::Failure;
 use crate::smoothed::{Motion, Record, Smoothed, by_equations, one_by_one};
 

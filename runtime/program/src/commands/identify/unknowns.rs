@@ -1,9 +1,7 @@
 //! What is known of the parameters of a tree, and the tree as a family of models.
 
-use branched_pendulum_measure::identification::{Family, ImpossibleValue};
-use branched_pendulum_trees::{EquationsOfMotion, ParameterUse, TreeDescription, TreeError};
-
-use branched_pendulum::scalar::Scalar;
+use branched_pendulum_measure::identification::TreeFamily;
+use branched_pendulum_trees::{ParameterUse, TreeError};
 
 use super::arguments::{Arguments, Law};
 use crate::Failure;
@@ -155,7 +153,7 @@ impl Unknowns {
 
     /// The family of the trees.
     pub fn family(&self) -> TreeFamily {
-        TreeFamily(self.described.description.clone())
+        TreeFamily::new(self.described.description.clone())
     }
 
     /// The tree with values of all parameters.
@@ -256,43 +254,6 @@ fn knowledge(
                     .map_or(String::new(), |own| format!(" ({own})"))
             ),
         }),
-    }
-}
-
-/// All trees of a description.
-#[derive(Clone, Debug)]
-pub struct TreeFamily(TreeDescription);
-
-impl Family for TreeFamily {
-    type Equations<T: Scalar> = EquationsOfMotion<T>;
-
-    fn parameters(&self) -> Vec<String> {
-        self.0.parameters().map(str::to_owned).collect()
-    }
-
-    fn links(&self) -> Vec<String> {
-        self.0.links()
-    }
-
-    fn equations<T: Scalar>(&self, values: &[T]) -> EquationsOfMotion<T> {
-        self.0.equations(values)
-    }
-
-    fn check(&self, values: &[f64]) -> Result<(), ImpossibleValue> {
-        let values: Vec<_> = self.0.parameters().zip(values.iter().copied()).collect();
-        match self.0.tree::<f64>(&values) {
-            Err(TreeError::Value {
-                what,
-                value,
-                requirement,
-            }) => Err(ImpossibleValue {
-                what,
-                value,
-                requirement,
-            }),
-            // Names and their number are those of the description.
-            _ => Ok(()),
-        }
     }
 }
 
