@@ -5,7 +5,7 @@
 use std::process::ExitCode;
 
 use branched_pendulum_examples::branched_double;
-use branched_pendulum_program::frame;
+use branched_pendulum_frame as frame;
 
 fn main() -> ExitCode {
     frame::main(branched_double::run::run)

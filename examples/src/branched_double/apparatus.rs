@@ -7,7 +7,7 @@ use branched_pendulum::{ParameterError, Transfer};
 use clap::Args;
 
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
-use branched_pendulum_program::frame::command_line::{number, plain};
+use branched_pendulum_frame::command_line::{number, plain};
 
 /// Viscous friction in the joints, N m s each: the torque is minus the
 /// coefficient times the angular velocity relative to the parent link (for the
@@ -230,7 +230,7 @@ impl Flow {
 #[cfg(test)]
 mod tests {
     use super::{Apparatus, EXACT, Friction};
-    use branched_pendulum_program::frame::command_line::plain;
+    use branched_pendulum_frame::command_line::plain;
 
     const COORDINATES: [f64; 3] = [0.7, -0.4, 0.3];
     const RATES: [f64; 3] = [1.2, -2.1, 0.9];

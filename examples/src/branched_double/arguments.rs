@@ -3,7 +3,7 @@
 use clap::{Parser, ValueEnum};
 
 use super::apparatus::Friction;
-use branched_pendulum_program::frame::command_line::{must_be, number, numbers, plain};
+use branched_pendulum_frame::command_line::{must_be, number, numbers, plain};
 
 /// The numbers in which trajectories are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -116,7 +116,7 @@ impl Default for Arguments {
     }
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("branched-double-output");
 
     fn check(&self) -> Result<(), String> {
@@ -173,7 +173,7 @@ const ANGLES: std::ops::RangeInclusive<f64> = -180.0..=180.0;
 #[cfg(test)]
 mod tests {
     use super::{Arguments, Precision};
-    use branched_pendulum_program::frame::command_line::{parse, parse_line};
+    use branched_pendulum_frame::command_line::{parse, parse_line};
 
     fn run(line: &str) -> Arguments {
         parse_line(line).unwrap()

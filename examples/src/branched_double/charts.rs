@@ -10,9 +10,9 @@ use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::Frequencies;
 use super::lines;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
-use branched_pendulum_program::frame::command_line::plain;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
+use branched_pendulum_frame::command_line::plain;
 
 /// Initial angles, in degrees, that the paper compares: just without growth,
 /// and just with it.

@@ -10,8 +10,8 @@ use branched_pendulum::prelude::{
 use super::apparatus::{Apparatus, Flow, Sample};
 use super::arguments::{Arguments, Precision};
 use super::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::quadrature::GAUSS;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::quadrature::GAUSS;
 
 /// The integrator's work, in whatever numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -212,7 +212,7 @@ fn halves<T: Real>(values: &[T]) -> ([f64; 3], [f64; 3]) {
 mod tests {
     use super::Run;
     use crate::branched_double::Arguments;
-    use branched_pendulum_program::Failure;
+    use branched_pendulum_frame::Failure;
 
     #[test]
     fn samples_stand_at_even_times_and_intervals_between_them() {

@@ -4,8 +4,8 @@ use branched_pendulum_charts::{Film, FilmLink};
 
 use super::scenes::BranchedDouble;
 use super::{Arguments, Run};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Pictures in a second, between which browsers interpolate.
 const RATE: f64 = 20.0;

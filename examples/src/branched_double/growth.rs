@@ -10,8 +10,8 @@ use super::arguments::Arguments;
 use super::charts::conditions;
 use super::experiment::Run;
 use super::findings::Findings;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Fewest angles that make a scan: with less there is no band to tell.
 const SCAN: usize = 3;

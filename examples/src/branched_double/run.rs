@@ -8,8 +8,8 @@ use super::table;
 use super::{
     Apparatus, Arguments, Findings, Frequencies, Run, charts, film, growth, lines, samples,
 };
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// What a run without friction is not, and which run comes nearest.
 const NEAREST_THE_PAPER: &str = "\

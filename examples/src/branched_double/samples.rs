@@ -4,8 +4,8 @@ use branched_pendulum_data::Column;
 
 use super::apparatus::{FORMS, Sample};
 use super::experiment::Run;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Writes the samples of a run.
 ///

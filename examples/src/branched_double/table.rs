@@ -7,7 +7,7 @@ use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::{Findings, Frequencies, Peak};
 use super::terms::{Sizes, TERMS};
-use branched_pendulum_program::frame::command_line::plain;
+use branched_pendulum_frame::command_line::plain;
 
 /// The head of a table: three lines of headings for each column.
 type Headings = [[&'static str; 3]];

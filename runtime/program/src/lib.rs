@@ -1,21 +1,15 @@
-//! The command `branched-pendulum` as a library, so that tests can call what it does, and so that
-//! other programs start, show their progress, keep their results and end as it does ([`frame`]).
+//! The command `branched-pendulum` as a library, so that tests can call what it does.
 
 pub mod budget;
 pub mod commands;
 pub mod constants;
-pub mod failure;
-pub mod film;
-pub mod frame;
 pub mod measured_file;
 pub mod motion;
-pub mod quadrature;
 pub mod release;
 pub mod shipped;
 pub mod smoothed;
 pub mod subject;
-pub mod windows;
 
+pub(crate) use branched_pendulum_frame as frame;
+pub(crate) use branched_pendulum_frame::Failure;
 pub use commands::main;
-pub use failure::Failure;
-pub use frame::{Arguments, Job, Progress};

@@ -4,7 +4,7 @@ use branched_pendulum_advice::TimeLimit;
 use clap::Parser;
 
 use super::asked::{OutputName, Question, SceneName};
-use branched_pendulum_program::frame::command_line::number;
+use branched_pendulum_frame::command_line::number;
 
 /// Which model, method, tolerance or step and scalar is the cheapest that is right, on
 /// this machine? Measures all of a scene and says what to take, how wrong it is and what
@@ -74,7 +74,7 @@ impl Arguments {
     }
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = None;
 
     fn check(&self) -> Result<(), String> {
@@ -117,7 +117,7 @@ fn read_limit(text: &str) -> Result<Limit, String> {
 #[cfg(test)]
 mod tests {
     use super::{Arguments, Limit, OutputName, TimeLimit};
-    use branched_pendulum_program::frame::command_line::parse_line;
+    use branched_pendulum_frame::command_line::parse_line;
 
     #[test]
     fn outputs_and_limits_are_read() {

@@ -9,7 +9,7 @@ use super::scenes::{
     Branch, BranchInPhase, BranchLoops, Cascade, CascadeInPhase, CascadeWrittenOut, PaperInPhase,
 };
 use crate::scenes::BranchedDouble;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// A scene by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

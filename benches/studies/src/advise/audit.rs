@@ -4,8 +4,8 @@
 use branched_pendulum_advice::{Advisor, Candidates, Measured};
 
 use super::asked::{self, OutputName, Question, SceneName};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// The questions: scene, output, largest error, time followed, samples a second, starts.
 const QUESTIONS: [(SceneName, OutputName, f64, f64, f64, u32); 12] = [

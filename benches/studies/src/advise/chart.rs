@@ -9,8 +9,8 @@ use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
 use super::asked::{self, OutputName, Question, SceneName};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Largest errors of the angles that advice is asked for, rad.
 const TOLERANCES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];

@@ -21,8 +21,8 @@ use branched_pendulum_data::{Cell, Column};
 pub use arguments::Arguments;
 pub use asked::SceneName;
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Asks for advice, or draws the chart.
 ///

@@ -4,7 +4,7 @@
 
 use std::process::ExitCode;
 
-use branched_pendulum_program::frame;
+use branched_pendulum_frame as frame;
 use branched_pendulum_studies::advise;
 
 fn main() -> ExitCode {

@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::{self, Job, Progress};
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::{self as frame, Job, Progress};
 use branched_pendulum_studies::integration_speed::ensemble::{
     Speed, friction_scan, near_threshold, scan_speeds, speeds,
 };

@@ -2,7 +2,7 @@
 
 use clap::Parser;
 
-use branched_pendulum_program::frame::command_line::{number, numbers};
+use branched_pendulum_frame::command_line::{number, numbers};
 
 /// From which release on does the antiphase mode of the paper's pendulum grow? The
 /// growth factor G(T) is the largest |θ_d| within T over that at the start, for a
@@ -70,6 +70,6 @@ pub struct Arguments {
     pub tolerance: f64,
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("critical-angle-output");
 }

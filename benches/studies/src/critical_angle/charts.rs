@@ -5,8 +5,8 @@ use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series};
 use super::arguments::Arguments;
 use super::scan::{Friction, PAPER, Scan};
 use super::trees::{COPIES, LENGTHS, MASSES, Threshold};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Growth factors that the charts show. Lines lead out of them where there is more, and
 /// beyond the largest number too.

@@ -2,7 +2,7 @@
 //! small differences: windows in which it grows, without friction and with.
 //!
 //! - [`arguments`]: the command line, [`scene`]: the pendulum in phase,
-//! - [`scan`]: growth at every angle, [`windows`](branched_pendulum_program::windows): where it is large,
+//! - [`scan`]: growth at every angle, [`windows`](branched_pendulum_frame::windows): where it is large,
 //! - [`report`]: words and table, [`charts`]: charts,
 //! - [`trees`]: the threshold of trees by rule.
 
@@ -16,8 +16,8 @@ pub mod trees;
 pub use arguments::Arguments;
 pub use scan::{Friction, Scan};
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Computes the growth with every friction, prints the windows and writes table and
 /// charts. Ctrl-C leaves the frictions that are done.

@@ -7,9 +7,9 @@ use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
 use super::scan::{Friction, PAPER, Scan};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
-use branched_pendulum_program::windows::{windows, words};
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
+use branched_pendulum_frame::windows::{windows, words};
 
 /// Most windows that a line tells; the table has all of them.
 const MOST_WINDOWS: usize = 12;

@@ -7,7 +7,7 @@ use branched_pendulum::prelude::*;
 
 use super::arguments::Arguments;
 use super::scene::{InPhase, InPhaseParameters, at_rest, first_sector};
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// Angles of the paper, degrees: growth is not seen at the first and is at the second.
 pub const PAPER: [f64; 2] = [47.6, 47.8];

@@ -4,7 +4,7 @@ use branched_pendulum::Transverse;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TransverseOde;
 
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// The apparatus of the paper, whose children move alike, with the equations of small
 /// differences between them.

@@ -11,8 +11,8 @@ use branched_pendulum_data::{Cell, Column};
 use super::arguments::Arguments;
 use super::charts;
 use super::scene::{at_rest, first_sector};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Trees of so many generations in phase, two rods on each.
 macro_rules! trees {

@@ -2,7 +2,7 @@
 
 use clap::{Parser, ValueEnum};
 
-use branched_pendulum_program::frame::command_line::number;
+use branched_pendulum_frame::command_line::number;
 
 /// The plane of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -64,7 +64,7 @@ pub struct Arguments {
     pub tolerance: f64,
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("release-map-output");
 
     fn check(&self) -> Result<(), String> {

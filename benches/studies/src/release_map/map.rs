@@ -7,8 +7,8 @@ use branched_pendulum::system::TransverseOde;
 
 use super::arguments::Arguments;
 use crate::critical_angle::scene::{at_rest, first_sector};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Points that are computed at a time.
 const BLOCK: usize = 2000;

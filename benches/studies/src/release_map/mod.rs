@@ -19,8 +19,8 @@ pub use map::Map;
 
 use self::scenes::{ArmsInPhase, HeavyChildren, HeavyChildrenParameters};
 use crate::critical_angle::scene::{InPhase, InPhaseParameters};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Computes the map asked for and writes it; Ctrl-C leaves the rows that are done.
 ///

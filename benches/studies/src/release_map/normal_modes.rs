@@ -6,7 +6,7 @@ use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::*;
 
 use crate::critical_angle::scene::{InPhase, first_sector};
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// A mode, from its linear oscillation on.
 #[derive(Clone, Debug)]

@@ -11,8 +11,8 @@ use super::map::{Map, RATIOS};
 use super::normal_modes::NormalMode;
 use super::tongues::{Resonance, Tongue, span};
 use crate::critical_angle::scan::PAPER;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Growth rates between which colours change, 1/s.
 const RATES: [f64; 2] = [0.01, 5.0];

@@ -7,8 +7,8 @@ use branched_pendulum::prelude::*;
 use super::arguments::Arguments;
 use super::normal_modes::NormalMode;
 use crate::critical_angle::scene::{InPhase, at_rest, first_sector};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::windows::windows;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::windows::windows;
 
 /// A tongue of instability, crossed by a line.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,8 +11,8 @@ pub mod verdict;
 
 use clap::Parser;
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Where does each method fail? Runs the paper's branched double pendulum with
 /// every method at many steps (or tolerances), amplitudes and frictions, and maps
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub map: String,
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("stability-map-output");
 }
 

@@ -5,8 +5,8 @@ use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
 
 use super::verdict::{DAMPED_ANGLE, Verdict, damped, damped_model, damped_reference, ideal};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Methods that take a step.
 pub const FIXED: [Method; 5] = [

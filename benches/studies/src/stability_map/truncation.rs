@@ -8,8 +8,8 @@ use branched_pendulum_charts::{Axis, Chart, Panel};
 use branched_pendulum_data::{Cell, Column};
 
 use crate::scenes::BranchedDouble;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Random states at each place.
 const STATES: usize = 400;

@@ -5,7 +5,7 @@ use branched_pendulum::prelude::*;
 
 use crate::scenes::{BranchedDouble, DampedBranchedDouble, DampedBranchedDoubleParameters};
 use crate::solvers::configured;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// The fate of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

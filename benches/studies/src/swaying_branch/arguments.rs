@@ -2,7 +2,7 @@
 
 use clap::Parser;
 
-use branched_pendulum_program::frame::command_line::number;
+use branched_pendulum_frame::command_line::number;
 
 /// A branch of 31 rods sways in the wind, and a hand pulls it and lets go, frame by
 /// frame as in a game. What does a frame cost in the full model, in the linear one, in
@@ -32,6 +32,6 @@ pub struct Arguments {
     pub storm: f64,
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("swaying-branch-output");
 }

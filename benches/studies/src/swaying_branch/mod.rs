@@ -18,8 +18,8 @@ pub mod weather;
 
 pub use arguments::Arguments;
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 use motion::{Branches, reference};
 use weather::Weather;
 

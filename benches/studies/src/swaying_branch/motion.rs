@@ -10,7 +10,7 @@ use branched_pendulum::system::UnderTorques;
 
 use super::scene::{Branch, LINKS};
 use super::weather::Weather;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// Shares of wind and pull in which models are compared.
 pub const WINDS: [f64; 3] = [0.1, 0.4, 1.0];

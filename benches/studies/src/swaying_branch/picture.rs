@@ -5,7 +5,7 @@ use branched_pendulum_charts::{ChartError, Color, Film};
 use super::motion::Seen;
 use super::scene::{Branch, HELD};
 use super::weather::{PULL, Weather};
-use branched_pendulum_program::film::{angles, links};
+use branched_pendulum_frame::film::{angles, links};
 
 /// Pictures in a second, between which browsers interpolate.
 const RATE: f64 = 20.0;

@@ -7,8 +7,8 @@ use super::arguments::Arguments;
 use super::motion::{Branches, Seen, Trial};
 use super::scene::{Branch, LINKS};
 use super::storm::Storm;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Writes the angles of all frames.
 ///

@@ -8,7 +8,7 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::scene::{Branch, LINKS};
 use super::weather::Weather;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// Mean speed of the wind, m/s, and force of a hit, N.
 const WIND: f64 = 30.0;

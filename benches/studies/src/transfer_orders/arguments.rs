@@ -17,6 +17,6 @@ pub struct Arguments {
     pub seed: u64,
 }
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("transfer-orders-output");
 }

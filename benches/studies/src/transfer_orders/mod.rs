@@ -22,8 +22,8 @@ pub use scenes::Arms;
 pub use study::{Settings, Study};
 
 use crate::scenes::BranchedDouble;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Studies all trees; prints and writes what one gives before the next begins.
 ///

@@ -5,8 +5,8 @@ use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
 
 use super::study::{AMPLITUDES, Study};
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// Levels of the relative error in the table.
 const LEVELS: [(&str, f64); 3] = [("1 %", 0.01), ("10 %", 0.1), ("100 %", 1.0)];

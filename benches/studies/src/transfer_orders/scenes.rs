@@ -9,7 +9,7 @@ use branched_pendulum::branched_pendulum;
 
 use super::study::Settings;
 use crate::scenes::BranchedDouble;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// Two jointed arms on a body: a sector of two coordinates.
 #[branched_pendulum(

@@ -6,8 +6,8 @@ use branched_pendulum::analysis::truncation::{
 };
 
 use super::cost::Costs;
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Progress;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Progress;
 
 /// Smallest and largest amplitude looked at, rad.
 pub const AMPLITUDES: [f64; 2] = [1e-3, 1.5];

@@ -8,7 +8,7 @@ use branched_pendulum::system::TaylorOde;
 use super::reference::{Problem, Tree};
 use crate::scenes::{BranchedDouble, Rods};
 use crate::solvers::configured;
-use branched_pendulum_program::frame::Progress;
+use branched_pendulum_frame::Progress;
 
 /// The methods that are compared.
 pub const METHODS: [Method; 8] = [

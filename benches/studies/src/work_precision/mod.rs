@@ -14,8 +14,8 @@ pub mod reference;
 
 use clap::Parser;
 
-use branched_pendulum_program::Failure;
-use branched_pendulum_program::frame::Job;
+use branched_pendulum_frame::Failure;
+use branched_pendulum_frame::Job;
 
 /// What does a given error cost, with which method? Runs the paper's branched
 /// double pendulum and seven rods with every method at many tolerances or steps,
@@ -24,7 +24,7 @@ use branched_pendulum_program::frame::Job;
 #[command(name = "work-precision", version, verbatim_doc_comment)]
 pub struct Arguments {}
 
-impl branched_pendulum_program::frame::Arguments for Arguments {
+impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("work-precision-output");
 }
 

@@ -6,7 +6,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 
 use crate::scenes::Rods;
-use branched_pendulum_program::Failure;
+use branched_pendulum_frame::Failure;
 
 /// The file, as it was when the program was built.
 const FILE: &str = include_str!("../../../../tests/fixtures/reference/trajectories.json");

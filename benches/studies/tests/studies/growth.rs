@@ -10,8 +10,8 @@ use branched_pendulum::analysis::growth::{
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TransverseOde;
-use branched_pendulum_program::frame::Job;
-use branched_pendulum_program::frame::command_line::parse_line;
+use branched_pendulum_frame::Job;
+use branched_pendulum_frame::command_line::parse_line;
 use branched_pendulum_studies::critical_angle::scene::{InPhase, InPhaseParameters};
 use branched_pendulum_studies::critical_angle::trees::{Rule, Three, ThreeParameters, threshold};
 use branched_pendulum_studies::critical_angle::{self, Friction};

@@ -4,7 +4,7 @@ use branched_pendulum::approximate::Approximation;
 use branched_pendulum::integrate::{Frames, longest_sub_step};
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::UnderTorques;
-use branched_pendulum_program::film;
+use branched_pendulum_frame::film;
 use branched_pendulum_studies::swaying_branch::motion::{Branches, reference};
 use branched_pendulum_studies::swaying_branch::scene::{Branch, LINKS};
 use branched_pendulum_studies::swaying_branch::storm;

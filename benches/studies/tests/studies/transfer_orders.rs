@@ -7,7 +7,7 @@ use branched_pendulum::analysis::truncation::{
 };
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
-use branched_pendulum_program::frame::{Job, Progress};
+use branched_pendulum_frame::{Job, Progress};
 use branched_pendulum_studies::scenes::BranchedDouble;
 use branched_pendulum_studies::transfer_orders::scenes::{apparatus, arms};
 use branched_pendulum_studies::transfer_orders::{Arms, Settings, Study, output};

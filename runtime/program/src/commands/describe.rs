@@ -10,8 +10,8 @@ use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
 
 use crate::Failure;
-use crate::film;
 use crate::frame::Job;
+use crate::frame::film;
 use crate::subject::{Subject, TreeArguments};
 
 /// What does a description say? Lists links with their masses and places, parameters with

@@ -13,9 +13,9 @@ use clap::Parser;
 use crate::Failure;
 use crate::frame::Job;
 use crate::frame::command_line::{number, numbers, parts};
+use crate::frame::windows::{windows, words};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
-use crate::windows::{windows, words};
 
 /// From which release on do differences between copies grow? The growth factor G(T) is the
 /// largest difference within T over that at the start, for one so small that it stays

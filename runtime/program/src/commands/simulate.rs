@@ -10,9 +10,9 @@ use clap::Parser;
 
 use crate::Failure;
 use crate::budget::{self, SectorSeries};
-use crate::film;
 use crate::frame::Job;
 use crate::frame::command_line::number;
+use crate::frame::film;
 use crate::motion::{MethodArguments, Samples, sample};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};

@@ -18,7 +18,7 @@ mod tests;
 
 use std::process::ExitCode;
 
-use branched_pendulum_program::frame;
+use branched_pendulum_frame as frame;
 use clap::Parser;
 
 /// What do the accelerations of one state cost, in emitted code one by one and in

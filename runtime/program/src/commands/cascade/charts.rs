@@ -8,7 +8,7 @@ use super::arguments::Arguments;
 use super::findings::{Findings, Scale};
 use super::report::name;
 use super::tree::DrivenTree;
-use crate::film;
+use crate::frame::film;
 
 /// Energies of the scales against time, averaged over the starts.
 pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {

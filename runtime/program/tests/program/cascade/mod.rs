@@ -12,9 +12,9 @@ use branched_pendulum::analysis::SectorModes;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::UnderTorques;
+use branched_pendulum_frame::command_line::parse_line;
 use branched_pendulum_program::commands::cascade::Arguments;
 use branched_pendulum_program::commands::cascade::motor::{Motor, Random};
-use branched_pendulum_program::frame::command_line::parse_line;
 
 use super::{Folder, TRIPLE, UNEQUAL, Y, text};
 

@@ -15,7 +15,7 @@ use branched_pendulum_trees::PendulumTree;
 
 use super::Release;
 use crate::Failure;
-use crate::quadrature::GAUSS;
+use crate::frame::quadrature::GAUSS;
 use crate::subject::Subject;
 
 /// Samples per second.

@@ -13,13 +13,17 @@
 
 pub mod checkpoint;
 pub mod command_line;
+pub mod failure;
 pub mod files;
+pub mod film;
 mod interrupt;
 pub mod job;
 mod lock;
 pub mod progress;
+pub mod quadrature;
 pub mod sealed;
 pub mod sweep;
+pub mod windows;
 
 use std::error::Error;
 use std::ffi::OsString;
@@ -27,11 +31,10 @@ use std::process::ExitCode;
 
 pub use checkpoint::Checkpoint;
 pub use command_line::{Arguments, CommandLine, RecordOptions};
+pub use failure::Failure;
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;
-
-use crate::failure::Failure;
 
 /// Reads the command line of the process and runs the program.
 pub fn main<A: Arguments>(run: impl FnOnce(&A, &Job) -> Result<(), Failure>) -> ExitCode {

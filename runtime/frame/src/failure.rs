@@ -16,8 +16,8 @@ use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
 use branched_pendulum_measure::{IdentificationError, SmoothingError, SpectrumError};
 use branched_pendulum_trees::TreeError;
 
-use crate::frame::sealed::SealError;
-use crate::frame::sweep::SweepError;
+use crate::sealed::SealError;
+use crate::sweep::SweepError;
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]
@@ -234,7 +234,7 @@ fn options(kind: &ReadErrorKind) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::Failure;
-    use crate::frame::messages;
+    use crate::messages;
     use branched_pendulum::analysis::truncation::TruncationError;
     use branched_pendulum::analysis::variational::LyapunovError;
     use branched_pendulum::analysis::{ModesError, SectorModesError};

@@ -251,8 +251,8 @@ fn merge<R: DeserializeOwned>(
 #[cfg(test)]
 mod tests {
     use super::{Shard, Sharding, SweepError, results};
+    use crate::Job;
     use crate::failure::Failure;
-    use crate::frame::Job;
     use std::fs;
     use std::path::Path;
 
