@@ -120,6 +120,7 @@ mod requirements;
 pub mod scalar;
 pub mod sectors;
 mod simd;
+pub mod spring_dampers;
 pub mod system;
 pub mod taylor;
 pub mod transfer;

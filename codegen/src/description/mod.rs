@@ -14,6 +14,7 @@
 //!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "locked" "(" name "," expression ")"
 //!             | "prescribed" "(" name { "," name } [ "," ] ")"
+//!             | ( "between" | "siblings" ) "(" name { "," name } { "," property } [ "," ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -89,6 +90,8 @@ pub struct Description {
     pub reductions: Reductions,
     /// `prescribed(...)`, each by itself.
     pub prescribed: Vec<PrescribedClause>,
+    /// `between(...)` and `siblings(...)`, each by itself.
+    pub couplings: Vec<CouplingClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
     pub damaged: bool,
@@ -101,6 +104,19 @@ pub struct PrescribedClause {
     pub name: Ident,
     /// The links.
     pub links: Vec<Ident>,
+    /// True if part of it was unreadable, which is reported already.
+    pub damaged: bool,
+}
+
+/// A spring and friction between links that are not parent and child.
+#[derive(Debug, Clone)]
+pub struct CouplingClause {
+    /// The word `between` or `siblings`.
+    pub name: Ident,
+    /// The links, or the node whose copies are meant.
+    pub links: Vec<Ident>,
+    /// Properties of the spring and of the friction.
+    pub properties: Vec<Property>,
     /// True if part of it was unreadable, which is reported already.
     pub damaged: bool,
 }
@@ -154,6 +170,9 @@ impl Description {
         };
         for part in self.drive.iter().flat_map(|drive| &drive.parts) {
             part.value.for_each_name(&mut visit_drive);
+        }
+        for property in self.couplings.iter().flat_map(|own| &own.properties) {
+            property.value.for_each_name(&mut visit);
         }
         names
     }

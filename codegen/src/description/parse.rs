@@ -17,8 +17,8 @@ use super::misread::{lone_name, not_a_link, not_an_entry, shape_by_equals};
 use super::properties;
 use super::requests::{observable, request};
 use super::{
-    CratePath, Description, DriveClause, Expression, LockedClause, Node, ObservableClause,
-    ParameterClause, PrescribedClause, Property, Reductions, Request, StructItem,
+    CouplingClause, CratePath, Description, DriveClause, Expression, LockedClause, Node,
+    ObservableClause, ParameterClause, PrescribedClause, Property, Reductions, Request, StructItem,
 };
 use crate::report::{Diagnostic, Faults, SceneSetting, SyntaxMessage};
 
@@ -68,6 +68,7 @@ pub(super) fn parse_attribute(
         observables: Vec::new(),
         reductions: Reductions::default(),
         prescribed: Vec::new(),
+        couplings: Vec::new(),
         damaged: entries.damaged,
     };
     gather(entries.members, &mut description, report);
@@ -122,6 +123,7 @@ fn gather(members: Vec<Member>, description: &mut Description, report: &mut Faul
             Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
             Member::Locked(clause) => description.reductions.locked.push(clause),
             Member::Prescribed(clause) => description.prescribed.push(clause),
+            Member::Coupling(clause) => description.couplings.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -147,6 +149,7 @@ enum Member {
     InPhase(Vec<Ident>),
     Locked(LockedClause),
     Prescribed(PrescribedClause),
+    Coupling(CouplingClause),
     Link(Node),
 }
 
@@ -218,6 +221,9 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
             damaged: links.damaged,
         }));
     }
+    if (name == "between" || name == "siblings") && declares(input) {
+        return coupling(name, input, report).map(Member::Coupling);
+    }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
     }
@@ -225,6 +231,37 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
         Some(fault) => Err(fault),
         None => node(name, input, report).map(Member::Link),
     }
+}
+
+/// Links, then properties.
+fn coupling(
+    name: Ident,
+    input: ParseStream<'_>,
+    report: &mut Faults,
+) -> Result<CouplingClause, ListFault> {
+    let parts = group(input, Delimiter::Parenthesis, "`(` and links")?;
+    let (mut links, mut damaged) = (Vec::new(), false);
+    let parts = list(parts, report, |input, report| {
+        let is_link = match input.cursor().ident() {
+            Some((_, rest)) => {
+                rest.eof() || rest.punct().is_some_and(|(mark, _)| mark.as_char() == ',')
+            }
+            None => false,
+        };
+        if is_link {
+            links.push(identifier(input, "a link")?);
+            return Ok(Vec::new());
+        }
+        let one = properties::properties(input, report)?;
+        damaged |= one.damaged;
+        Ok(one.members)
+    });
+    Ok(CouplingClause {
+        name,
+        damaged: damaged || parts.damaged,
+        links,
+        properties: parts.members.into_iter().flatten().collect(),
+    })
 }
 
 /// Returns true if parentheses without values follow: a link may be called

@@ -44,6 +44,14 @@ impl Display for Description {
             let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
             writeln!(f, "prescribed({})", links.join(", "))?;
         }
+        for clause in &self.couplings {
+            let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
+            write!(f, "{}({}", clause.name, links.join(", "))?;
+            for property in &clause.properties {
+                write!(f, ", {property}")?;
+            }
+            writeln!(f, ")")?;
+        }
         if !self.requests.is_empty() {
             write!(f, "emit(")?;
             separated(&self.requests, f)?;

@@ -14,6 +14,7 @@
 
 mod bodies;
 pub mod coordinates;
+mod couplings;
 mod drive;
 mod expand;
 mod layout;
@@ -49,6 +50,7 @@ mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
+pub use couplings::{Coupling, CouplingEnds};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
 pub use magnitude::{Magnitudes, NEGLIGIBLE};
@@ -115,6 +117,9 @@ pub struct Scene {
     /// Links whose motion the caller states, those of each set together. The sets come with
     /// `requests.forces`.
     pub prescribed: Vec<PrescribedSet>,
+    /// Springs and friction between links that are not parent and child; of trees that are
+    /// computed at run time alone.
+    pub couplings: Vec<Coupling>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,

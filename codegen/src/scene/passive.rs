@@ -3,7 +3,7 @@
 
 use super::Quantity;
 use super::bodies::GivenProperties;
-use crate::description::Node;
+use crate::description::Property;
 use crate::exact::Rational;
 use crate::report::{Faults, TreeMessage};
 
@@ -132,6 +132,22 @@ impl PassiveTorques {
         }
     }
 
+    /// The torques that keep the energy: the spring alone.
+    #[must_use]
+    pub fn frictionless(&self) -> Self {
+        Self {
+            spring: self.spring.clone(),
+            rest: self.rest.clone(),
+            friction: Quantity::zero(),
+            drag: Quantity::zero(),
+            laws: FrictionPlace::ALL.map(|_| FrictionLaw {
+                coulomb: Quantity::zero(),
+                quadratic: Quantity::zero(),
+                width: Quantity::integer(1),
+            }),
+        }
+    }
+
     /// Returns true if all friction is viscous.
     pub fn is_viscous(&self) -> bool {
         self.laws.iter().all(FrictionLaw::is_none)
@@ -179,12 +195,9 @@ impl PassiveTorques {
 }
 
 /// Checks that a rest angle is that of a spring, and a width that of a law.
-pub(super) fn check_idle(node: &Node, report: &mut Faults) {
-    let find = |name: &str| node.properties.iter().find(|p| p.key() == name);
-    let link = || node.name.to_string();
-    if node.damaged {
-        return;
-    }
+pub(super) fn check_idle(properties: &[Property], owner: &str, report: &mut Faults) {
+    let find = |name: &str| properties.iter().find(|p| p.key() == name);
+    let link = || owner.to_owned();
     if let (Some(rest), None) = (find("rest"), find("spring")) {
         report.error(
             rest.name.span(),

@@ -1,30 +1,55 @@
 //! Links whose motion the caller states at each call.
 
+use proc_macro2::Ident;
+
 use super::expand::ExpandedTree;
 use super::layout::Layout;
 use super::{LinkId, PrescribedSet};
 use crate::description::PrescribedClause;
 use crate::report::{Faults, OutputMessage, TreeMessage, nearest};
 
+/// Names of the links of a tree, by which clauses call them.
+pub(super) struct LinkNames<'a> {
+    names: Vec<&'a str>,
+    layout: Layout,
+}
+
+impl<'a> LinkNames<'a> {
+    pub(super) fn of(expansion: &'a ExpandedTree, layout: Layout) -> Self {
+        let links = expansion.links.iter();
+        let names = links.map(|link| link.name.as_str()).collect();
+        Self { names, layout }
+    }
+
+    /// The link of that name; a name that no link has goes to `report`.
+    pub(super) fn find(&self, link: &Ident, report: &mut Faults) -> Option<LinkId> {
+        let name = link.to_string();
+        let place = match self.layout {
+            Layout::Generations { branching, .. } => of_generations(&name, &self.names, branching),
+            _ => self.names.iter().position(|known| *known == name),
+        };
+        if place.is_none() {
+            // A generation's name alone is no link's.
+            let branches = matches!(self.layout, Layout::Generations { branching: 2.., .. });
+            let copies = usize::from(branches);
+            let numbered = self.names.iter().enumerate();
+            let examples: Vec<String> = numbered
+                .map(|(generation, name)| format!("{name}{}", "_1".repeat(copies * generation)))
+                .collect();
+            let examples: Vec<&str> = examples.iter().map(String::as_str).collect();
+            let nearest = nearest(&name, &examples).map(str::to_owned);
+            report.error(link.span(), TreeMessage::UnknownNode { name, nearest });
+        }
+        place.map(LinkId)
+    }
+}
+
 /// Finds the links of each clause; what is wrong goes to `report`.
 pub(super) fn resolve_prescribed(
     clauses: &[PrescribedClause],
-    expansion: &ExpandedTree,
-    layout: Layout,
+    names: &LinkNames<'_>,
     report: &mut Faults,
 ) -> Vec<PrescribedSet> {
-    let names: Vec<&str> = expansion
-        .links
-        .iter()
-        .map(|link| link.name.as_str())
-        .collect();
-    // A generation's name alone is no link's.
-    let copies = usize::from(matches!(layout, Layout::Generations { branching: 2.., .. }));
-    let first_copies = names.iter().enumerate();
-    let first_copies: Vec<String> = first_copies
-        .map(|(generation, name)| format!("{name}{}", "_1".repeat(copies * generation)))
-        .collect();
-    let examples: Vec<&str> = first_copies.iter().map(String::as_str).collect();
     let mut sets: Vec<PrescribedSet> = Vec::new();
     for PrescribedClause {
         name,
@@ -38,11 +63,7 @@ pub(super) fn resolve_prescribed(
         let (mut found, mut written) = (Vec::new(), Vec::new());
         for link in links {
             let name = link.to_string();
-            let place = match layout {
-                Layout::Generations { branching, .. } => of_generations(&name, &names, branching),
-                _ => names.iter().position(|known| *known == name),
-            };
-            match place.map(LinkId) {
+            match names.find(link, report) {
                 Some(link_id) if found.contains(&link_id) => {
                     report.error(link.span(), OutputMessage::DuplicateRequest { name });
                 }
@@ -50,10 +71,7 @@ pub(super) fn resolve_prescribed(
                     found.push(link_id);
                     written.push(name);
                 }
-                None => {
-                    let nearest = nearest(&name, &examples).map(str::to_owned);
-                    report.error(link.span(), TreeMessage::UnknownNode { name, nearest });
-                }
+                None => {}
             }
         }
         let set = PrescribedSet {

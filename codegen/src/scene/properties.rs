@@ -197,7 +197,7 @@ impl LinkKind {
             }
             let dimension = self.dimensions().find(|known| known.name == name);
             if let Some(dimension) = dimension {
-                match evaluate(dimension, property, node, values, report) {
+                match evaluate(dimension, property, &node.name.to_string(), values, report) {
                     Some(value) => given.0.push((dimension.name, value)),
                     None => sound = false,
                 }
@@ -324,11 +324,11 @@ impl LinkKind {
     }
 }
 
-/// The value of a property.
-fn evaluate(
+/// The value of a property of an owner of that name.
+pub(super) fn evaluate(
     dimension: &Dimension,
     property: &Property,
-    node: &Node,
+    owner: &str,
     values: &mut Values,
     report: &mut Faults,
 ) -> Option<Offset> {
@@ -336,7 +336,7 @@ fn evaluate(
         name, unit, sign, ..
     } = dimension;
     let usage = |part: &str| Usage {
-        what: format!("{part}{} of `{}`", in_words(name), node.name),
+        what: format!("{part}{} of `{owner}`", in_words(name)),
         unit,
         sign,
     };

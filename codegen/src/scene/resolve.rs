@@ -1,10 +1,11 @@
 //! Description to scene, on one page.
 
+use super::couplings::{resolve_couplings, torques_of_couplings};
 use super::drive::resolve_drive;
 use super::expand::{ExpandedTree, check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
-use super::prescribed::resolve_prescribed;
+use super::prescribed::{LinkNames, resolve_prescribed};
 use super::reduction::reduce;
 use super::requests::{check_symmetry, resolve_requests};
 use super::rule::{Code, resolve_code};
@@ -23,6 +24,19 @@ use proc_macro2::{Ident, Span};
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
+    for clause in &description.couplings {
+        let word = clause.name.to_string();
+        report.error(clause.name.span(), TreeMessage::CompiledCoupling { word });
+    }
+    resolve_with_couplings(description, report)
+}
+
+/// The same of a description with springs between any links, which code for one tree does not
+/// know.
+pub(super) fn resolve_with_couplings(
+    description: &Description,
+    report: &mut Faults,
+) -> Option<Scene> {
     let mut builder = TreeBuilder {
         values: Values::declared(description.parameters.as_ref(), report),
         ..TreeBuilder::default()
@@ -33,6 +47,7 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
+    let torques = torques_of_couplings(&description.couplings, &mut builder.values, report);
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     resolved.requests.forces |= !description.prescribed.is_empty();
@@ -77,10 +92,13 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         }
     }
     // Copies may have stood where the tree was unreadable.
-    let mut prescribed = Vec::new();
+    let (mut prescribed, mut couplings) = (Vec::new(), Vec::new());
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
-        prescribed = resolve_prescribed(&description.prescribed, &expansion, layout, report);
+        let names = LinkNames::of(&expansion, layout);
+        prescribed = resolve_prescribed(&description.prescribed, &names, report);
+        let (clauses, tree) = (&description.couplings, (&expansion, layout));
+        couplings = resolve_couplings(clauses, torques, tree, &description.reductions, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -96,6 +114,7 @@ pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> 
         requests: resolved.requests,
         observables: Vec::new(),
         prescribed,
+        couplings,
         reduction,
         layout,
     };

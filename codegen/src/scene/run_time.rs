@@ -1,8 +1,9 @@
 //! Scenes of trees that are computed as they are described, with equations that no
 //! description changes.
 
+use super::Scene;
 use super::layout::Layout;
-use super::{Scene, resolve};
+use super::resolve::resolve_with_couplings;
 use crate::description::Description;
 use crate::report::{Faults, OutputMessage, SizeMessage};
 
@@ -22,7 +23,7 @@ const DERIVED: [&str; 1] = ["transverse"];
 /// Most links.
 const MOST: usize = 1 << 16;
 
-/// Checks a description as [`resolve`] does, and that nothing is asked for which
+/// Checks a description as [`resolve`](super::resolve()) does, and that nothing is asked for which
 /// has to be derived. Outputs that hold for every tree, or every one with copies, may be asked
 /// for or not.
 pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Option<Scene> {
@@ -45,7 +46,7 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
         let always = known && is_single(&request.name);
         !derived && !always
     });
-    let scene = resolve(&kept, report)?;
+    let scene = resolve_with_couplings(&kept, report)?;
     if let (Layout::Generations { links, .. }, Some(root)) =
         (scene.layout, description.roots.first())
         && links > MOST

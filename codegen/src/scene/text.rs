@@ -4,7 +4,8 @@ use std::fmt::{self, Display, Formatter};
 
 use super::{
     BudgetRequest, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit, Parameter,
-    Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode, WholeOrder,
+    PassiveTorques, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
+    WholeOrder,
 };
 
 impl Display for Scene {
@@ -22,6 +23,7 @@ impl Display for Scene {
             requests,
             observables,
             prescribed,
+            couplings,
             reduction,
             layout,
         } = self;
@@ -95,6 +97,10 @@ impl Display for Scene {
         for set in prescribed {
             writeln!(f, "prescribed {}", set.members.join(", "))?;
         }
+        for coupling in couplings {
+            writeln!(f, "{}", coupling.what)?;
+            self.write_passive(&coupling.torques, f)?;
+        }
         writeln!(f, "requests {requests}")?;
         for Observable { name, value } in observables {
             writeln!(f, "observable {name} = {}", value.display(parameters))?;
@@ -152,6 +158,11 @@ impl Scene {
         if self.requests.positions {
             writeln!(f, "    end {} m", show(end))?;
         }
+        self.write_passive(passive, f)
+    }
+
+    /// Writes, indented, the torques that are not zero.
+    fn write_passive(&self, passive: &PassiveTorques, f: &mut Formatter<'_>) -> fmt::Result {
         let forces = [
             ("friction", &passive.friction, "N m s"),
             ("drag", &passive.drag, "N m s"),

@@ -39,7 +39,9 @@ impl TreeBuilder {
         if let Some(copies) = node.copies.filter(|copies| copies.count == 0) {
             report.error(copies.span, TreeMessage::ZeroCopies);
         }
-        check_idle(node, report);
+        if !node.damaged {
+            check_idle(&node.properties, &node.name.to_string(), report);
+        }
         let shape = node.shape.as_ref();
         let is_rule = shape.is_some_and(|shape| shape == "generations");
         let right = |report: &Faults| report.diagnostics().len() == before;

@@ -91,6 +91,8 @@ pub const SHIPPED: [Shipped; 8] = [
             ("length_ratio", 0.7),
             ("friction", 1e-5),
             ("friction_ratio", 1e6),
+            ("sibling_friction", 0.0),
+            ("gravity", 9.80665),
         ],
     },
 ];

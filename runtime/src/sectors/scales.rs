@@ -232,6 +232,15 @@ impl<T: Scalar> ScaleBudget<T> {
         (powers[0] + powers[1]) + (powers[2] + powers[3])
     }
 
+    /// Adds an energy (J) that a scale has besides, in the links of the scale's own generation;
+    /// none to a scale that there is not.
+    pub fn add_energy(&mut self, scale: usize, energy: T) {
+        let place = scale * self.scales + scale;
+        if let (Some(own), true) = (self.energies.get_mut(place), scale < self.scales) {
+            *own = *own + energy;
+        }
+    }
+
     fn power_of(&self, kind: PowerKind, scale: usize) -> T {
         self.at(&self.powers, kind as usize, scale)
     }

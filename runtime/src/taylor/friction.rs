@@ -10,8 +10,9 @@ use crate::simd::Quad;
 pub struct RoughFriction<T> {
     /// Number of the link.
     pub link: usize,
-    /// True for the link's own rate, false for that relative to its parent.
-    pub against_ground: bool,
+    /// The link relative to whose rate the link's is meant, which has the opposite torque; none
+    /// for the link's own rate.
+    pub other: Option<usize>,
     /// C.
     pub coulomb: T,
     /// q.
@@ -28,7 +29,7 @@ impl<T> RoughFriction<T> {
     {
         RoughFriction {
             link: self.link,
-            against_ground: self.against_ground,
+            other: self.other,
             coulomb: convert(self.coulomb),
             quadratic: convert(self.quadratic),
             width: convert(self.width),

@@ -55,19 +55,28 @@ impl<T: Scalar> TreeTorques<'_, T> {
                 oppose(links.parent(link), -torque);
             }
         }
+        for own in &tree.between {
+            let [a, b] = own.links;
+            let mut angle = theta[a] - theta[b];
+            if START {
+                angle = angle - own.rest;
+            }
+            let torque = own.friction * (omega[a] - omega[b]) + own.spring * angle;
+            oppose(a, torque);
+            oppose(b, -torque);
+        }
         for (law, room) in tree.rough.iter().zip(self.laws.chunks_exact_mut(self.room)) {
-            let link = law.link;
-            let rate = match law.against_ground {
-                true => omega[link],
-                false => relative(omega, link),
+            let rate = match law.other {
+                None => omega[law.link],
+                Some(other) => omega[law.link] - omega[other],
             };
             let torque = match START {
                 true => law.start(rate, room),
                 false => law.order(order, rate, room),
             };
-            oppose(link, torque);
-            if link > 0 && !law.against_ground {
-                oppose(links.parent(link), -torque);
+            oppose(law.link, torque);
+            if let Some(other) = law.other {
+                oppose(other, -torque);
             }
         }
         if let Some(Quad([_, _, torque, _])) = self.drive.and_then(|drive| drive.get(order)) {
@@ -81,8 +90,14 @@ impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
 
     #[inline(always)]
     fn moves(&self) -> bool {
-        let SeriesTree { passive, rough, .. } = self.tree;
-        !passive.is_empty() || !rough.is_empty() || self.drive.is_some()
+        let SeriesTree {
+            passive,
+            between,
+            rough,
+            ..
+        } = self.tree;
+        let own = [passive.is_empty(), between.is_empty(), rough.is_empty()];
+        own.contains(&false) || self.drive.is_some()
     }
 
     #[inline(always)]

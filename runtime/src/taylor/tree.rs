@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use super::friction::RoughFriction;
 use super::links::TreeLinks;
 use crate::scalar::Scalar;
+use crate::spring_dampers::SpringDamper;
 
 /// A link of a tree as the recurrences of Taylor coefficients take it, in any units of mass
 /// and length that go together.
@@ -46,6 +47,8 @@ pub struct SeriesTree<T> {
     pub(super) lateral_weights: Vec<T>,
     /// Friction, drag, spring and rest of each link, if any has some.
     pub(super) passive: Vec<[T; 4]>,
+    /// Springs and viscous friction between links that are not parent and child.
+    pub(super) between: Vec<SpringDamper<T>>,
     pub(super) rough: Vec<RoughFriction<T>>,
     /// What torques are multiplied by.
     pub(super) share: T,
@@ -142,9 +145,33 @@ impl<T: Scalar> SeriesTree<T> {
             weights: links.iter().map(|own| own.weight[0]).collect(),
             lateral_weights: links.iter().map(|own| own.weight[1]).collect(),
             passive: passive.collect(),
-            rough: rough.into_iter().filter(|law| law.link < count).collect(),
+            between: Vec::new(),
+            rough: rough.into_iter().filter(|law| is_of(law, count)).collect(),
             share,
         }
+    }
+
+    /// Returns the tree with springs and friction between links that are not parent and child, in
+    /// the units of the links; those between links that there are not are left out.
+    #[must_use]
+    pub fn with(mut self, between: Vec<SpringDamper<T>>) -> Self {
+        let count = self.inertias.len();
+        for own in between {
+            let [link, other] = own.links;
+            if link.max(other) >= count {
+                continue;
+            }
+            let law = own.law.map(|[coulomb, quadratic, width]| RoughFriction {
+                link,
+                other: Some(other),
+                coulomb,
+                quadratic,
+                width,
+            });
+            self.rough.extend(law);
+            self.between.push(own);
+        }
+        self
     }
 
     /// Takes every constant through `convert`.
@@ -160,8 +187,14 @@ impl<T: Scalar> SeriesTree<T> {
             weights: numbers(&self.weights),
             lateral_weights: numbers(&self.lateral_weights),
             passive: self.passive.iter().map(|own| own.map(&convert)).collect(),
+            between: self.between.iter().map(|own| own.map(&convert)).collect(),
             rough: rough.collect(),
             share: convert(self.share),
         }
     }
+}
+
+/// Returns true for friction of links of a tree of so many.
+fn is_of<T>(law: &RoughFriction<T>, count: usize) -> bool {
+    law.link < count && law.other.is_none_or(|other| other < count)
 }

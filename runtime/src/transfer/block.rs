@@ -65,6 +65,7 @@ impl BlockShape {
     pub(super) fn write_fall<T: Scalar>(
         &self,
         constants: &MassConstants<T>,
+        stiffness: &[T],
         parents: &[Option<usize>],
         theta: &[T],
         [sines, cosines]: [&[T]; 2],
@@ -75,7 +76,7 @@ impl BlockShape {
             slopes[link] = zero;
         }
         let mut energy = zero;
-        for column in &self.columns {
+        for (index, column) in self.columns.iter().enumerate() {
             let Some(&(first, _)) = column.weights.first() else {
                 continue;
             };
@@ -97,6 +98,15 @@ impl BlockShape {
                 for (link, own) in column.iter() {
                     let own: T = own;
                     slopes[link] = slopes[link] + own * (lateral * cosines[link]);
+                }
+            }
+            if let Some(&stiffness) = stiffness.get(self.first + index) {
+                let strain = column.sum(|link| theta[link]);
+                let torque = stiffness * share * strain;
+                energy = energy + half * torque * strain;
+                for (link, own) in column.iter() {
+                    let own: T = own;
+                    slopes[link] = slopes[link] + own * torque;
                 }
             }
             let Some(&spring) = constants.spring.get(first) else {

@@ -239,7 +239,8 @@ impl<T: Scalar> SymmetricTree<T> {
     /// Writes the slopes of V_s, and returns V_s.
     fn write_own_fall(&self, block: &BlockShape, motion: &TreeMotion<'_, T>, fall: &mut [T]) -> T {
         let turns = [motion.sines, motion.cosines];
-        block.write_fall(self.equal(), &self.shape.parents, motion.theta, turns, fall)
+        let (own, parents) = (&self.stiffness, &self.shape.parents);
+        block.write_fall(self.equal(), own, parents, motion.theta, turns, fall)
     }
 
     /// E, W and P of a sector from its velocities z: T = ½ zᵀ M z.

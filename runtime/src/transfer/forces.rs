@@ -85,6 +85,9 @@ impl<T: Scalar> SymmetricTree<T> {
             let joint = (coulomb / speed + quadratic * speed) * rate;
             brake(link, joint, drag * own_speed * own);
         }
+        if !self.between.is_empty() {
+            self.between.add_friction(omega, q);
+        }
     }
 
     fn add_drive(&self, [x, y, torque]: [T; 3], motion: &TreeMotion<'_, T>, q: &mut [T]) {

@@ -33,10 +33,11 @@ use alloc::vec::Vec;
 
 use constants::{MassConstants, moments, rounded};
 use forces::Passive;
-use shape::SymmetricShape;
+use shape::{SymmetricShape, stiffness};
 
 use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
+use crate::spring_dampers::SpringDampers;
 
 /// A tree with copies in numbers `T`, in its symmetric coordinates.
 ///
@@ -103,6 +104,10 @@ pub struct SymmetricTree<T> {
     mean: Option<MeanTree<T>>,
     bodies: Vec<RigidLink<T>>,
     passive: Passive<T>,
+    between: SpringDampers<T>,
+    /// What springs between links add to the stiffness of each symmetric coordinate by itself;
+    /// empty without any.
+    stiffness: Vec<T>,
 }
 
 /// The tree of equal copies beside one whose copies differ.
@@ -220,7 +225,30 @@ impl<T: Scalar> SymmetricTree<T> {
             mean,
             bodies: links.iter().map(|link| link.cast(rounded)).collect(),
             passive,
+            between: SpringDampers::default(),
+            stiffness: Vec::new(),
         })
+    }
+
+    /// Returns the tree with springs and friction between links that are not parent and child.
+    ///
+    /// None for those of another number of links, and for springs that couple sectors, which have
+    /// no energies by themselves then: all copies of a node under one link have to have the same
+    /// spring between each two of them, at rest where they do not differ.
+    #[must_use]
+    pub fn with(mut self, between: SpringDampers<Double>) -> Option<Self> {
+        if between.is_empty() {
+            return Some(self);
+        }
+        if between.links() != self.links() {
+            return None;
+        }
+        self.stiffness = match between.list().iter().any(|own| own.spring.high() != 0.0) {
+            true => stiffness(&self.shape, &between)?,
+            false => Vec::new(),
+        };
+        self.between = between.cast(rounded);
+        Some(self)
     }
 
     /// Returns the tree as one that stands, or not, whatever its gravity: y of the drive is
@@ -244,6 +272,8 @@ impl<T: Scalar> SymmetricTree<T> {
             }),
             bodies: self.bodies.iter().map(|body| body.cast(&convert)).collect(),
             passive: self.passive.cast(&convert),
+            between: self.between.cast(&convert),
+            stiffness: self.stiffness.iter().copied().map(&convert).collect(),
         }
     }
 

@@ -170,6 +170,9 @@ impl<T: Scalar> SymmetricTree<T> {
                 slopes[parent] = slopes[parent] - torque;
             }
         }
+        if !self.stiffness.is_empty() {
+            self.between.add_spring_slopes(motion.theta, slopes);
+        }
     }
 
     /// Writes those of U less the mean tree's: G and F by themselves, and of springs
@@ -220,7 +223,10 @@ impl<T: Scalar> SymmetricTree<T> {
                 energy = energy + half * spring * strain * strain;
             }
         }
-        energy
+        match self.stiffness.is_empty() {
+            true => energy,
+            false => energy + self.between.energy(motion.theta),
+        }
     }
 }
 

@@ -2,16 +2,25 @@
 
 use branched_pendulum::analysis::{EquilibriumError, Modes, ModesError, equilibrium_of_torques};
 use branched_pendulum::scalar::{Dual, Scalar};
+use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{Model, Slopes, Workspace, gradient};
 
 use crate::bodies::FormBodies;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
+    /// What acts between links that are not parent and child.
+    pub(crate) fn between(&self) -> &SpringDampers<T> {
+        self.equations.between()
+    }
+
     /// Returns the power (W) of friction and drag, never positive.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
-        self.bodies.friction_power(omega)
+        match self.between().is_empty() {
+            true => self.bodies.friction_power(omega),
+            false => self.bodies.friction_power(omega) + self.between().power(omega),
+        }
     }
 
     /// Returns the power (W) of torques from outside.
@@ -82,14 +91,14 @@ impl<T: Scalar> PendulumTree<T> {
             return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
         }
         let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
-        let bodies = self.bodies.cast(lift);
+        let (bodies, between) = (self.bodies.cast(lift), self.between().cast(lift));
         let row = |link: usize| {
             let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
             if let Some(own) = point.get_mut(link) {
                 *own = Dual::variable(own.value, 0);
             }
             let slopes = gradient_of(self.links(), &point, |theta, workspace| {
-                bodies.potential_energy(workspace, theta)
+                potential_energy(&bodies, &between, workspace, theta)
             });
             slopes.into_iter().map(|slope| slope.tangents[0]).collect()
         };
@@ -155,10 +164,25 @@ impl PendulumTree<f64> {
     /// The torques −∂U/∂θ on the links.
     fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
         let bodies = self.bodies.cast(Slopes::<f64>::constant);
+        let between = self.between().cast(Slopes::<f64>::constant);
         let slopes = gradient_of(self.links(), theta, |theta, workspace| {
-            bodies.potential_energy(workspace, theta)
+            potential_energy(&bodies, &between, workspace, theta)
         });
         slopes.into_iter().map(|slope| -slope).collect()
+    }
+}
+
+/// Energy of gravity and of all springs.
+pub(crate) fn potential_energy<T: Scalar>(
+    bodies: &FormBodies<T>,
+    between: &SpringDampers<T>,
+    workspace: &mut Workspace<T>,
+    theta: &[T],
+) -> T {
+    let energy = bodies.potential_energy(workspace, theta);
+    match between.is_empty() {
+        true => energy,
+        false => energy + between.energy(theta),
     }
 }
 

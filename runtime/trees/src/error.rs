@@ -58,6 +58,13 @@ pub enum TreeError {
         /// Name of the constant.
         constant: String,
     },
+    /// Symmetric coordinates, or what is made of them, of a tree with springs that couple sectors.
+    #[error(
+        "springs `between(...)` links couple the tree's sectors, which have no energies by \
+         themselves then: write `siblings(NODE, spring = ...)` for springs between all copies of a \
+         node under one link, or watch an energy of your own by `observe(...)`"
+    )]
+    CoupledSectors,
     /// Symmetric coordinates, or what is made of them, of a tree without copies.
     #[error(
         "the tree has no copies, between which there are differences to transfer energy to: \

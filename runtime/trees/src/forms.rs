@@ -1,7 +1,8 @@
-//! The equations of a tree in one of their forms.
+//! The equations of a tree in one of their forms, and what acts between its links.
 
 use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
+use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, RootDrive};
 
@@ -11,7 +12,7 @@ use crate::ways::Ways;
 
 /// A tree in one of the forms.
 #[derive(Clone, Debug)]
-pub(crate) enum Equations<T> {
+enum FormEquations<T> {
     Straight(Ways<StraightEquations, T>),
     General(Ways<GeneralEquations, T>),
     Rough(Ways<RoughEquations, T>),
@@ -40,8 +41,8 @@ impl<T: Scalar> Acting<'_, T> {
     }
 }
 
-impl<T: Scalar> Equations<T> {
-    pub(crate) fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
+impl<T: Scalar> FormEquations<T> {
+    fn new(form: Form, parents: &[u32], rows: Vec<T>, gravity: T) -> Self {
         match form {
             Form::Straight => Self::Straight(Ways::new(form, parents, rows, gravity)),
             Form::General => Self::General(Ways::new(form, parents, rows, gravity)),
@@ -49,17 +50,17 @@ impl<T: Scalar> Equations<T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> FormEquations<S> {
         match self {
-            Self::Straight(tree) => Equations::Straight(tree.cast(convert)),
-            Self::General(tree) => Equations::General(tree.cast(convert)),
-            Self::Rough(tree) => Equations::Rough(tree.cast(convert)),
+            Self::Straight(tree) => FormEquations::Straight(tree.cast(convert)),
+            Self::General(tree) => FormEquations::General(tree.cast(convert)),
+            Self::Rough(tree) => FormEquations::Rough(tree.cast(convert)),
         }
     }
 
     /// Writes the accelerations at angles and angular velocities.
     #[inline(always)]
-    pub(crate) fn accelerate(
+    fn accelerate(
         &self,
         workspace: &mut Workspace<T>,
         acting: Acting<'_, T>,
@@ -76,7 +77,7 @@ impl<T: Scalar> Equations<T> {
     /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
     /// caller chooses.
     #[inline(always)]
-    pub(crate) fn evaluate(
+    fn evaluate(
         &self,
         drive: Option<RootDrive<T>>,
         theta: impl Fn(usize) -> T,
@@ -92,7 +93,7 @@ impl<T: Scalar> Equations<T> {
 
     /// Writes accelerations under torques, likewise.
     #[inline(always)]
-    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+    fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         match self {
             Self::Straight(ways) => ways.evaluate_under(acting, given, alpha),
             Self::General(ways) => ways.evaluate_under(acting, given, alpha),
@@ -101,7 +102,7 @@ impl<T: Scalar> Equations<T> {
     }
 
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
-    pub(crate) fn room(&self) -> usize {
+    fn room(&self) -> usize {
         match self {
             Self::Straight(ways) => ways.room(),
             Self::General(ways) => ways.room(),
@@ -111,7 +112,7 @@ impl<T: Scalar> Equations<T> {
 
     /// Returns the tree for registers of states at one time of a drive.
     #[inline(always)]
-    pub(crate) fn in_registers<R: Simd<T>>(
+    fn in_registers<R: Simd<T>>(
         &self,
         drive: Option<RootDrive<T>>,
         room: &mut [T],
@@ -120,6 +121,153 @@ impl<T: Scalar> Equations<T> {
             Self::Straight(ways) => OneOf::First(ways.in_registers(drive, room)),
             Self::General(ways) => OneOf::Second(OneOf::First(ways.in_registers(drive, room))),
             Self::Rough(ways) => OneOf::Second(OneOf::Second(ways.in_registers(drive, room))),
+        }
+    }
+}
+
+/// The equations of a tree, with the springs and the friction between its links.
+#[derive(Clone, Debug)]
+pub(crate) struct Equations<T> {
+    form: FormEquations<T>,
+    between: SpringDampers<T>,
+}
+
+impl<T: Scalar> Equations<T> {
+    pub(crate) fn new(
+        form: Form,
+        parents: &[u32],
+        rows: Vec<T>,
+        gravity: T,
+        between: SpringDampers<T>,
+    ) -> Self {
+        let form = FormEquations::new(form, parents, rows, gravity);
+        Self { form, between }
+    }
+
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
+        Equations {
+            form: self.form.cast(&convert),
+            between: self.between.cast(convert),
+        }
+    }
+
+    /// What acts between links.
+    pub(crate) fn between(&self) -> &SpringDampers<T> {
+        &self.between
+    }
+
+    /// Writes to `torques` what acts on links from outside and between them.
+    #[inline(always)]
+    pub(crate) fn write_torques(&self, acting: Acting<'_, T>, given: [&[T]; 2], torques: &mut [T]) {
+        match acting.torques {
+            // Torques of another number than there are links have no answer.
+            Some(outside) if outside.len() != torques.len() => {
+                torques.fill(T::from_f64(f64::NAN));
+            }
+            Some(outside) => torques.copy_from_slice(outside),
+            None => torques.fill(T::from_f64(0.0)),
+        }
+        self.between.add_torques(given, torques);
+    }
+
+    /// Writes the accelerations at angles and angular velocities.
+    #[inline(always)]
+    pub(crate) fn accelerate(
+        &self,
+        workspace: &mut Workspace<T>,
+        acting: Acting<'_, T>,
+        given: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let (acting, workspace) = match self.between.is_empty() {
+            true => (acting, workspace),
+            false => {
+                let (torques, inner) = workspace.with_inner(given[0].len());
+                self.write_torques(acting, given, torques);
+                let torques = Some(&*torques);
+                (Acting { torques, ..acting }, inner)
+            }
+        };
+        self.form.accelerate(workspace, acting, given, alpha);
+    }
+
+    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
+    /// caller chooses.
+    #[inline(always)]
+    pub(crate) fn evaluate(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        alpha: impl FnMut(usize, T),
+    ) {
+        match self.between.is_empty() {
+            true => self.form.evaluate(drive, theta, omega, alpha),
+            false => self.evaluate_coupled(drive, theta, omega, alpha),
+        }
+    }
+
+    /// Returns the accelerations with what acts between links. Once for all callers: it is long.
+    #[inline(never)]
+    fn apart(&self, acting: Acting<'_, T>, given: [&[T]; 2]) -> Vec<T> {
+        let mut alpha = vec![T::from_f64(f64::NAN); given[0].len()];
+        self.evaluate_under(acting, given, &mut alpha);
+        alpha
+    }
+
+    /// Writes accelerations under torques, likewise.
+    #[inline(always)]
+    pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+        let mut torques = Vec::new();
+        let acting = match self.between.is_empty() {
+            true => acting,
+            false => {
+                torques.resize(given[0].len(), T::from_f64(0.0));
+                self.write_torques(acting, given, &mut torques);
+                let torques = Some(&*torques);
+                Acting { torques, ..acting }
+            }
+        };
+        self.form.evaluate_under(acting, given, alpha);
+    }
+
+    /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
+    pub(crate) fn room(&self) -> usize {
+        self.form.room()
+    }
+
+    /// Returns the tree for registers of states at one time of a drive.
+    #[inline(always)]
+    pub(crate) fn in_registers<R: Simd<T>>(
+        &self,
+        drive: Option<RootDrive<T>>,
+        room: &mut [T],
+    ) -> impl InRegisters<R> {
+        match self.between.is_empty() {
+            true => OneOf::First(self.form.in_registers(drive, room)),
+            false => OneOf::Second(CoupledAtOneTime {
+                equations: self.cast(R::splat),
+                drive: drive.map(|drive| drive.map(R::splat)),
+            }),
+        }
+    }
+
+    /// Gives the accelerations with what acts between links.
+    #[inline(always)]
+    fn evaluate_coupled(
+        &self,
+        drive: Option<RootDrive<T>>,
+        theta: impl Fn(usize) -> T,
+        omega: impl Fn(usize) -> T,
+        mut alpha: impl FnMut(usize, T),
+    ) {
+        let links = self.between.links();
+        let theta: Vec<T> = (0..links).map(theta).collect();
+        let omega: Vec<T> = (0..links).map(omega).collect();
+        let torques = None;
+        let results = self.apart(Acting { drive, torques }, [&theta, &omega]);
+        for (link, acceleration) in results.into_iter().enumerate() {
+            alpha(link, acceleration);
         }
     }
 }
@@ -160,5 +308,24 @@ impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
         alpha: impl FnMut(usize, R),
     ) {
         self.ways.evaluate(self.drive, theta, omega, alpha);
+    }
+}
+
+/// A tree with what acts between its links, whose constants are registers, likewise.
+struct CoupledAtOneTime<R> {
+    equations: Equations<R>,
+    drive: Option<RootDrive<R>>,
+}
+
+impl<R: Scalar> InRegisters<R> for CoupledAtOneTime<R> {
+    #[inline(always)]
+    fn evaluate(
+        &mut self,
+        theta: impl Fn(usize) -> R,
+        omega: impl Fn(usize) -> R,
+        alpha: impl FnMut(usize, R),
+    ) {
+        self.equations
+            .evaluate_coupled(self.drive, theta, omega, alpha);
     }
 }

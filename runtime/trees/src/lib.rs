@@ -34,6 +34,7 @@ mod series;
 mod signal_series;
 mod symmetric;
 mod text;
+mod thermal;
 mod tree;
 #[cfg(feature = "strips")]
 mod ways;

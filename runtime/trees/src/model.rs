@@ -8,6 +8,7 @@ use branched_pendulum::system::{
     Positions, Workspace,
 };
 
+use crate::energies::potential_energy;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> Model<T> for PendulumTree<T> {
@@ -116,7 +117,7 @@ impl<T: Scalar> Energy<T> for PendulumTree<T> {
     }
 
     fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
-        self.bodies.potential_energy(workspace, theta)
+        potential_energy(&self.bodies, self.between(), workspace, theta)
     }
 }
 

@@ -3,7 +3,9 @@
 
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Ode, Workspace};
-use branched_pendulum_codegen::scene::{Link, ParameterId, Quantity, QuantityAtom, Scene};
+use branched_pendulum_codegen::scene::{
+    Link, ParameterId, PassiveTorques, Quantity, QuantityAtom, Scene,
+};
 
 use crate::description::TreeDescription;
 use crate::drive::Courses;
@@ -11,7 +13,7 @@ use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 use crate::rows::{self, Form};
-use crate::tree::PendulumTree;
+use crate::tree::{PendulumTree, between};
 
 /// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
 /// (rad), followed by the angular velocities (rad/s).
@@ -132,13 +134,18 @@ impl TreeDescription {
             return Vec::new();
         };
         let scene = &*self.scene;
+        let passive = || {
+            let links = scene.links.iter().map(|link| &link.passive);
+            links.chain(scene.couplings.iter().map(|own| &own.torques))
+        };
         let is_in = |quantity: &Quantity| {
             let own = QuantityAtom::Parameter(ParameterId(place));
             quantity.atoms().contains(&&own)
         };
         let of_links = |of: &dyn Fn(&Link) -> bool| scene.links.iter().any(of);
-        let of_laws =
-            |of: fn(&Link) -> [&Quantity; 2]| of_links(&|link| of(link).map(is_in).contains(&true));
+        let of_laws = |of: fn(&PassiveTorques) -> [&Quantity; 2]| {
+            passive().any(|own| of(own).map(is_in).contains(&true))
+        };
         // Of a drive's signals only constants can be asked for.
         let of_drive = || {
             let found = std::cell::Cell::new(false);
@@ -159,22 +166,19 @@ impl TreeDescription {
                 }),
             ),
             (Inertia, of_links(&|link| is_in(&link.inertia))),
-            (
-                ViscousFriction,
-                of_laws(|link| [&link.passive.friction, &link.passive.drag]),
-            ),
+            (ViscousFriction, of_laws(|own| [&own.friction, &own.drag])),
             (
                 CoulombFriction,
-                of_laws(|link| link.passive.laws.each_ref().map(|law| &law.coulomb)),
+                of_laws(|own| own.laws.each_ref().map(|law| &law.coulomb)),
             ),
             (
                 QuadraticFriction,
-                of_laws(|link| link.passive.laws.each_ref().map(|law| &law.quadratic)),
+                of_laws(|own| own.laws.each_ref().map(|law| &law.quadratic)),
             ),
             (
                 Joint,
-                of_laws(|link| [&link.passive.spring, &link.passive.rest])
-                    || of_laws(|link| link.passive.laws.each_ref().map(|law| &law.width)),
+                of_laws(|own| [&own.spring, &own.rest])
+                    || of_laws(|own| own.laws.each_ref().map(|law| &law.width)),
             ),
             (Drive, of_drive()),
         ];
@@ -217,9 +221,10 @@ impl TreeDescription {
         let (parents, carries) = rows::parents(&links);
         let rows = form.rows(&links, &carries);
         let above = -numbers::value(&scene.gravity, values);
+        let between = between(scene, links.len(), values);
         EquationsOfMotion {
             links: links.len(),
-            equations: Equations::new(form, &parents, rows, above),
+            equations: Equations::new(form, &parents, rows, above, between),
             drive: Courses::of(scene, &|quantity| numbers::value(quantity, values)),
         }
     }

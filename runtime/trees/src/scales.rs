@@ -6,6 +6,7 @@ use branched_pendulum::ScaleBudget;
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Workspace};
 use branched_pendulum::tree::ScaleTree;
+use branched_pendulum_codegen::scene::{Coupling, CouplingEnds, Scene};
 
 use crate::equations::ByRuleEquations;
 use crate::numbers::LinkNumbers;
@@ -19,11 +20,25 @@ pub(crate) struct ByRule<T> {
     /// Links, generation by generation: first all that are the first child of their parent,
     /// then all second ones.
     order: Arc<[usize]>,
+    /// Generation of each link.
+    depths: Arc<[usize]>,
 }
 
 impl<T: Scalar> ByRule<T> {
-    /// Returns the tree by rule; none where links of one generation differ.
-    pub(crate) fn of(links: &[LinkNumbers], carries: &[bool], gravity: Double) -> Option<Self> {
+    /// Returns the tree by rule; none where links of one generation differ, and where springs act
+    /// between links that are no siblings.
+    pub(crate) fn of(
+        scene: &Scene,
+        links: &[LinkNumbers],
+        carries: &[bool],
+        gravity: Double,
+    ) -> Option<Self> {
+        let is_of_siblings = |own: &Coupling| {
+            matches!(own.ends, CouplingEnds::Siblings(_)) || own.torques.spring.is_zero()
+        };
+        if !scene.couplings.iter().all(is_of_siblings) {
+            return None;
+        }
         let mut children = vec![Vec::new(); links.len()];
         for (number, link) in links.iter().enumerate() {
             if let Some(own) = link.parent.and_then(|parent| children.get_mut(parent)) {
@@ -59,11 +74,19 @@ impl<T: Scalar> ByRule<T> {
             let place = child.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
             Generation { link, place }
         });
+        let mut depths = vec![0; links.len()];
+        for (number, link) in links.iter().enumerate() {
+            let above = link.parent.and_then(|parent| depths.get(parent).copied());
+            if let (Some(above), Some(own)) = (above, depths.get_mut(number)) {
+                *own = above + 1;
+            }
+        }
         let rows: Vec<Generation> = generations.collect();
         let rows = rows::by_rule(links, carries, gravity, &rows);
         Some(Self {
             tree: ScaleTree::new(copies, in_numbers(&rows)),
             order: order.into(),
+            depths: depths.into(),
         })
     }
 
@@ -71,6 +94,7 @@ impl<T: Scalar> ByRule<T> {
         ByRule {
             tree: self.tree.cast(convert),
             order: Arc::clone(&self.order),
+            depths: Arc::clone(&self.depths),
         }
     }
 
@@ -150,6 +174,35 @@ impl<T: Scalar> PendulumTree<T> {
         Some(budget)
     }
 
+    /// Writes the energies of a budget alone, in memory that the caller keeps; one of no scales
+    /// where the tree has none.
+    pub fn energies_by_scale_into(
+        &self,
+        workspace: &mut Workspace<T>,
+        theta: &[T],
+        omega: &[T],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let Some(rule) = &self.rule else {
+            *budget = ScaleBudget::new();
+            return;
+        };
+        let (numbers, workspace) = workspace.with_inner(2 * self.links());
+        let (own, rates) = numbers.split_at_mut(self.links());
+        let (own, rates) = (rule.ordered(theta, own), rule.ordered(omega, rates));
+        rule.tree.energies_by_scale(workspace, own, rates, budget);
+        self.add_spring_energies(rule, theta, budget);
+    }
+
+    /// Adds the energies of springs between siblings.
+    fn add_spring_energies(&self, rule: &ByRule<T>, theta: &[T], budget: &mut ScaleBudget<T>) {
+        for ([link, _], energy) in self.between().energies(theta) {
+            if let Some(&scale) = rule.depths.get(link) {
+                budget.add_energy(scale, energy);
+            }
+        }
+    }
+
     /// Writes the same budget, in memory that the caller keeps; one of no scales where the tree
     /// has none.
     pub fn budget_by_scale_into(
@@ -163,18 +216,30 @@ impl<T: Scalar> PendulumTree<T> {
             *budget = ScaleBudget::new();
             return;
         };
-        let links = self.links();
-        let (numbers, workspace) = workspace.with_inner(3 * links);
-        let (own, rest) = numbers.split_at_mut(links.min(numbers.len()));
-        let (rates, on_links) = rest.split_at_mut(links.min(rest.len()));
-        let own = rule.ordered(theta, own);
-        let rates = rule.ordered(omega, rates);
-        let on_links = rule.ordered(torques, on_links);
+        let (links, between) = (self.links(), self.between());
+        let (numbers, workspace) = workspace.with_inner(6 * links);
+        let mut numbers = numbers.chunks_exact_mut(links);
+        let mut column = || numbers.next().unwrap_or_default();
+        let own = rule.ordered(theta, column());
+        let rates = rule.ordered(omega, column());
+        let on_links = rule.ordered(torques, column());
+        let mut acting = [[].as_slice(); 2];
+        if !between.is_empty() {
+            let all = column();
+            all.fill(T::from_f64(0.0));
+            between.add_spring_slopes(theta, all);
+            let slopes = rule.ordered(all, column());
+            all.fill(T::from_f64(0.0));
+            between.add_friction(omega, all);
+            acting = [slopes, rule.ordered(all, column())];
+        }
         // Nothing has so many links as torques of another number.
         let fits = on_links.len() == torques.len();
         let own = if fits { own } else { &[] };
         let drive = self.drive.as_ref().map(|drive| drive.inner(time));
+        let given = [own, rates, on_links];
         rule.tree
-            .budget_by_scale(workspace, drive, [own, rates, on_links], budget);
+            .budget_by_scale_with(workspace, drive, given, acting, budget);
+        self.add_spring_energies(rule, theta, budget);
     }
 }

@@ -1,6 +1,7 @@
 //! Taylor coefficients of the motion.
 
 use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::spring_dampers::{SpringDamper, SpringDampers};
 use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum::taylor::{Quad, RoughFriction, SeriesForm, SeriesLink, SeriesTree};
 
@@ -14,6 +15,7 @@ use crate::tree::{PendulumTree, constant};
 /// Weights are at gravity, or where there is a drive at a gravity of one.
 pub(crate) fn series_of<T: Scalar>(
     links: &[LinkNumbers],
+    between: &SpringDampers<Double>,
     gravity: Double,
     is_driven: bool,
 ) -> SeriesTree<T> {
@@ -54,20 +56,31 @@ pub(crate) fn series_of<T: Scalar>(
     let laws = links.iter().enumerate().filter(|_| are_rough(links));
     let laws = laws.flat_map(|(link, own)| {
         let [joint, ground] = own.passive.laws;
-        let law = |against_ground, [coulomb, quadratic, width]: [Double; 3]| RoughFriction {
+        let law = |other, [coulomb, quadratic, width]: [Double; 3]| RoughFriction {
             link,
-            against_ground,
+            other,
             coulomb: constant(coulomb * unit),
             quadratic: constant(quadratic * unit),
             width: constant(width),
         };
         let in_joint = [joint.coulomb, joint.quadratic] != [zero; 2];
         let on_link = ground.quadratic != zero;
-        let in_joint = in_joint.then(|| law(false, [joint.coulomb, joint.quadratic, joint.width]));
-        let on_link = on_link.then(|| law(true, [zero, ground.quadratic, ground.width]));
+        let in_joint =
+            in_joint.then(|| law(own.parent, [joint.coulomb, joint.quadratic, joint.width]));
+        let on_link = on_link.then(|| law(None, [zero, ground.quadratic, ground.width]));
         in_joint.into_iter().chain(on_link)
     });
-    SeriesTree::new(&constants, laws.collect(), constant(unit), form)
+    let units = |own: &SpringDamper<Double>| SpringDamper {
+        links: own.links,
+        spring: own.spring * unit,
+        rest: own.rest,
+        friction: own.friction * unit,
+        law: own
+            .law
+            .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
+    };
+    let between = between.list().iter().map(|own| units(own).map(constant));
+    SeriesTree::new(&constants, laws.collect(), constant(unit), form).with(between.collect())
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {

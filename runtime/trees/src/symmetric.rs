@@ -12,7 +12,7 @@ use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit,
 use crate::description::TreeDescription;
 use crate::error::TreeError;
 use crate::numbers::{self, LinkNumbers, Place};
-use crate::tree::PendulumTree;
+use crate::tree::{PendulumTree, between};
 
 /// What copies make of a tree, whatever its constants.
 #[derive(Debug)]
@@ -140,6 +140,8 @@ pub(crate) fn unchecked<T: Scalar>(
     } = symmetry;
     let tree = SymmetricTree::with_unequal_copies(&links, gravity, sectors, unequal);
     let tree = tree.ok_or(TreeError::NoCopies)?;
+    let between = between(scene, links.len(), &parameters);
+    let tree = tree.with(between).ok_or(TreeError::CoupledSectors)?;
     Ok(tree.standing(scene.stands()))
 }
 

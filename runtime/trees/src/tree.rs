@@ -5,9 +5,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::scalar::{Double, Scalar};
+use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{Model, Pendulum, Workspace};
 use branched_pendulum::taylor::SeriesTree;
 use branched_pendulum::tree::{PropertyTable, Shape};
+use branched_pendulum_codegen::scene::Scene;
 
 use crate::bodies::FormBodies;
 use crate::description::TreeDescription;
@@ -151,13 +153,15 @@ impl<T: Scalar> PendulumTree<T> {
         let above = constant(-gravity);
         let form = Form::of(links, drive.is_some());
         let rows = in_numbers(&form.rows(links, &carries));
-        let rule = ByRule::of(links, &carries, gravity);
-        let series = series_of(links, gravity, drive.is_some());
+        let rule = ByRule::of(scene, links, &carries, gravity);
+        let between = between(scene, links.len(), &parameters);
+        let series = series_of(links, &between, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let equations = Equations::new(form, &parents, rows, above);
+        let pairs: Vec<[usize; 2]> = between.list().iter().map(|own| own.links).collect();
+        let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
         let held_sets: Vec<Vec<usize>> = scene
@@ -166,7 +170,7 @@ impl<T: Scalar> PendulumTree<T> {
             .map(|set| set.links.iter().map(|link| link.0).collect())
             .collect();
         let mut hasher = DefaultHasher::new();
-        (&parents, form, functions, stands, held_sets).hash(&mut hasher);
+        (&parents, form, functions, stands, held_sets, pairs).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),
@@ -270,6 +274,16 @@ impl<T: Scalar> PendulumTree<T> {
         let drive = self.drive.as_ref().map(|drive| drive.root(time));
         Acting { drive, torques }
     }
+}
+
+/// Springs and friction between the links of a scene.
+pub(crate) fn between<S: Scalar>(
+    scene: &Scene,
+    links: usize,
+    parameters: &[S],
+) -> SpringDampers<S> {
+    // A scene names links that it has.
+    SpringDampers::new(links, numbers::couplings(scene, parameters)).unwrap_or_default()
 }
 
 /// A constant in the numbers of a tree.

@@ -177,6 +177,44 @@ messages! {
         "no link",
         "write the links whose motion is handed over, as in `prescribed(arm)`",
     ),
+    /// A spring or friction between links in code for one tree.
+    CompiledCoupling { word: String } => (
+        format!("compiled models have no `{word}(...)`"),
+        "for trees at run time",
+        "read the description while the program runs, by `branched_pendulum_trees::PendulumTree` \
+         or the program `branched-pendulum`, or add the torques by `emit(forces)` and \
+         `UnderTorques`: `docs/limits.md`",
+    ),
+    /// A spring or friction between links beside copies in phase.
+    CouplingInPhase { what: String } => (
+        format!("`{what}` beside `in_phase(...)`"),
+        "a link in phase stands for several",
+        "leave `in_phase(...)` out: copies that start in phase stay so",
+    ),
+    /// Not two links between which something acts.
+    NotTwoLinks => (
+        "`between(...)` does not name two links",
+        "not two links",
+        "write two links, then what acts between them, as in `between(left, right, spring = 0.1)`",
+    ),
+    /// Not one node whose copies something acts between.
+    NotOneNode => (
+        "`siblings(...)` does not name one node",
+        "not one node",
+        "write the node, then what acts between its copies, as in `siblings(child, spring = 0.1)`",
+    ),
+    /// A node without copies.
+    NoSiblings { name: String } => (
+        format!("`{name}` has no copies"),
+        "no siblings",
+        "write copies as in `child(...) * 2`, or `between(a, b, ...)` for links of other names",
+    ),
+    /// A coupling without spring and friction.
+    IdleCoupling { what: String } => (
+        format!("`{what}` has neither spring nor friction"),
+        "nothing acts",
+        "write `spring = ...` in N m or `friction = ...` in N m s behind the links",
+    ),
     /// The root as a joint that does not move.
     LockedRoot => (
         "the root cannot be locked",

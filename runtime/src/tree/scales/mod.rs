@@ -57,7 +57,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         budget: &mut ScaleBudget<T>,
     ) {
         let wanted = ScaleOutput::Energies(budget);
-        by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
+        let acting = ActingOnScales::of(None);
+        by_scale(self.rule(), workspace, acting, [theta, omega, &[]], wanted);
     }
 
     /// Computes the energies of sectors, as
@@ -70,7 +71,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         energies: &mut [T],
     ) {
         let wanted = ScaleOutput::Sectors(energies);
-        by_scale(self.rule(), workspace, None, [theta, omega, &[]], wanted);
+        let acting = ActingOnScales::of(None);
+        by_scale(self.rule(), workspace, acting, [theta, omega, &[]], wanted);
     }
 
     /// Computes all of the budget, as
@@ -85,7 +87,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         budget: &mut ScaleBudget<T>,
     ) {
         let wanted = ScaleOutput::Budget(budget);
-        by_scale(self.rule(), workspace, drive, given, wanted);
+        let acting = ActingOnScales::of(drive);
+        by_scale(self.rule(), workspace, acting, given, wanted);
     }
 
     /// Computes all of the budget under torques from outside, the third slice.
@@ -101,7 +104,8 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             false => [[].as_slice(); 3],
         };
         let wanted = ScaleOutput::Budget(budget);
-        by_scale(self.rule(), workspace, drive, given, wanted);
+        let acting = ActingOnScales::of(drive);
+        by_scale(self.rule(), workspace, acting, given, wanted);
     }
 
     fn rule(&self) -> RuleTree<'_, E, T> {
@@ -147,6 +151,28 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
         ScaleTree::new(self.copies.clone(), constants.collect())
     }
 
+    /// Computes the energies alone, of angles and angular velocities; NaN of more than
+    /// [`MOST_GENERATIONS`].
+    pub fn energies_by_scale(
+        &self,
+        workspace: &mut Workspace<T>,
+        theta: &[T],
+        omega: &[T],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let (acting, given) = (ActingOnScales::of(None), [theta, omega, &[]]);
+        let wanted = ScaleOutput::Energies(budget);
+        by_scale(self.rule(), workspace, acting, given, wanted);
+    }
+
+    fn rule(&self) -> RuleTree<'_, E, T> {
+        RuleTree {
+            copies: &self.copies,
+            constants: &self.constants,
+            equations: PhantomData,
+        }
+    }
+
     /// Computes all of the budget: of angles and angular velocities and, unless the third
     /// slice is empty, torques from outside, link by link as those of
     /// [`Scales`](crate::Scales); with the acceleration of the root's pivot and the torque on
@@ -158,12 +184,43 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
         given: [&[T]; 3],
         budget: &mut ScaleBudget<T>,
     ) {
-        let rule = RuleTree::<E, T> {
-            copies: &self.copies,
-            constants: &self.constants,
-            equations: PhantomData,
-        };
-        by_scale(rule, workspace, drive, given, ScaleOutput::Budget(budget));
+        self.budget_by_scale_with(workspace, drive, given, [&[]; 2], budget);
+    }
+
+    /// Computes all of the budget with friction and springs between siblings: the slopes (N m)
+    /// of the springs' energies by the angles, and the torques (N m) of the friction, each link
+    /// by link, or empty. The springs' energies are left to the caller.
+    pub fn budget_by_scale_with(
+        &self,
+        workspace: &mut Workspace<T>,
+        drive: Option<[T; 3]>,
+        given: [&[T]; 3],
+        between: [&[T]; 2],
+        budget: &mut ScaleBudget<T>,
+    ) {
+        let acting = ActingOnScales { drive, between };
+        by_scale(
+            self.rule(),
+            workspace,
+            acting,
+            given,
+            ScaleOutput::Budget(budget),
+        );
+    }
+}
+
+/// What acts on a tree beside its joints and torques from outside.
+struct ActingOnScales<'a, T> {
+    drive: Option<[T; 3]>,
+    /// Slopes of the energies of springs between siblings, and torques of friction there.
+    between: [&'a [T]; 2],
+}
+
+impl<T> ActingOnScales<'_, T> {
+    /// The drive alone.
+    fn of(drive: Option<[T; 3]>) -> Self {
+        let between = [[].as_slice(); 2];
+        Self { drive, between }
     }
 }
 
@@ -177,12 +234,16 @@ struct RuleTree<'a, E, T> {
 fn by_scale<E: ScaleEquations, T: Scalar>(
     rule: RuleTree<'_, E, T>,
     workspace: &mut Workspace<T>,
-    drive: Option<[T; 3]>,
+    ActingOnScales { drive, between }: ActingOnScales<'_, T>,
     [theta, omega, torques]: [&[T]; 3],
     mut wanted: ScaleOutput<'_, T>,
 ) {
     let shape = ScaleShape::new(rule.copies.iter().copied());
-    let shape = shape.filter(|shape| [theta.len(), omega.len()] == [shape.links; 2]);
+    let fits = |links: usize| {
+        let between = between.iter().all(|own| [0, links].contains(&own.len()));
+        [theta.len(), omega.len()] == [links; 2] && between
+    };
+    let shape = shape.filter(|shape| fits(shape.links));
     let pieces = shape.and_then(|shape| Pieces::new(rule.copies, &shape));
     wanted.start(
         rule.copies.len(),
@@ -213,6 +274,7 @@ fn by_scale<E: ScaleEquations, T: Scalar>(
         shape,
         pieces: &pieces,
         drive,
+        between,
         theta,
         omega,
         torques,
@@ -250,6 +312,7 @@ struct ByScale<'a, E, T: 'static> {
     working: &'a mut [T],
     pieces: &'a Pieces,
     drive: Option<[T; 3]>,
+    between: [&'a [T]; 2],
     theta: &'a [T],
     omega: &'a [T],
     torques: &'a [T],

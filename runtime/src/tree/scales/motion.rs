@@ -74,7 +74,12 @@ impl<E: ScaleEquations, T: Scalar> ByScale<'_, E, T> {
             let [spring, friction, drag]: [V; 3] = self.columns.read(SPRING, slot);
             let [springs, frictions]: [V; 2] =
                 self.columns.of_children(SPRING, place, own.count, below);
-            let row = [spring - springs, frictions - friction, -drag];
+            let mut row = [spring - springs, frictions - friction, -drag];
+            for (number, between) in row.iter_mut().zip(self.between) {
+                if !between.is_empty() {
+                    *number = *number + load_front(between, own.whole + place);
+                }
+            }
             self.columns.write(SPRING, slot, row);
             place += V::LANES;
         }

@@ -51,6 +51,8 @@ fn batches_compute_what_one_state_computes() {
         "gravity = 9.81, a: rod(mass = 0.1, length = m) [b: rod(mass = 0.2, length = 0.3) * 2]",
         "gravity = 9.81, tree: generations(count = 7, branching = 2, shape = rod, mass = m,
             length = 0.3, friction = 1e-3)",
+        "gravity = 9.81, tree: generations(count = 4, branching = 2, shape = rod, mass = m,
+            length = 0.3), siblings(tree_4, spring = 0.1, friction(coulomb = 0.01))",
         "gravity = 9.81, rod: rod(mass = m, length = 0.5), drive(torque = 0.03 * t, x = 0.5 * t^2)",
     ];
     for text in texts {

@@ -1,5 +1,6 @@
 //! Trees that are described at run time: what can be told without the compiler.
 
+mod between;
 mod costs;
 mod forms;
 mod magnitudes;

@@ -18,6 +18,8 @@ pub(crate) const BENT: &str = "gravity = 9.80665,
         shoot(mass = 0.05, com = 0.1, inertia = 1e-4,
             friction(viscous = 1e-3, coulomb = 0.02, quadratic = 1e-3), drag(quadratic = 1e-4)),
     ],
+    between(twig_2, shoot, spring = 0.3, rest = 0.2, friction(coulomb = 0.02, viscous = 2e-3)),
+    siblings(twig, spring = 0.1, friction = 1e-3),
     drive(torque = 0.01 * cos(3 * t), x = 0.02 * sin(2 * t)^2)";
 
 pub(crate) fn bent() -> PendulumTree {

@@ -13,6 +13,8 @@ const RULE: &str = "gravity = 9.81,
             twig: rod(mass = 0.04, length = 0.2, drag(viscous = 1e-4, quadratic = 1e-4)) * 3
         ] * 2
     ],
+    siblings(bough, spring = 0.05), siblings(twig, spring = 0.3, friction(viscous = 1e-3, coulomb = 0.02)),
+    between(trunk, twig_2_3, friction = 2e-3),
     drive(torque = 0.1 * cos(3 * t), x = 0.02 * sin(2 * t)^2, y = 0.01 * sin(5 * t))";
 
 fn state(tree: &PendulumTree) -> [Vec<f64>; 3] {

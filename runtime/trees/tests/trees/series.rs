@@ -8,7 +8,7 @@ use branched_pendulum::taylor::Quad;
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 /// Trees with all that a link can have, of numbers of links around those of a register.
-const TREES: [&str; 9] = [
+const TREES: [&str; 11] = [
     "gravity = 9.81, rod: rod(mass = 0.2, length = 0.4)",
     "gravity = 9.81, rod: rod(mass = 0.2, length = 0.4, friction(coulomb = 0.02)),
      drive(torque = 0.3 * cos(5 * t) + 0.1 * t, x = 0.02 * sin(3 * t)^2)",
@@ -45,12 +45,19 @@ const TREES: [&str; 9] = [
     "gravity = 9.81,
      arm: generations(count = 4, branching = 2, shape = rod, mass = 0.12, length = 0.3,
          mass_ratio = 0.5, length_ratio = 0.7, friction = 1e-3)",
+    "gravity = 9.81,
+     a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.2, length = 0.35) * 2],
+     between(a, b_2, spring = 0.5, rest = 0.3)",
+    "gravity = 9.81,
+     arm: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+         mass_ratio = 0.5, length_ratio = 0.7, friction(coulomb = 0.01)),
+     siblings(arm_3, spring = 0.1, friction = 1e-3),
+     between(arm_1, arm_3_1_2, spring = 0.2, rest = -0.4,
+         friction(coulomb = 0.02, quadratic = 1e-3, width = 0.2))",
 ];
 
 fn trees() -> impl Iterator<Item = PendulumTree> {
-    TREES
-        .iter()
-        .filter_map(|text| PendulumTree::parse(text).ok())
+    TREES.iter().map(|text| PendulumTree::parse(text).unwrap())
 }
 
 /// Angles and angular velocities that no symmetry has.

@@ -12,7 +12,7 @@ use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 /// Nested copies with all that links can have, beside copies that differ.
-const TREES: [&str; 2] = [
+const TREES: [&str; 4] = [
     "gravity = 9.81,
      trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, friction = 1e-3, drag = 2e-4) [
          bough(mass = 0.1, com = (0.12, -0.01), inertia = 1e-3, at = (0.3, 0.05),
@@ -29,6 +29,19 @@ const TREES: [&str; 2] = [
          ] * 2
      ],
      drive(torque = 0.1 * cos(3 * t), y = 0.01 * sin(5 * t))",
+    "gravity = 9.81,
+     trunk: rod(mass = 0.3, length = 0.4) [
+         bough: rod(mass = 0.1, length = 0.3, spring = 0.2, rest = 0.1) [
+             twig: rod(mass = 0.04, length = 0.2) * 3
+         ] * 2
+     ],
+     siblings(bough, spring = 0.4), siblings(twig, spring = 0.1, friction(coulomb = 0.01)),
+     between(trunk, twig_2_3, friction = 2e-3)",
+    "gravity = 9.81,
+     trunk: rod(mass = 0.3, length = 0.4) [
+         bough: rod(mass = each(0.1, 0.12), length = 0.3) [twig: rod(mass = 0.04, length = 0.2) * 2] * 2
+     ],
+     siblings(bough, spring = 0.4, friction = 1e-3)",
 ];
 
 const DEFINITIONS: [EnergyDefinition; 4] = [
@@ -85,7 +98,7 @@ fn energies_change_as_the_budget_tells() {
         let dual = symmetric.cast(Dual::<f64, 1>::constant);
         let acting = [
             NonConservative::Friction,
-            NonConservative::Drive(tree.drive(time).unwrap()),
+            NonConservative::Drive(tree.drive(time).unwrap_or_default()),
             NonConservative::Torques(&torques),
         ];
         for definition in DEFINITIONS {

@@ -242,6 +242,21 @@ pub(super) const MISTAKES: &[Mistake] = &[
     )] struct Pendulum;",
     ),
     (
+        "couplings",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    between(b_1, b_2, spring = 1), between(a, a, friction = 1), between(a, c, spring = 1), between(a, b_1),
+    between(a, b_1, rest = 1), between(a, b_1, spring = 1, drag = 1), siblings(b, spring = 1, rest = 1),
+    siblings(a, spring = 1), siblings(a, b, spring = 1), siblings(b, friction(width = 1)),
+    )] struct Pendulum;",
+    ),
+    (
+        "couplings_in_phase",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    siblings(b, spring = 1), in_phase(b))] struct Pendulum;",
+    ),
+    (
         "prescribed_in_loops",
         "#[branched_pendulum(gravity = 1, code = loops,
     a: generations(count = 3, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),

@@ -70,6 +70,10 @@ pub struct Arguments {
     /// seconds between two checkpoints, 0 to 1e6
     #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.0..=1e6, "s"))]
     pub checkpoint: f64,
+    /// besides, the energies that the scales have in thermal equilibrium at the same energy of
+    /// all, from as many starts over the same time, in three ways
+    #[arg(long, verbatim_doc_comment)]
+    pub equilibrium: bool,
     /// in place of all this, the onset in the tree released almost in phase, sector by sector,
     /// for so many s from 0.1 to 1000
     #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge"], verbatim_doc_comment)]

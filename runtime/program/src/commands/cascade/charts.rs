@@ -5,6 +5,7 @@ use branched_pendulum::analysis::statistics::Average;
 use branched_pendulum_charts::{Axis, Chart, ChartError, Color, Dash, Film, Panel, Series};
 
 use super::arguments::Arguments;
+use super::equilibrium::Equilibrium;
 use super::findings::{Findings, Scale};
 use super::report::name;
 use super::tree::DrivenTree;
@@ -35,7 +36,11 @@ pub fn course(arguments: &Arguments, findings: &Findings) -> Chart {
 }
 
 /// Energy per degree of freedom, and flux, by scale; none where nothing has settled.
-pub fn scales(driven: &DrivenTree, findings: &Findings) -> Option<Chart> {
+pub fn scales(
+    driven: &DrivenTree,
+    findings: &Findings,
+    equilibrium: Option<&Equilibrium>,
+) -> Option<Chart> {
     let energies = (0..).zip(&findings.scales).filter_map(|(scale, state)| {
         let Scale::Awake(average) = state else {
             return None;
@@ -61,7 +66,16 @@ pub fn scales(driven: &DrivenTree, findings: &Findings) -> Option<Chart> {
         return None;
     }
     let energy = Panel::new(Axis::log("energy per degree of freedom (J)"));
-    let energy = averages(energy, "energy", &energies);
+    let mut energy = averages(energy, "energy", &energies);
+    if let Some(equilibrium) = equilibrium {
+        let [thermal, ..] = &equilibrium.scales;
+        let rows = thermal.iter().enumerate().map(|(scale, own)| {
+            let freedoms = driven.degrees_of_freedom(scale) as f64;
+            [scale as f64, own.value / freedoms, own.error / freedoms]
+        });
+        let rows: Vec<[f64; 3]> = rows.collect();
+        energy = averages(energy, "in equilibrium at the same energy", &rows);
+    }
     let flux = Panel::new(Axis::linear("power (mW)")).zero_line();
     let flux = averages(flux, "flux into the scale by W", &given);
     let mut flux = averages(flux, "dissipated there and below", &lost);

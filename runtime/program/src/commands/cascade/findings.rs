@@ -177,6 +177,17 @@ impl Findings {
         }
     }
 
+    /// Mean energy of all scales together behind the transient, J.
+    pub fn energy(&self) -> f64 {
+        let windows = self.course.first().map_or(0, Vec::len);
+        let first = self.transient.unwrap_or(windows / 2).min(windows);
+        let sums = self
+            .course
+            .iter()
+            .map(|energies| energies[first..].iter().sum::<f64>());
+        sums.sum::<f64>() / (windows - first).max(1) as f64
+    }
+
     /// Returns whether friction takes what the motor gives.
     pub fn balance(&self) -> Balance {
         match (&self.loss, &self.input) {

@@ -4,6 +4,7 @@
 //! - [`arguments`]: the command line, [`tree`]: the tree and its scales, [`motor`]: the torque,
 //! - [`motion`]: all starts, in lanes, window by window, with checkpoints,
 //! - [`density`]: how often a flux has which value,
+//! - [`equilibrium`]: the same energy without motor and friction,
 //! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts
 //!   and a film,
 //! - [`onset`]: a tree, sector by sector, from a release almost in phase.
@@ -11,6 +12,7 @@
 pub mod arguments;
 pub mod charts;
 pub mod density;
+pub mod equilibrium;
 pub mod findings;
 pub mod motion;
 pub mod motor;
@@ -23,6 +25,7 @@ pub use findings::{Balance, Findings};
 
 use crate::Failure;
 use crate::frame::{Checkpoint, Job, sweep};
+use equilibrium::Equilibrium;
 use motion::{Followed, film, follow};
 use tree::DrivenTree;
 
@@ -67,15 +70,23 @@ fn write(
     job: &Job,
 ) -> Result<(), Failure> {
     let findings = Findings::new(driven, starts);
+    let equilibrium = match arguments.equilibrium {
+        true => Some(Equilibrium::at(arguments, driven, findings.energy(), job)?),
+        false => None,
+    };
+    let equilibrium = equilibrium.as_ref();
     report::write_windows(job, arguments, driven.generations(), starts)?;
-    report::write_scales(job, driven, &findings)?;
-    let text = report::report(arguments, driven, starts, &findings);
+    report::write_scales(job, driven, &findings, equilibrium)?;
+    let mut text = report::report(arguments, driven, starts, &findings);
+    if let Some(equilibrium) = equilibrium {
+        text.push_str(&report::equilibrium(driven, &findings, equilibrium));
+    }
     job.print(&text)?;
     job.write("report.md", text.as_bytes())?;
     // A tree that hangs still has nothing to show.
     if findings.course.iter().flatten().any(|energy| *energy > 0.0) {
         job.chart("course", &charts::course(arguments, &findings))?;
-        if let Some(chart) = charts::scales(driven, &findings) {
+        if let Some(chart) = charts::scales(driven, &findings, equilibrium) {
             job.chart("scales", &chart)?;
         }
         job.chart("densities", &charts::densities(&findings))?;

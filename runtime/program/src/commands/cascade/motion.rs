@@ -44,7 +44,7 @@ struct Reached {
 }
 
 /// Starts that one thread moves at a time: some registers full.
-const TOGETHER: usize = 16;
+pub(super) const TOGETHER: usize = 16;
 
 /// Follows the starts `items`, each from its own random numbers, from the checkpoint of
 /// `job` if there is one.
@@ -292,7 +292,7 @@ pub fn film(
 }
 
 /// The failure of a start.
-fn diverged(start: usize, error: &IntegrationError<f64>) -> Failure {
+pub(super) fn diverged(start: usize, error: &IntegrationError<f64>) -> Failure {
     let time = error.last_state().map_or(0.0, |last| last.time);
     Failure::Diverged { start, time }
 }

@@ -4,6 +4,7 @@ use branched_pendulum::analysis::statistics::{Average, StatisticsError};
 use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
+use super::equilibrium::{Equilibrium, WAYS};
 use super::findings::{Balance, Findings, Scale};
 use super::motion::{Followed, QUANTITIES};
 use super::tree::DrivenTree;
@@ -120,6 +121,44 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
             )
         }
         None => text.push_str("\nToo few scales are awake for a power law.\n\n"),
+    }
+    text
+}
+
+/// The energies of the scales beside those in equilibrium.
+pub fn equilibrium(driven: &DrivenTree, findings: &Findings, own: &Equilibrium) -> String {
+    let discord = own.discord();
+    let mut text = format!(
+        "\nIn thermal equilibrium at the same energy, {:.4e} J, kT is {:.4e} J. The three ways differ by at \
+         most {discord:.1} of their bars: {}.\n\n\
+         | scale | {} (J) | {} (J) | {} (J) | ½ kT a degree of freedom (J) | driven over it |\n\
+         |---|---:|---:|---:|---:|---:|\n",
+        own.energy,
+        own.temperature,
+        match discord < 4.0 {
+            true => "they agree",
+            false => "they do NOT agree",
+        },
+        WAYS[0],
+        WAYS[1],
+        WAYS[2],
+    );
+    for (scale, state) in findings.scales.iter().enumerate() {
+        let ways = own.scales.each_ref().map(|way| match way.get(scale) {
+            Some(own) => format!("{:.4e} ± {:.1} %", own.value, 100.0 * own.error / own.value),
+            None => String::new(),
+        });
+        let over = match (state, own.scales[0].get(scale)) {
+            (Scale::Awake(energy), Some(own)) => format!("{:.3}", energy.mean / own.value),
+            _ => String::new(),
+        };
+        let freedoms = driven.degrees_of_freedom(scale) as f64;
+        text += &format!(
+            "| {} | {} | {:.4e} | {over} |\n",
+            name(scale),
+            ways.join(" | "),
+            0.5 * freedoms * own.temperature,
+        );
     }
     text
 }
@@ -256,7 +295,12 @@ pub fn write_windows(
 ///
 /// # Errors
 /// [`Failure`].
-pub fn write_scales(job: &Job, driven: &DrivenTree, findings: &Findings) -> Result<(), Failure> {
+pub fn write_scales(
+    job: &Job,
+    driven: &DrivenTree,
+    findings: &Findings,
+    equilibrium: Option<&Equilibrium>,
+) -> Result<(), Failure> {
     let columns = [
         ("scale", ""),
         ("length", "m"),
@@ -267,8 +311,13 @@ pub fn write_scales(job: &Job, driven: &DrivenTree, findings: &Findings) -> Resu
         ("error of flux by W", "W"),
         ("flux by dissipation", "W"),
         ("error of flux by dissipation", "W"),
+        ("mass", "kg"),
     ];
-    let columns = columns.map(|(name, unit)| Column::new(name, unit));
+    let mut columns = columns.map(|(name, unit)| Column::new(name, unit)).to_vec();
+    if equilibrium.is_some() {
+        columns.push(Column::new("energy in equilibrium", "J"));
+        columns.push(Column::new("error of energy in equilibrium", "J"));
+    }
     job.csv("scales.csv", &columns, |file| {
         for (scale, state) in findings.scales.iter().enumerate() {
             let bar = |average: &Average| [average.mean, average.error];
@@ -290,6 +339,12 @@ pub fn write_scales(job: &Job, driven: &DrivenTree, findings: &Findings) -> Resu
             let mut row = vec![scale as f64, length.unwrap_or(f64::NAN)];
             row.push(driven.degrees_of_freedom(scale) as f64);
             row.extend([energy, given, lost].concat());
+            row.push(driven.masses.get(scale).copied().unwrap_or(f64::NAN));
+            if let Some(equilibrium) = equilibrium {
+                let [thermal, ..] = &equilibrium.scales;
+                let own = thermal.get(scale);
+                row.extend(own.map_or([f64::NAN; 2], |own| [own.value, own.error]));
+            }
             file.row(&row)?;
         }
         Ok(())

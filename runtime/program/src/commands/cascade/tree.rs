@@ -8,7 +8,8 @@ use crate::Failure;
 use crate::subject::Subject;
 
 /// Returns the description of a tree by rule: each rod carries `branching` lighter and shorter
-/// ones. Its parameter `friction` is that of the youngest pivots.
+/// ones. The parameter `friction` is that of the youngest pivots, `sibling_friction` that between
+/// each two of the youngest rods on one.
 pub fn by_rule(generations: u32, branching: u32) -> String {
     let above = vec!["friction_ratio"; generations.saturating_sub(1) as usize].join(" * ");
     let friction = match above.as_str() {
@@ -19,12 +20,13 @@ pub fn by_rule(generations: u32, branching: u32) -> String {
     format!(
         "// Rods by rule, each with {branching} lighter and shorter ones; the friction is that of \
          the youngest.\n\
-         gravity = 9.80665,\n\
+         gravity = gravity,\n\
          arm: generations(count = {generations}, branching = {branching}, shape = rod, mass = 0.12, \
          length = 0.3,\n    \
          mass_ratio = mass_ratio, length_ratio = length_ratio,\n    \
          friction = {friction},\n    \
-         friction_ratio = friction_ratio)\n"
+         friction_ratio = friction_ratio),\n\
+         siblings(arm_{generations}, friction = sibling_friction)\n"
     )
 }
 
@@ -37,6 +39,8 @@ pub struct DrivenTree {
     pub copies: Vec<usize>,
     /// Length of a link of each generation, m.
     pub lengths: Vec<f64>,
+    /// Mass of all links of each generation together, kg.
+    pub masses: Vec<f64>,
 }
 
 impl DrivenTree {
@@ -73,9 +77,16 @@ impl DrivenTree {
             Some(tree.properties_of(link)?.length())
         };
         let lengths = (0..copies.len()).map_while(length).collect();
+        let mut masses = vec![0.0; copies.len()];
+        for (link, &depth) in depths.iter().enumerate() {
+            if let (Some(sum), Some(own)) = (masses.get_mut(depth), tree.properties_of(link)) {
+                *sum += own.mass;
+            }
+        }
         Ok(Self {
             copies: copies.to_vec(),
             lengths,
+            masses,
             subject,
         })
     }
