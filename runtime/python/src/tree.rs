@@ -46,6 +46,8 @@ const MOST_NAMES: usize = 8;
 /// coulomb = ..., ...)`          smooth below the rate `width` (rad/s)
 /// `drag = c`, `drag(...)`       the same against the ground
 /// `spring = k, rest = r`        a spring in the pivot, N m/rad, at rest at r (rad)
+/// `between(a, b, spring = k,    a spring and friction on the difference of two links' angles;
+/// friction = c)`                `siblings(child, ...)` between all copies of a node under one link
 /// `drive(y = a * cos(w * t))`   motion of the root's pivot, `x` and `y` (m), or a `torque`
 ///                               (N m) on the root, as functions of the time `t` (s)
 /// ============================  ======================================================

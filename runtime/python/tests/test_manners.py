@@ -127,7 +127,8 @@ def test_pickles_and_copies(tree):
         tree.growth(alike, ("child_1", "child_2"), [1.0]),
         bp.Tree(
             bp.examples.CASCADE,
-            mass_ratio=0.5, length_ratio=0.7, friction=0, friction_ratio=1,
+            gravity=9.81, mass_ratio=0.5, length_ratio=0.7,
+            friction=0, friction_ratio=1, sibling_friction=0,
         ).budget(np.ones(62)),
         tree.sector_budget(START),
         smooth,

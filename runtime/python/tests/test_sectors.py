@@ -35,8 +35,9 @@ def test_every_form_is_that_of_the_compiled_model(paper, model):
 TREES = {
     "paper": bp.Tree(bp.examples.PAPER, friction=0),
     "cascade": bp.Tree(
-        bp.examples.CASCADE.replace("count = 5", "count = 4"),
-        mass_ratio=0.5, length_ratio=0.7, friction=0, friction_ratio=1,
+        bp.examples.CASCADE.replace("count = 5", "count = 4").replace("arm_5", "arm_4"),
+        gravity=9.80665, mass_ratio=0.5, length_ratio=0.7,
+        friction=0, friction_ratio=1, sibling_friction=1e-4,
     ),
     "standing": bp.Tree(bp.examples.Y),
     "unlike": bp.Tree("""gravity = 9.81, arm: rod(mass = 0.2, length = 0.4) [

@@ -71,9 +71,9 @@ pub use scales::{MOST_GENERATIONS, ScaleEquations, ScaleTree};
 pub use shape::Shape;
 pub use small::{LinkStates, SmallTree};
 
-use crate::scalar::kind::{compiled, compiled_once};
+use crate::scalar::kind::{ByKind, compiled, compiled_once};
 use crate::scalar::{Scalar, at};
-use crate::simd::{Simd, wide_slice};
+use crate::simd::{Kernel, Simd, wide_slice};
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
 use copies::links;
@@ -262,6 +262,22 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         );
     }
 
+    /// Writes the same, in a function of its own that all callers share: it is long. The function is
+    /// compiled for the instructions of the numbers.
+    pub fn evaluate_under_apart(
+        &self,
+        drive: Option<RootDrive<T>>,
+        given: [&[T]; 3],
+        alpha: &mut [T],
+    ) {
+        T::by_kind(UnderTorquesApart {
+            tree: self,
+            drive,
+            given,
+            alpha,
+        });
+    }
+
     /// Returns how many values a register of states takes in a batch.
     #[doc(hidden)]
     #[must_use]
@@ -285,6 +301,40 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
                 None => LentOrOwn::Own(alloc::vec![V::from_f64(0.0); self.room()]),
             },
         }
+    }
+}
+
+/// [`Tree::evaluate_under`] as a question to numbers.
+struct UnderTorquesApart<'a, E, T: 'static> {
+    tree: &'a Tree<E, T>,
+    drive: Option<RootDrive<T>>,
+    given: [&'a [T]; 3],
+    alpha: &'a mut [T],
+}
+
+impl<E: LinkEquations, T: Scalar> ByKind<T> for UnderTorquesApart<'_, E, T> {
+    type Output = ();
+
+    #[inline(never)]
+    fn of_any(self) {
+        self.tree.evaluate_under(self.drive, self.given, self.alpha);
+    }
+
+    #[inline(always)]
+    fn of_wide<W: Scalar>(self)
+    where
+        T: Simd<W>,
+    {
+        T::in_own_function(self);
+    }
+}
+
+impl<E: LinkEquations, W, T: Scalar> Kernel<W> for UnderTorquesApart<'_, E, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<W>>(self) {
+        self.tree.evaluate_under(self.drive, self.given, self.alpha);
     }
 }
 

@@ -101,6 +101,16 @@ impl<T: Scalar> FormEquations<T> {
         }
     }
 
+    /// Writes the same, in a function that all callers share.
+    #[inline(always)]
+    fn evaluate_under_apart(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
+        match self {
+            Self::Straight(ways) => ways.evaluate_under_apart(acting, given, alpha),
+            Self::General(ways) => ways.evaluate_under_apart(acting, given, alpha),
+            Self::Rough(ways) => ways.evaluate_under_apart(acting, given, alpha),
+        }
+    }
+
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
     fn room(&self) -> usize {
         match self {
@@ -207,14 +217,6 @@ impl<T: Scalar> Equations<T> {
         }
     }
 
-    /// Returns the accelerations with what acts between links. Once for all callers: it is long.
-    #[inline(never)]
-    fn apart(&self, acting: Acting<'_, T>, given: [&[T]; 2]) -> Vec<T> {
-        let mut alpha = vec![T::from_f64(f64::NAN); given[0].len()];
-        self.evaluate_under(acting, given, &mut alpha);
-        alpha
-    }
-
     /// Writes accelerations under torques, likewise.
     #[inline(always)]
     pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
@@ -264,8 +266,12 @@ impl<T: Scalar> Equations<T> {
         let links = self.between.links();
         let theta: Vec<T> = (0..links).map(theta).collect();
         let omega: Vec<T> = (0..links).map(omega).collect();
-        let torques = None;
-        let results = self.apart(Acting { drive, torques }, [&theta, &omega]);
+        let mut torques = vec![T::from_f64(0.0); links];
+        self.between.add_torques([&theta, &omega], &mut torques);
+        let mut results = vec![T::from_f64(f64::NAN); links];
+        let torques = Some(&*torques);
+        let (acting, given) = (Acting { drive, torques }, [&*theta, &omega]);
+        self.form.evaluate_under_apart(acting, given, &mut results);
         for (link, acceleration) in results.into_iter().enumerate() {
             alpha(link, acceleration);
         }

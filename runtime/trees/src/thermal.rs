@@ -29,6 +29,7 @@ impl PendulumTree<f64> {
         for passive in links.chain(couplings) {
             *passive = passive.frictionless();
         }
+        scene.couplings.retain(|own| !own.torques.spring.is_zero());
         let scene = Arc::new(scene);
         Self::of(TreeDescription { scene }, self.described.values().to_vec())
     }

@@ -111,6 +111,20 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         self.strips.evaluate_under(acting.drive, given, alpha);
     }
 
+    /// Writes the same, in a function that all callers share.
+    #[inline(always)]
+    pub(crate) fn evaluate_under_apart(
+        &self,
+        acting: Acting<'_, T>,
+        [theta, omega]: [&[T]; 2],
+        alpha: &mut [T],
+    ) {
+        let mut sum = [T::from_f64(0.0)];
+        let torques = acting.on_links(theta.len(), &mut sum);
+        let given = [theta, omega, torques.unwrap_or_default()];
+        self.strips.evaluate_under_apart(acting.drive, given, alpha);
+    }
+
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
     pub(crate) fn room(&self) -> usize {
         self.strips.room()

@@ -20,8 +20,9 @@ CHAIN: str = _texts["CHAIN"]
 TRIPLE: str = _texts["TRIPLE"]
 #: A branch that stands on springs.
 Y: str = _texts["Y"]
-#: Five generations of rods; parameters `mass_ratio`, `length_ratio`, `friction` (of the youngest
-#: pivots, N m s) and `friction_ratio` (of one generation over the one above).
+#: Five generations of rods; parameters `gravity` (m/s²), `mass_ratio`, `length_ratio`, `friction`
+#: (of the youngest pivots, N m s), `friction_ratio` (of one generation over the one above) and
+#: `sibling_friction` (between the youngest rods on one, N m s).
 CASCADE: str = _texts["CASCADE"]
 #: A branch of 31 rods that stands, held up by springs.
 BRANCH: str = _texts["BRANCH"]

@@ -1,5 +1,7 @@
 //! The command line.
 
+use std::path::PathBuf;
+
 use branched_pendulum::prelude::State;
 use clap::Parser;
 
@@ -78,6 +80,9 @@ pub struct Arguments {
     /// for so many s from 0.1 to 1000
     #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge"], verbatim_doc_comment)]
     pub onset: Option<f64>,
+    /// in place of all this, the spectra of finished runs beside each other, from their folders
+    #[arg(long, value_name = "FOLDER[,..]", value_delimiter = ',', conflicts_with_all = ["shard", "merge", "onset"])]
+    pub compare: Vec<PathBuf>,
     /// Which part of the starts.
     #[command(flatten)]
     pub sharding: Sharding,

@@ -10,7 +10,7 @@
 use std::num::NonZeroUsize;
 
 use branched_pendulum::ScaleBudget;
-use branched_pendulum::analysis::statistics::{Estimate, jackknife};
+use branched_pendulum::analysis::statistics::Estimate;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
 use branched_pendulum_trees::PendulumTree;
@@ -76,7 +76,6 @@ struct Bath {
 struct Stretch {
     bath: Option<Bath>,
     counts: bool,
-    by_formula: bool,
 }
 
 /// A tree that keeps its energy.
@@ -98,7 +97,7 @@ impl Equilibrium {
         energy: f64,
         job: &Job,
     ) -> Result<Self, Failure> {
-        let progress = job.progress(2);
+        let progress = job.progress(1);
         progress.begin("equilibrium");
         let own = Isolated {
             tree: driven
@@ -112,47 +111,10 @@ impl Equilibrium {
             arguments,
             scales: driven.generations(),
         };
-        let mut chains = own.chains();
-        let mut temperature = energy / driven.links() as f64;
-        for _ in 0..SETTLING {
-            let settling = Stretch {
-                bath: Some(Bath::at(temperature)),
-                counts: false,
-                by_formula: false,
-            };
-            chains = own.move_all(&chains, settling, 1)?;
-            let mean = own.energy(&chains);
-            temperature *= (energy / mean).clamp(0.5, 2.0).sqrt();
-        }
-        let bath = Stretch {
-            bath: Some(Bath::at(temperature)),
-            counts: true,
-            by_formula: true,
-        };
-        let thermal = own.move_all(&chains, bath, arguments.windows())?;
+        let (chains, temperature) = own.settled(energy)?;
+        let found = own.ways(&chains, Bath::at(temperature), energy)?;
         progress.advance(1.0);
-        let free = Stretch {
-            bath: None,
-            counts: false,
-            by_formula: false,
-        };
-        let isolated = own.of_energy(&thermal, energy);
-        let isolated = own.move_all(&isolated, free, SETTLING)?;
-        let counted = Stretch {
-            counts: true,
-            ..free
-        };
-        let isolated = own.move_all(&isolated, counted, arguments.windows())?;
-        progress.advance(1.0);
-        Ok(Self {
-            temperature,
-            energy,
-            scales: [
-                shares(&thermal, |chain| &chain.energies, energy),
-                shares(&thermal, |chain| &chain.formula, energy),
-                shares(&isolated, |chain| &chain.energies, energy),
-            ],
-        })
+        Ok(found)
     }
 
     /// The largest difference between two ways, in error bars.
@@ -180,6 +142,69 @@ impl Bath {
 }
 
 impl Isolated<'_> {
+    /// Chains that have forgotten where they began, and the temperature kT (J) at which they have
+    /// about this energy (J).
+    fn settled(&self, energy: f64) -> Result<(Vec<Chain>, f64), Failure> {
+        let mut chains = self.chains();
+        let mut temperature = energy / self.tree.links() as f64;
+        for _ in 0..SETTLING {
+            let settling = Stretch {
+                bath: Some(Bath::at(temperature)),
+                counts: false,
+            };
+            chains = self.move_all(&chains, settling, 1)?;
+            let mean = self.energy(&chains);
+            temperature *= (energy / mean).clamp(0.5, 2.0).sqrt();
+        }
+        Ok((chains, temperature))
+    }
+
+    /// The energies of the scales by all ways, taken to this energy (J) of all.
+    fn ways(&self, chains: &[Chain], bath: Bath, energy: f64) -> Result<Equilibrium, Failure> {
+        let windows = self.arguments.windows();
+        let counted = Stretch {
+            bath: Some(bath),
+            counts: true,
+        };
+        let thermal = self.move_all(chains, counted, windows)?;
+        let samples = (windows * SAMPLES as usize) as f64;
+        let langevin = means(&thermal, |chain| &chain.energies, samples);
+        let own: f64 = langevin.iter().map(|scale| scale.value).sum();
+        let formula = windows.div_ceil(self.stretches_between_formulas()) as f64;
+        let formula = means(&thermal, |chain| &chain.formula, formula);
+        let free = Stretch {
+            bath: None,
+            counts: false,
+        };
+        let isolated = self.move_all(&self.of_energy(&thermal, own), free, SETTLING)?;
+        let counted = Stretch {
+            counts: true,
+            ..free
+        };
+        let isolated = self.move_all(&isolated, counted, windows)?;
+        let isolated = means(&isolated, |chain| &chain.energies, samples);
+        // The temperature is found within some per cent.
+        let factor = energy / own;
+        let ways = [langevin, formula, isolated].map(|scales| {
+            let scales = scales.into_iter();
+            let taken = scales.map(|scale| Estimate {
+                value: factor * scale.value,
+                error: factor * scale.error,
+            });
+            taken.collect()
+        });
+        Ok(Equilibrium {
+            temperature: factor * bath.temperature,
+            energy,
+            scales: ways,
+        })
+    }
+
+    /// The formula takes the square of the number of links.
+    fn stretches_between_formulas(&self) -> usize {
+        self.tree.links().div_ceil(31)
+    }
+
     /// Chains at rest, whose angles are normal numbers.
     fn chains(&self) -> Vec<Chain> {
         let chain = |index: usize| {
@@ -213,8 +238,7 @@ impl Isolated<'_> {
         let moved = ensemble.map(&groups, |group, chains| {
             let mut chains = chains.to_vec();
             for number in 0..count {
-                self.move_on(&mut chains, stretch, number)
-                    .map_err(|(chain, error)| diverged(group * TOGETHER + chain, &error))?;
+                self.move_on((group * TOGETHER, &mut chains), stretch, number)?;
             }
             Ok::<_, Failure>(chains)
         });
@@ -222,13 +246,13 @@ impl Isolated<'_> {
         Ok(groups?.concat())
     }
 
-    /// Moves some chains through the stretch of that number.
+    /// Moves some chains, from the one of a number on, through the stretch of another number.
     fn move_on(
         &self,
-        chains: &mut [Chain],
+        (first, chains): (usize, &mut [Chain]),
         stretch: Stretch,
         number: usize,
-    ) -> Result<(), (usize, IntegrationError<f64>)> {
+    ) -> Result<(), Failure> {
         if let Some(bath) = stretch.bath {
             for chain in &mut *chains {
                 self.draw(chain, bath);
@@ -250,16 +274,17 @@ impl Isolated<'_> {
         let alone = Ensemble::new().threads(NonZeroUsize::MIN);
         let moved = alone.sample_models_in_lanes(&method, &releases, &times);
         let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
-        // The formula takes the square of the number of links.
-        let is_time = number.is_multiple_of(self.tree.links().div_ceil(31));
+        let is_time = number.is_multiple_of(self.stretches_between_formulas());
         for (index, (chain, samples)) in chains.iter_mut().zip(moved).enumerate() {
             let states = samples.states().filter(|_| stretch.counts);
             for state in states {
                 self.add_energies(&mut workspace, state, &mut budget, &mut chain.energies);
             }
-            let end = samples.end.map_err(|error| (index, error))?;
+            let end = samples
+                .end
+                .map_err(|error| diverged(first + index, &error))?;
             chain.state = end.state.values;
-            if let (true, true, Some(bath)) = (stretch.by_formula, is_time, stretch.bath) {
+            if let (true, true, Some(bath)) = (stretch.counts, is_time, stretch.bath) {
                 self.add_formula(&mut workspace, bath.temperature, chain);
             }
         }
@@ -337,24 +362,56 @@ impl Isolated<'_> {
     }
 }
 
-/// Energies of all scales as parts of one, with error bars by leaving out chains.
-fn shares(chains: &[Chain], sums: impl Fn(&Chain) -> &[f64], energy: f64) -> Vec<Estimate> {
+/// Mean energies of all scales, with error bars from chain to chain.
+fn means(chains: &[Chain], sums: impl Fn(&Chain) -> &[f64], samples: f64) -> Vec<Estimate> {
     let scales = chains.first().map_or(0, |chain| sums(chain).len());
-    let share = |scale: usize| {
-        let estimate = jackknife(chains.len(), |left_out| {
-            let kept = chains.iter().enumerate();
-            let kept = kept.filter(|(index, _)| Some(*index) != left_out);
-            let (mut own, mut all) = (0.0, 0.0);
-            for (_, chain) in kept {
-                own += sums(chain)[scale];
-                all += sums(chain).iter().sum::<f64>();
-            }
-            energy * own / all
-        });
-        estimate.unwrap_or(Estimate {
-            value: f64::NAN,
-            error: f64::NAN,
-        })
+    let mean = |scale: usize| {
+        let own = chains.iter().filter_map(|chain| sums(chain).get(scale));
+        let own: Vec<f64> = own.map(|sum| sum / samples).collect();
+        Estimate::of_independent(&own)
     };
-    (0..scales).map(share).collect()
+    (0..scales).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bath, Equilibrium, Isolated};
+    use crate::commands::cascade::Arguments;
+    use crate::frame::command_line::parse_line;
+
+    fn equilibrium(noise: f64) -> Equilibrium {
+        let line = "--generations 3 --starts 16 --duration 30 --threads 2";
+        let arguments: Arguments = parse_line(line).unwrap();
+        let own = Isolated {
+            tree: arguments.read().unwrap().tree.conservative().unwrap(),
+            arguments: &arguments,
+            scales: 3,
+        };
+        let (chains, temperature) = own.settled(0.3).unwrap();
+        let bath = Bath {
+            noise,
+            ..Bath::at(temperature)
+        };
+        own.ways(&chains, bath, 0.3).unwrap()
+    }
+
+    #[test]
+    fn three_ways_to_equilibrium_agree() {
+        let own = equilibrium(1.0);
+        assert!(own.discord() < 4.0, "{own:?}");
+        let [langevin, ..] = &own.scales;
+        assert!(
+            langevin
+                .iter()
+                .all(|scale| scale.error < 0.06 * scale.value)
+        );
+        let sum: f64 = langevin.iter().map(|scale| scale.value).sum();
+        assert!((sum - 0.3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn noise_that_does_not_belong_to_the_friction_is_noticed() {
+        let own = equilibrium(1.3);
+        assert!(own.discord() > 6.0, "{}", own.discord());
+    }
 }

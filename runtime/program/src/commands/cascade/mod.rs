@@ -7,10 +7,12 @@
 //! - [`equilibrium`]: the same energy without motor and friction,
 //! - [`findings`]: averages with errors, [`report`]: tables, [`charts`]: charts
 //!   and a film,
+//! - [`compare`]: several runs beside each other,
 //! - [`onset`]: a tree, sector by sector, from a release almost in phase.
 
 pub mod arguments;
 pub mod charts;
+pub mod compare;
 pub mod density;
 pub mod equilibrium;
 pub mod findings;
@@ -39,6 +41,9 @@ const INTERVAL: f64 = 0.05;
 /// # Errors
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    if !arguments.compare.is_empty() {
+        return compare::run(&arguments.compare, job);
+    }
     let subject = arguments.read()?;
     subject.record(job);
     if let Some(duration) = arguments.onset {
