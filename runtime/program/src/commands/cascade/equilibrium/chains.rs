@@ -1,16 +1,8 @@
-//! The thermal equilibrium of a tree, without which "equipartition" has no measure: how a given
-//! energy is shared by the scales where nothing drives and nothing brakes. In three ways.
-//!
-//! - *Langevin*: between stretches of free motion the momenta are partly drawn anew, which is
-//!   friction −γ M ω with the noise that belongs to it at the temperature kT.
-//! - *By the formula*: at the configurations that this motion visits, ½ kT tr K_s M⁻¹ and the
-//!   potential energy (T. Konishi and T. Yanagita, arXiv:0811.4637 and 2111.11677).
-//! - *At the same energy*: the free motion alone, from states of that energy.
+//! Motions of a tree without motor and friction, with momenta that are drawn anew or not.
 
 use std::num::NonZeroUsize;
 
 use branched_pendulum::ScaleBudget;
-use branched_pendulum::analysis::statistics::Estimate;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::Workspace;
 use branched_pendulum_trees::PendulumTree;
@@ -18,11 +10,9 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::arguments::Arguments;
-use super::motion::{TOGETHER, diverged};
-use super::tree::DrivenTree;
 use crate::Failure;
-use crate::frame::Job;
+use crate::commands::cascade::arguments::Arguments;
+use crate::commands::cascade::motion::{TOGETHER, diverged};
 
 /// Part of the momenta that outlives a stretch of free motion.
 const KEPT: f64 = 0.5;
@@ -31,111 +21,48 @@ const KEPT: f64 = 0.5;
 const NOISE: f64 = 0.866_025_403_784_438_6;
 
 /// Samples in a stretch.
-const SAMPLES: u32 = 8;
+pub(super) const SAMPLES: u32 = 8;
 
 /// Stretches in which the temperature is found, and those until nothing of the start is left.
-const SETTLING: usize = 30;
+pub(super) const SETTLING: usize = 30;
 
 /// Tolerance of the free motion.
 const TOLERANCE: f64 = 1e-9;
 
-/// Ways to the shares, in words.
-pub const WAYS: [&str; 3] = ["Langevin", "by the formula", "at the same energy"];
-
-/// The energy of each scale in equilibrium.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Equilibrium {
-    /// kT, J.
-    pub temperature: f64,
-    /// Energy of all scales together, J.
-    pub energy: f64,
-    /// Energies of the scales (J) by each of the [`WAYS`].
-    pub scales: [Vec<Estimate>; 3],
-}
-
 /// A motion with its random numbers, and sums over it: of the energies of the scales as they
 /// are, and by the formula.
 #[derive(Clone, Debug)]
-struct Chain {
+pub(super) struct Chain {
     state: Vec<f64>,
     random: Xoshiro256PlusPlus,
-    energies: Vec<f64>,
-    formula: Vec<f64>,
+    pub(super) energies: Vec<f64>,
+    pub(super) formula: Vec<f64>,
 }
 
 /// Momenta that are drawn anew: the temperature kT (J), and the noise in parts of what belongs
 /// to the friction.
 #[derive(Clone, Copy, Debug)]
-struct Bath {
-    temperature: f64,
-    noise: f64,
+pub(super) struct Bath {
+    pub(super) temperature: f64,
+    pub(super) noise: f64,
 }
 
 /// What happens in a stretch.
 #[derive(Clone, Copy, Debug)]
-struct Stretch {
-    bath: Option<Bath>,
-    counts: bool,
+pub(super) struct Stretch {
+    pub(super) bath: Option<Bath>,
+    pub(super) counts: bool,
 }
 
 /// A tree that keeps its energy.
-struct Isolated<'a> {
-    tree: PendulumTree,
-    arguments: &'a Arguments,
-    scales: usize,
-}
-
-impl Equilibrium {
-    /// Returns the equilibrium of the tree at this energy (J), from as many starts and over the
-    /// same time as the driven motion.
-    ///
-    /// # Errors
-    /// [`Failure`].
-    pub fn at(
-        arguments: &Arguments,
-        driven: &DrivenTree,
-        energy: f64,
-        job: &Job,
-    ) -> Result<Self, Failure> {
-        let progress = job.progress(1);
-        progress.begin("equilibrium");
-        let own = Isolated {
-            tree: driven
-                .subject
-                .tree
-                .conservative()
-                .map_err(|source| Failure::Tree {
-                    name: driven.subject.name.clone(),
-                    source,
-                })?,
-            arguments,
-            scales: driven.generations(),
-        };
-        let (chains, temperature) = own.settled(energy)?;
-        let found = own.ways(&chains, Bath::at(temperature), energy)?;
-        progress.advance(1.0);
-        Ok(found)
-    }
-
-    /// The largest difference between two ways, in error bars.
-    pub fn discord(&self) -> f64 {
-        discord(&self.scales)
-    }
-}
-
-/// The largest difference between two ways, in error bars.
-fn discord(ways: &[Vec<Estimate>; 3]) -> f64 {
-    let [first, second, third] = ways;
-    let pairs = [(first, second), (first, third), (second, third)];
-    let apart = pairs.into_iter().flat_map(|(one, other)| {
-        let scales = one.iter().zip(other);
-        scales.map(|(a, b)| (a.value - b.value).abs() / a.error.hypot(b.error))
-    });
-    apart.fold(0.0, f64::max)
+pub(super) struct Isolated<'a> {
+    pub(super) tree: PendulumTree,
+    pub(super) arguments: &'a Arguments,
+    pub(super) scales: usize,
 }
 
 impl Bath {
-    fn at(temperature: f64) -> Self {
+    pub(super) fn at(temperature: f64) -> Self {
         let noise = 1.0;
         Self { temperature, noise }
     }
@@ -144,7 +71,7 @@ impl Bath {
 impl Isolated<'_> {
     /// Chains that have forgotten where they began, and the temperature kT (J) at which they have
     /// about this energy (J).
-    fn settled(&self, energy: f64) -> Result<(Vec<Chain>, f64), Failure> {
+    pub(super) fn settled(&self, energy: f64) -> Result<(Vec<Chain>, f64), Failure> {
         let mut chains = self.chains();
         let mut temperature = energy / self.tree.links() as f64;
         for _ in 0..SETTLING {
@@ -159,49 +86,8 @@ impl Isolated<'_> {
         Ok((chains, temperature))
     }
 
-    /// The energies of the scales by all ways, taken to this energy (J) of all.
-    fn ways(&self, chains: &[Chain], bath: Bath, energy: f64) -> Result<Equilibrium, Failure> {
-        let windows = self.arguments.windows();
-        let counted = Stretch {
-            bath: Some(bath),
-            counts: true,
-        };
-        let thermal = self.move_all(chains, counted, windows)?;
-        let samples = (windows * SAMPLES as usize) as f64;
-        let langevin = means(&thermal, |chain| &chain.energies, samples);
-        let own: f64 = langevin.iter().map(|scale| scale.value).sum();
-        let formula = windows.div_ceil(self.stretches_between_formulas()) as f64;
-        let formula = means(&thermal, |chain| &chain.formula, formula);
-        let free = Stretch {
-            bath: None,
-            counts: false,
-        };
-        let isolated = self.move_all(&self.of_energy(&thermal, own), free, SETTLING)?;
-        let counted = Stretch {
-            counts: true,
-            ..free
-        };
-        let isolated = self.move_all(&isolated, counted, windows)?;
-        let isolated = means(&isolated, |chain| &chain.energies, samples);
-        // The temperature is found within some per cent.
-        let factor = energy / own;
-        let ways = [langevin, formula, isolated].map(|scales| {
-            let scales = scales.into_iter();
-            let taken = scales.map(|scale| Estimate {
-                value: factor * scale.value,
-                error: factor * scale.error,
-            });
-            taken.collect()
-        });
-        Ok(Equilibrium {
-            temperature: factor * bath.temperature,
-            energy,
-            scales: ways,
-        })
-    }
-
     /// The formula takes the square of the number of links.
-    fn stretches_between_formulas(&self) -> usize {
+    pub(super) fn stretches_between_formulas(&self) -> usize {
         self.tree.links().div_ceil(31)
     }
 
@@ -225,7 +111,7 @@ impl Isolated<'_> {
     }
 
     /// Moves all chains through so many stretches, in lanes and on all threads.
-    fn move_all(
+    pub(super) fn move_all(
         &self,
         chains: &[Chain],
         stretch: Stretch,
@@ -343,7 +229,7 @@ impl Isolated<'_> {
 
     /// The same configurations, with as much kinetic energy as this energy leaves; without those
     /// that have more potential energy.
-    fn of_energy(&self, chains: &[Chain], energy: f64) -> Vec<Chain> {
+    pub(super) fn of_energy(&self, chains: &[Chain], energy: f64) -> Vec<Chain> {
         let own = chains.iter().filter_map(|chain| {
             let mut own = chain.clone();
             own.energies.fill(0.0);
@@ -359,59 +245,5 @@ impl Isolated<'_> {
             Some(own)
         });
         own.collect()
-    }
-}
-
-/// Mean energies of all scales, with error bars from chain to chain.
-fn means(chains: &[Chain], sums: impl Fn(&Chain) -> &[f64], samples: f64) -> Vec<Estimate> {
-    let scales = chains.first().map_or(0, |chain| sums(chain).len());
-    let mean = |scale: usize| {
-        let own = chains.iter().filter_map(|chain| sums(chain).get(scale));
-        let own: Vec<f64> = own.map(|sum| sum / samples).collect();
-        Estimate::of_independent(&own)
-    };
-    (0..scales).map(mean).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Bath, Equilibrium, Isolated};
-    use crate::commands::cascade::Arguments;
-    use crate::frame::command_line::parse_line;
-
-    fn equilibrium(noise: f64) -> Equilibrium {
-        let line = "--generations 3 --starts 16 --duration 30 --threads 2";
-        let arguments: Arguments = parse_line(line).unwrap();
-        let own = Isolated {
-            tree: arguments.read().unwrap().tree.conservative().unwrap(),
-            arguments: &arguments,
-            scales: 3,
-        };
-        let (chains, temperature) = own.settled(0.3).unwrap();
-        let bath = Bath {
-            noise,
-            ..Bath::at(temperature)
-        };
-        own.ways(&chains, bath, 0.3).unwrap()
-    }
-
-    #[test]
-    fn three_ways_to_equilibrium_agree() {
-        let own = equilibrium(1.0);
-        assert!(own.discord() < 4.0, "{own:?}");
-        let [langevin, ..] = &own.scales;
-        assert!(
-            langevin
-                .iter()
-                .all(|scale| scale.error < 0.06 * scale.value)
-        );
-        let sum: f64 = langevin.iter().map(|scale| scale.value).sum();
-        assert!((sum - 0.3).abs() < 1e-12);
-    }
-
-    #[test]
-    fn noise_that_does_not_belong_to_the_friction_is_noticed() {
-        let own = equilibrium(1.3);
-        assert!(own.discord() > 6.0, "{}", own.discord());
     }
 }
