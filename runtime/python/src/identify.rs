@@ -1,6 +1,9 @@
 //! Parameters of a tree from its measured motion: `Tree.identify`.
 
-use branched_pendulum_measure::identification::{AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, SearchFailure, Shooting, Standing, TreeFamily, Unfound};
+use branched_pendulum_measure::identification::{
+    AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, SearchFailure,
+    Shooting, Standing, TreeFamily, Unfound,
+};
 use branched_pendulum_trees::ParameterUse;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;

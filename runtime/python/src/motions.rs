@@ -16,7 +16,7 @@ use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, State, TaylorOde};
 use branched_pendulum_measure::SmoothingError;
 
 use crate::estimates::{Coordinates, Estimate};
-use crate::following::{End, KeepError, Kept, Wanted};
+use crate::following::{End, KeepError, Kept, OutputTimes};
 use crate::growth::GrowthTask;
 use crate::model_smoothing::{MOST_SMOOTHED, ModelSmoothing};
 
@@ -79,7 +79,7 @@ pub(crate) trait Motions: Send + Sync {
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
-        wanted: Wanted<'_>,
+        wanted: OutputTimes<'_>,
         kept: &mut Kept,
     ) -> End;
 
@@ -178,19 +178,19 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         &self,
         method: &AnyIntegrator<f64>,
         start: &State<f64>,
-        wanted: Wanted<'_>,
+        wanted: OutputTimes<'_>,
         kept: &mut Kept,
     ) -> End {
         let system = &M::series(self);
-        if let (Wanted::At(times), None) = (wanted, &kept.trajectory) {
+        if let (OutputTimes::At(times), None) = (wanted, &kept.trajectory) {
             let run = method.try_sample(system, start, times, |time, state| kept.push(time, state));
             return Ok(run.map_err(Box::new)?.report);
         }
         let end = match wanted {
-            Wanted::At(times) => times.last().copied().unwrap_or(start.time),
-            Wanted::AllSteps(end) => end,
+            OutputTimes::At(times) => times.last().copied().unwrap_or(start.time),
+            OutputTimes::AllSteps(end) => end,
         };
-        if let Wanted::AllSteps(_) = wanted {
+        if let OutputTimes::AllSteps(_) = wanted {
             // Of one number there is room.
             drop(kept.push(start.time, &start.values));
         }
@@ -198,12 +198,12 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
             if let Some(trajectory) = &mut kept.trajectory {
                 trajectory.push(step).map_err(KeepError::Dense)?;
             }
-            if let Wanted::AllSteps(_) = wanted {
+            if let OutputTimes::AllSteps(_) = wanted {
                 kept.push(step.end_time(), step.end())?;
             }
             Ok(ControlFlow::Continue(()))
         });
-        if let Wanted::At(times) = wanted {
+        if let OutputTimes::At(times) = wanted {
             let sampled = kept.sample(times, run.is_ok());
             let report = run.map_err(Box::new)?.report;
             sampled.map_err(|error| RunError::Observer {
