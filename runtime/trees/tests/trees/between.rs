@@ -34,18 +34,16 @@ impl Numbers {
 fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
     for column in 0..n {
-        let pivot = (column..n).max_by(|a, b| {
-            matrix[*a][column]
-                .abs()
-                .total_cmp(&matrix[*b][column].abs())
-        });
-        let pivot = pivot.unwrap();
-        matrix.swap(column, pivot);
-        right.swap(column, pivot);
-        for row in column + 1..n {
-            let factor = matrix[row][column] / matrix[column][column];
-            for place in column..n {
-                matrix[row][place] -= factor * matrix[column][place];
+        let size = |row: &usize| matrix[*row][column].abs();
+        let pivot = (column..n).max_by(|a, b| size(a).total_cmp(&size(b)));
+        matrix.swap(column, pivot.unwrap());
+        right.swap(column, pivot.unwrap());
+        let (above, below) = matrix.split_at_mut(column + 1);
+        let pivot = &above[column];
+        for (row, own) in (column + 1..).zip(below) {
+            let factor = own[column] / pivot[column];
+            for (own, pivot) in own.iter_mut().zip(pivot) {
+                *own -= factor * pivot;
             }
             right[row] -= factor * right[column];
         }
