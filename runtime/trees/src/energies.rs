@@ -9,8 +9,8 @@ use crate::bodies::FormBodies;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
-    /// What acts between links that are not parent and child.
-    pub(crate) fn between(&self) -> &SpringDampers<T> {
+    /// Returns what acts between links that are not parent and child.
+    pub fn between(&self) -> &SpringDampers<T> {
         self.equations.between()
     }
 

@@ -37,6 +37,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let tree = &subject.tree;
     let rest = tree.equilibrium(&vec![0.0; tree.links()]);
     let mut text = links(&subject);
+    text.push_str(&between(tree));
     text.push_str(&parameters(tree));
     // Writing to a string cannot fail.
     let _ = match &rest {
@@ -92,6 +93,40 @@ fn links(subject: &Subject) -> String {
             own.inertia,
             pair(own.pivot),
         );
+    }
+    text
+}
+
+/// Springs and friction between links, a line each.
+fn between(tree: &PendulumTree) -> String {
+    let mut text = String::new();
+    let name = |link: usize| tree.names().get(link).map_or("", String::as_str);
+    for (place, own) in tree.between().list().iter().enumerate() {
+        if place == 0 {
+            text.push_str("\nbetween links\n");
+        }
+        let [a, b] = own.links.map(name);
+        let mut parts = Vec::new();
+        if own.spring != 0.0 {
+            parts.push(format!(
+                "spring {} N m, at rest at {} rad",
+                own.spring, own.rest
+            ));
+        }
+        if own.friction != 0.0 {
+            parts.push(format!("friction {} N m s", own.friction));
+        }
+        if let Some([coulomb, quadratic, width]) = own.law {
+            parts.push(format!(
+                "Coulomb friction {coulomb} N m, quadratic friction {quadratic} N m s², width \
+                 {width} rad/s"
+            ));
+        }
+        if parts.is_empty() {
+            parts.push("nothing at these values".to_owned());
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {a}, {b}: {}", parts.join("; "));
     }
     text
 }

@@ -20,6 +20,28 @@ fn links_parameters_and_sectors_are_listed() {
     assert!(folder.read("results/tree.svg").contains("<svg"));
 }
 
+#[test]
+fn springs_between_links_are_described_with_their_numbers() {
+    let folder = Folder::new("describe-between");
+    let text =
+        "gravity = 9.8, a: rod(mass = 0.1, length = 0.2) [b: rod(mass = 0.1, length = 0.2) * 2],
+        siblings(b, friction = c), between(a, b_2, spring = 0.3, rest = 0.1)";
+    let tree = folder.file("tree.txt", text);
+    let printed = folder.answer(&["describe", "--tree", &tree, "--set", "c=1e-4"]);
+    assert!(
+        printed.contains("  b_1, b_2: friction 0.0001 N m s\n"),
+        "{printed}"
+    );
+    assert!(
+        printed.contains("  a, b_2: spring 0.3 N m, at rest at 0.1 rad\n"),
+        "{printed}"
+    );
+    assert!(
+        printed.contains("c = 0.0001: friction of `siblings(b)`, N m s"),
+        "{printed}"
+    );
+}
+
 /// Energy is kept, and the motion is the same by another method.
 #[test]
 fn a_chain_of_three_moves() {

@@ -64,6 +64,49 @@ fn the_onset_leaves_table_and_charts() {
     }
 }
 
+/// A tree with dampers between its youngest rods beside its equilibrium, and two such runs beside
+/// each other.
+#[test]
+fn cascades_stand_beside_their_equilibrium_and_each_other() {
+    let runs = ["damped", "free"].map(|name| folder(&format!("beside-{name}")));
+    for (run, gravity) in runs.iter().zip(["9.8", "0"]) {
+        let set = format!("gravity={gravity},friction=0,sibling_friction=1e-4");
+        let more = ["--equilibrium", "--duration", "20", "--set", &set];
+        let output = command(run, &more).output().unwrap();
+        finished(&output);
+        let table = fs::read_to_string(run.join("scales.csv")).unwrap();
+        let head = table.lines().next().unwrap();
+        assert!(head.ends_with("energy in equilibrium [J],error of energy in equilibrium [J]"));
+        let report = fs::read_to_string(run.join("report.md")).unwrap();
+        assert!(
+            report.contains("In thermal equilibrium at the same energy"),
+            "{report}"
+        );
+    }
+    let all = folder("beside-all");
+    let both = runs.each_ref().map(|run| run.to_str().unwrap()).join(",");
+    let output = super::command(&["cascade", "--compare", &both, "--output"])
+        .arg(&all)
+        .output()
+        .unwrap();
+    finished(&output);
+    let text = fs::read_to_string(all.join("spectrum.md")).unwrap();
+    assert!(
+        text.contains("beside-damped |") && text.contains("beside-free |"),
+        "{text}"
+    );
+    assert!(all.join("cascade-spectrum.png").metadata().unwrap().len() > 1000);
+    let missing = super::command(&["cascade", "--compare", "nowhere", "--output"])
+        .arg(&all)
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8_lossy(&missing.stderr);
+    assert!(
+        !missing.status.success() && stderr.contains("scales.csv"),
+        "{stderr}"
+    );
+}
+
 /// Starts in lanes move as another method moves them one by one, under the torque written down
 /// once more, and the error falls as that of a method of order four.
 #[test]
