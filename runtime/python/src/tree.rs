@@ -249,8 +249,8 @@ impl Tree {
     ///
     /// Examples
     /// --------
-    /// >>> bp.Tree(bp.examples.CASCADE, friction=0).draw()
-    /// Picture of 15 links
+    /// >>> bp.Tree(bp.examples.BRANCH).draw()
+    /// Picture of 31 links
     #[pyo3(signature = (theta = None))]
     fn draw<'py>(
         slf: &Bound<'py, Self>,

@@ -37,7 +37,7 @@ TREES = {
     "cascade": bp.Tree(
         bp.examples.CASCADE.replace("count = 5", "count = 4").replace("arm_5", "arm_4"),
         gravity=9.80665, mass_ratio=0.5, length_ratio=0.7,
-        friction=0, friction_ratio=1, sibling_friction=1e-4,
+        friction=0, friction_ratio=1, sibling_friction=0,
     ),
     "standing": bp.Tree(bp.examples.Y),
     "unlike": bp.Tree("""gravity = 9.81, arm: rod(mass = 0.2, length = 0.4) [
