@@ -193,7 +193,7 @@ fn report(spectra: &[Spectrum]) -> String {
 }
 
 fn chart(spectra: &[Spectrum]) -> Chart {
-    let mut compensated = Panel::new(Axis::log("E / (M^(1/3) (Π ℓ)^(2/3))"));
+    let mut compensated = Panel::new(Axis::log("E / E by the two-thirds law"));
     let mut flux = Panel::new(Axis::linear("flux into the scale / input").range(0.0, 1.1));
     let most = spectra.iter().map(|own| own.rows.len()).max().unwrap_or(1);
     let mut beside = Panel::new(Axis::log("E / E in equilibrium"));
