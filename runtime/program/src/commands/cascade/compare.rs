@@ -49,10 +49,20 @@ struct Spectrum {
 /// and what the energies are there.
 ///
 /// # Errors
-/// [`Failure::Reading`] of a folder without a table `scales.csv` of this program.
+/// [`Failure::Reading`] of a folder without a table `scales.csv` of this program,
+/// [`Failure::Lacking`] of a run none of whose differences has an average.
 pub fn run(folders: &[PathBuf], job: &Job) -> Result<(), Failure> {
     let spectra = folders.iter().map(|folder| Spectrum::read(folder));
     let spectra = spectra.collect::<Result<Vec<Spectrum>, Failure>>()?;
+    if let Some(short) = spectra.iter().find(|own| own.differences().is_empty()) {
+        return Err(Failure::Lacking {
+            what: format!(
+                "no difference in `{}` has an average energy and flux: run it for longer, by \
+                 `--duration`",
+                short.name
+            ),
+        });
+    }
     let text = report(&spectra);
     job.print(&text)?;
     job.write("spectrum.md", text.as_bytes())?;
@@ -92,9 +102,16 @@ impl Spectrum {
         })
     }
 
+    /// Power that friction takes in all scales, W; NaN where it has no average.
+    fn input(&self) -> f64 {
+        let means = self.rows.first().filter(|row| row.scale == 0);
+        means.map_or(f64::NAN, |row| row.flux)
+    }
+
     /// The differences, from scale 1 on.
     fn differences(&self) -> &[Row] {
-        self.rows.get(1..).unwrap_or_default()
+        let means = self.rows.iter().take_while(|row| row.scale == 0).count();
+        self.rows.get(means..).unwrap_or_default()
     }
 
     /// The longest stretch of differences whose fluxes lie within five per cent of each other.
@@ -170,7 +187,7 @@ fn report(spectra: &[Spectrum]) -> String {
             [first, .., last] => format!("{} to {}", first.scale, last.scale),
             _ => "none".to_owned(),
         };
-        let input = spectrum.rows.first().map_or(f64::NAN, |row| row.flux);
+        let input = spectrum.input();
         let listed = |value: &dyn Fn(&Row) -> Option<f64>| {
             let values = inner.iter().filter_map(value);
             let values: Vec<String> = values.map(|value| format!("{value:.3}")).collect();
@@ -209,7 +226,7 @@ fn chart(spectra: &[Spectrum]) -> Chart {
                 false => panel.series(Series::line(&spectrum.name, &x, &y).with_symbols()),
             }
         };
-        let input = spectrum.rows.first().map_or(f64::NAN, |row| row.flux);
+        let input = spectrum.input();
         let differences = spectrum.differences();
         compensated = line(compensated, differences, &|row| Some(row.compensated()));
         flux = line(flux, differences, &|row| Some(row.flux / input));

@@ -71,7 +71,15 @@ fn cascades_stand_beside_their_equilibrium_and_each_other() {
     let runs = ["damped", "free"].map(|name| folder(&format!("beside-{name}")));
     for (run, gravity) in runs.iter().zip(["9.8", "0"]) {
         let set = format!("gravity={gravity},friction=0,sibling_friction=1e-4");
-        let more = ["--equilibrium", "--duration", "20", "--set", &set];
+        let more = [
+            "--torque",
+            "0.5",
+            "--steps",
+            "256",
+            "--set",
+            &set,
+            "--equilibrium",
+        ];
         let output = command(run, &more).output().unwrap();
         finished(&output);
         let table = fs::read_to_string(run.join("scales.csv")).unwrap();
@@ -96,6 +104,19 @@ fn cascades_stand_beside_their_equilibrium_and_each_other() {
         "{text}"
     );
     assert!(all.join("cascade-spectrum.png").metadata().unwrap().len() > 1000);
+    // Without averages there is nothing to compare.
+    let still = folder("beside-still");
+    let more = ["--torque", "0", "--spread", "0", "--duration", "10"];
+    finished(&command(&still, &more).output().unwrap());
+    let refused = super::command(&["cascade", "--compare", still.to_str().unwrap(), "--output"])
+        .arg(&all)
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        !refused.status.success() && stderr.contains("no difference in"),
+        "{stderr}"
+    );
     let missing = super::command(&["cascade", "--compare", "nowhere", "--output"])
         .arg(&all)
         .output()
