@@ -8,8 +8,8 @@ use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
 use super::{LinkId, Quantity};
-use crate::description::{CouplingClause, Property, Reductions};
-use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
+use crate::description::{CouplingClause, Property, Reductions, Value};
+use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torsion spring and friction between two links, or between all copies of a node under one
 /// link, on the difference of their angles.
@@ -72,12 +72,15 @@ pub(super) fn torques_of_couplings(
                 report.error(property.name.span(), message);
                 continue;
             }
-            match dimensions(&word).find(|known| known.name == name) {
-                Some(known) => {
+            match (dimensions(&word).find(|known| known.name == name), &property.value) {
+                (Some(_), Value::Each { span, .. }) => {
+                    report.error(*span, ValueMessage::EachWithoutCopies);
+                }
+                (Some(known), _) => {
                     let value = evaluate(known, property, &what, values, report);
                     given.0.extend(value.map(|value| (known.name, value)));
                 }
-                None => report.error(property.name.span(), unknown(&word, property)),
+                (None, _) => report.error(property.name.span(), unknown(&word, property)),
             }
             seen.push(name);
         }
@@ -113,6 +116,10 @@ pub(super) fn resolve_couplings(
         let what = in_words(clause);
         if !reductions.in_phase.is_empty() {
             report.error(clause.name.span(), TreeMessage::CouplingInPhase { what });
+            continue;
+        }
+        if clause.name == SIBLINGS && !reductions.locked.is_empty() {
+            report.error(clause.name.span(), TreeMessage::SiblingsBesideLock { what });
             continue;
         }
         let ends = match clause.name == SIBLINGS {

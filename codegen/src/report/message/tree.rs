@@ -191,6 +191,12 @@ messages! {
         "a link in phase stands for several",
         "leave `in_phase(...)` out: copies that start in phase stay so",
     ),
+    /// Copies of a node beside links that do not move in their joints.
+    SiblingsBesideLock { what: String } => (
+        format!("`{what}` beside `locked(...)`"),
+        "copies of locked links hang from one link",
+        "write `between(a, b, ...)` for each two copies",
+    ),
     /// Not two links between which something acts.
     NotTwoLinks => (
         "`between(...)` does not name two links",

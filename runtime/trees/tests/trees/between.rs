@@ -416,6 +416,7 @@ fn clauses_that_say_nothing_are_refused() {
             "`siblings` has no property `rest`",
         ),
         ("siblings(b, b, spring = 1)", "does not name one node"),
+        ("between(a, b_1, spring = each(1, 2))", "there are no copies"),
         (
             "siblings(b, spring = 1), in_phase(b)",
             "a link in phase stands for several",

@@ -248,6 +248,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
     between(b_1, b_2, spring = 1), between(a, a, friction = 1), between(a, c, spring = 1), between(a, b_1),
     between(a, b_1, rest = 1), between(a, b_1, spring = 1, drag = 1), siblings(b, spring = 1, rest = 1),
     siblings(a, spring = 1), siblings(a, b, spring = 1), siblings(b, friction(width = 1)),
+    between(a, b_1, spring = each(1, 2)),
     )] struct Pendulum;",
     ),
     (
@@ -255,6 +256,12 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
     siblings(b, spring = 1), in_phase(b))] struct Pendulum;",
+    ),
+    (
+        "siblings_beside_a_lock",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) [c: rod(mass = 1, length = 1) * 2] * 2],
+    siblings(c, spring = 1), locked(b, 0))] struct Pendulum;",
     ),
     (
         "prescribed_in_loops",
