@@ -160,7 +160,8 @@ impl<T: Scalar> PendulumTree<T> {
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let pairs: Vec<[usize; 2]> = between.list().iter().map(|own| own.links).collect();
+        let pairs = between.list().iter();
+        let pairs: Vec<_> = pairs.map(|own| (own.links, own.law.is_some())).collect();
         let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
