@@ -72,7 +72,10 @@ pub(super) fn torques_of_couplings(
                 report.error(property.name.span(), message);
                 continue;
             }
-            match (dimensions(&word).find(|known| known.name == name), &property.value) {
+            match (
+                dimensions(&word).find(|known| known.name == name),
+                &property.value,
+            ) {
                 (Some(_), Value::Each { span, .. }) => {
                     report.error(*span, ValueMessage::EachWithoutCopies);
                 }

@@ -207,8 +207,9 @@ impl Differences {
         let system = BetweenCopies::new(tangents, self.copies.clone());
         if !self.copies.are_in_phase(&system, start) {
             return Err(Failure::Lacking {
-                what: "the copies do not start alike: give them one angle and one rate by their \
-                       common name, as in `--start child=10`"
+                what: "the copies do not move alike: give them one angle and one rate by their \
+                       common name, as in `--start child=10`, and nothing between them and other \
+                       links that one of them lacks"
                     .to_owned(),
             });
         }

@@ -1,5 +1,6 @@
 //! Springs and friction between links that are not parent and child.
 
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{CanonicalVariables, Workspace};
@@ -394,6 +395,33 @@ fn transfers_know_springs_between_siblings() {
     assert!(PendulumTree::parse(&damped).unwrap().symmetric().is_ok());
 }
 
+/// A damper on one of two copies, which does nothing at rest, takes them out of phase.
+#[test]
+fn copies_that_one_damper_brakes_do_not_move_alike() {
+    let tree = "gravity = 9.81, a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.2, length = 0.35, F) * 2]";
+    let start = State::at_rest(0.0, &[0.9, 0.4, 0.4]);
+    let copies = Copies::of_links(&[None, Some(0), Some(0)], &[&[1, 2]]).unwrap();
+    for (friction, clause, are_alike) in [
+        ("friction = 1e-3", "", true),
+        (
+            "friction = 1e-3",
+            ", siblings(b, spring = 0.1, friction = 1e-3)",
+            true,
+        ),
+        (
+            "friction = 1e-3",
+            ", between(a, b_1, friction = 1e-3)",
+            false,
+        ),
+        ("friction = each(1e-3, 2e-3)", "", false),
+    ] {
+        let text = format!("{}{clause}", tree.replace('F', friction));
+        let tree = PendulumTree::parse(&text).unwrap();
+        let found = copies.are_in_phase(&AbsoluteAngles(&tree), &start);
+        assert_eq!(found, are_alike, "{text}");
+    }
+}
+
 #[test]
 fn clauses_that_say_nothing_are_refused() {
     let tree = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2]";
@@ -416,7 +444,10 @@ fn clauses_that_say_nothing_are_refused() {
             "`siblings` has no property `rest`",
         ),
         ("siblings(b, b, spring = 1)", "does not name one node"),
-        ("between(a, b_1, spring = each(1, 2))", "there are no copies"),
+        (
+            "between(a, b_1, spring = each(1, 2))",
+            "there are no copies",
+        ),
         (
             "siblings(b, spring = 1), in_phase(b)",
             "a link in phase stands for several",
