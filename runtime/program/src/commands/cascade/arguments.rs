@@ -78,10 +78,14 @@ pub struct Arguments {
     pub equilibrium: bool,
     /// in place of all this, the onset in the tree released almost in phase, sector by sector,
     /// for so many s from 0.1 to 1000
-    #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge"], verbatim_doc_comment)]
+    #[arg(long, value_name = "S", value_parser = number(0.1..=1e3, "s"), conflicts_with_all = ["shard", "merge", "equilibrium"], verbatim_doc_comment)]
     pub onset: Option<f64>,
     /// in place of all this, the spectra of finished runs beside each other, from their folders
-    #[arg(long, value_name = "FOLDER[,..]", value_delimiter = ',', conflicts_with_all = ["shard", "merge", "onset"])]
+    #[arg(long, value_name = "FOLDER[,..]", value_delimiter = ',', conflicts_with_all = [
+        "tree", "set", "parameters", "generations", "branching", "start", "rates", "torque", "frequency",
+        "bandwidth", "starts", "duration", "spread", "samples", "steps", "seed", "threads", "checkpoint",
+        "onset", "equilibrium", "shard", "merge",
+    ])]
     pub compare: Vec<PathBuf>,
     /// Which part of the starts.
     #[command(flatten)]

@@ -80,7 +80,11 @@ impl Spectrum {
         let [length, mass] = [column("length")?, column("mass")?];
         let [energy, error] = [column("energy")?, column("error of energy")?];
         let flux = column("flux by dissipation")?;
-        let equilibrium = column("energy in equilibrium").unwrap_or_default();
+        let equilibrium = match table.column("energy in equilibrium") {
+            Ok(place) => table.values(place)?.to_vec(),
+            // The run did not ask for it.
+            Err(_) => Vec::new(),
+        };
         let row = |place: usize| {
             let at = |list: &[Option<f64>]| list.get(place).copied().flatten();
             Some(Row {
@@ -114,7 +118,7 @@ impl Spectrum {
         self.rows.get(means..).unwrap_or_default()
     }
 
-    /// The longest stretch of differences whose fluxes lie within five per cent of each other.
+    /// The longest stretch of differences, one after the other, whose fluxes lie within five per cent of each other.
     fn inner(&self) -> &[Row] {
         let rows = self.differences();
         let mut longest: &[Row] = &[];
@@ -122,11 +126,12 @@ impl Spectrum {
             for end in first + 1..=rows.len() {
                 let own = &rows[first..end];
                 let fluxes = || own.iter().map(|row| row.flux);
+                let is_whole = own.windows(2).all(|pair| pair[1].scale == pair[0].scale + 1);
                 let (least, most) = (
                     fluxes().fold(f64::INFINITY, f64::min),
                     fluxes().fold(0.0, f64::max),
                 );
-                if most - least <= LEVEL * most && own.len() > longest.len() {
+                if is_whole && most - least <= LEVEL * most && own.len() > longest.len() {
                     longest = own;
                 }
             }
@@ -148,9 +153,10 @@ impl Row {
 }
 
 /// The exponent a of E_s/M_s^{1/3} ∝ (Π ℓ_s)^a by weighted least squares, with an error bar that
-/// grows with the misfit; none of fewer than three scales.
+/// grows with the misfit; none of fewer than three scales, and without error bars.
 fn exponent(rows: &[Row]) -> Option<Estimate> {
-    if rows.len() < 3 {
+    let measured = rows.iter().all(|row| row.energy.error > 0.0);
+    if rows.len() < 3 || !measured {
         return None;
     }
     let points = rows.iter().map(|row| {
@@ -288,5 +294,10 @@ mod tests {
         let spectrum = Spectrum { name, rows };
         let inner: Vec<usize> = spectrum.inner().iter().map(|row| row.scale).collect();
         assert_eq!(inner, [1, 2, 3]);
+        // A scale that has no average ends a stretch.
+        let mut torn = spectrum.clone();
+        torn.rows.remove(2);
+        assert_eq!(torn.inner().len(), 2);
+        assert!(torn.inner().iter().all(|row| row.scale > 3));
     }
 }
