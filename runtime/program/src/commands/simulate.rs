@@ -6,6 +6,7 @@ use branched_pendulum::Energy;
 use branched_pendulum::prelude::*;
 use branched_pendulum_charts::{Axis, Chart, Film, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
+use branched_pendulum_trees::TreeError;
 use clap::Parser;
 
 use crate::Failure;
@@ -75,6 +76,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     job.print(&report(arguments, &subject, &samples, &energies))?;
     write(job, &subject, &samples, &energies)?;
     charts(job, &subject, &samples, &energies)?;
+    if let Err(error @ TreeError::CoupledSectors) = subject.tree.symmetric() {
+        job.print(&format!("no H_d and no W: {error}\n"))?;
+    }
     if let Some(sectors) = &sectors {
         job.print(&differences(&samples, sectors))?;
         budget::write(job, &subject, &samples.times, sectors)?;

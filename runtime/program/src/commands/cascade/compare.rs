@@ -126,7 +126,9 @@ impl Spectrum {
             for end in first + 1..=rows.len() {
                 let own = &rows[first..end];
                 let fluxes = || own.iter().map(|row| row.flux);
-                let is_whole = own.windows(2).all(|pair| pair[1].scale == pair[0].scale + 1);
+                let is_whole = own
+                    .windows(2)
+                    .all(|pair| pair[1].scale == pair[0].scale + 1);
                 let (least, most) = (
                     fluxes().fold(f64::INFINITY, f64::min),
                     fluxes().fold(0.0, f64::max),

@@ -131,13 +131,19 @@ pub fn equilibrium(driven: &DrivenTree, findings: &Findings, own: &Equilibrium) 
     let mut text = format!(
         "\nIn thermal equilibrium at the same energy, {:.4e} J, kT is {:.4e} J. The three ways differ by at \
          most {discord:.1} of their bars: {}.\n\n\
-         | scale | {} (J) | {} (J) | {} (J) | ½ kT a degree of freedom (J) | driven over it |\n\
+         {}| scale | {} (J) | {} (J) | {} (J) | ½ kT a degree of freedom (J) | driven over it |\n\
          |---|---:|---:|---:|---:|---:|\n",
         own.energy,
         own.temperature,
         match discord < 4.0 {
             true => "they agree",
             false => "they do NOT agree",
+        },
+        match own.left_out {
+            0 => String::new(),
+            some => format!(
+                "{some} starts are left out of the third way: their potential energy alone is more.\n\n"
+            ),
         },
         WAYS[0],
         WAYS[1],

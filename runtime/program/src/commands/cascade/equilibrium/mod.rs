@@ -20,6 +20,9 @@ use chains::{Bath, Chain, Isolated, SAMPLES, SETTLING, Stretch};
 /// Ways to the shares, in words.
 pub const WAYS: [&str; 3] = ["Langevin", "by the formula", "at the same energy"];
 
+/// Largest part by which the energy may be missed; shares change little over it.
+const NEAREST: f64 = 0.2;
+
 /// The energy of each scale in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
@@ -29,6 +32,9 @@ pub struct Equilibrium {
     pub energy: f64,
     /// Energies of the scales (J) by each of the [`WAYS`].
     pub scales: [Vec<Estimate>; 3],
+    /// Configurations whose potential energy alone is more than this energy, which the free motion
+    /// at that energy has to do without.
+    pub left_out: usize,
 }
 
 impl Equilibrium {
@@ -43,6 +49,18 @@ impl Equilibrium {
         energy: f64,
         job: &Job,
     ) -> Result<Self, Failure> {
+        let name = &driven.subject.name;
+        let lacking = |why: &str| Failure::Lacking {
+            what: format!("`{name}` {why}: leave `--equilibrium` out"),
+        };
+        if driven.subject.tree.stands() {
+            return Err(lacking(
+                "stands, and its energy has no least value to share from",
+            ));
+        }
+        if energy.is_nan() || energy <= 0.0 {
+            return Err(lacking("hangs still, and has no energy to share"));
+        }
         let progress = job.progress(1);
         progress.begin("equilibrium");
         let own = Isolated {
@@ -51,7 +69,7 @@ impl Equilibrium {
                 .tree
                 .conservative()
                 .map_err(|source| Failure::Tree {
-                    name: driven.subject.name.clone(),
+                    name: name.clone(),
                     source,
                 })?,
             arguments,
@@ -90,15 +108,24 @@ impl Equilibrium {
             bath: None,
             counts: false,
         };
-        let isolated = own.move_all(&own.of_energy(&thermal, found), free, SETTLING)?;
+        let isolated = own.of_energy(&thermal, found);
+        let left_out = thermal.len() - isolated.len();
+        let isolated = own.move_all(&isolated, free, SETTLING)?;
         let counted = Stretch {
             counts: true,
             ..free
         };
         let isolated = own.move_all(&isolated, counted, windows)?;
         let isolated = means(&isolated, |chain| &chain.energies, samples);
-        // The temperature is found within some per cent.
         let factor = energy / found;
+        if (factor - 1.0).abs() > NEAREST {
+            return Err(Failure::Lacking {
+                what: format!(
+                    "the temperature was missed: the motion has {found:.3e} J where {energy:.3e} J were \
+                     asked for; take more `--starts`"
+                ),
+            });
+        }
         let ways = [langevin, formula, isolated].map(|scales| {
             let scales = scales.into_iter();
             let taken = scales.map(|scale| Estimate {
@@ -111,6 +138,7 @@ impl Equilibrium {
             temperature: factor * bath.temperature,
             energy,
             scales: ways,
+            left_out,
         })
     }
 }
@@ -119,11 +147,18 @@ impl Equilibrium {
 fn discord(ways: &[Vec<Estimate>; 3]) -> f64 {
     let [first, second, third] = ways;
     let pairs = [(first, second), (first, third), (second, third)];
+    if pairs.iter().any(|(one, other)| one.len() != other.len()) {
+        return f64::INFINITY;
+    }
     let apart = pairs.into_iter().flat_map(|(one, other)| {
         let scales = one.iter().zip(other);
         scales.map(|(a, b)| (a.value - b.value).abs() / a.error.hypot(b.error))
     });
-    apart.fold(0.0, f64::max)
+    // What is no number agrees with nothing.
+    apart.fold(0.0, |most, own| match own.is_nan() {
+        true => f64::INFINITY,
+        false => most.max(own),
+    })
 }
 
 /// Mean energies of all scales, with error bars from chain to chain.
@@ -139,8 +174,8 @@ fn means(chains: &[Chain], sums: impl Fn(&Chain) -> &[f64], samples: f64) -> Vec
 
 #[cfg(test)]
 mod tests {
-    use super::Equilibrium;
     use super::chains::{Bath, Isolated};
+    use super::{Equilibrium, Estimate};
     use crate::commands::cascade::Arguments;
     use crate::frame::command_line::parse_line;
 
@@ -172,6 +207,17 @@ mod tests {
         );
         let sum: f64 = langevin.iter().map(|scale| scale.value).sum();
         assert!((sum - 0.3).abs() < 1e-12);
+        let mut unknown = own.clone();
+        unknown.scales[2].clear();
+        assert_eq!(unknown.discord(), f64::INFINITY);
+        unknown.scales[2] = vec![
+            Estimate {
+                value: 0.1,
+                error: f64::NAN
+            };
+            3
+        ];
+        assert_eq!(unknown.discord(), f64::INFINITY);
     }
 
     #[test]
