@@ -101,16 +101,6 @@ impl<T: Scalar> FormEquations<T> {
         }
     }
 
-    /// Writes the same, in a function that all callers share.
-    #[inline(always)]
-    fn evaluate_under_apart(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
-        match self {
-            Self::Straight(ways) => ways.evaluate_under_apart(acting, given, alpha),
-            Self::General(ways) => ways.evaluate_under_apart(acting, given, alpha),
-            Self::Rough(ways) => ways.evaluate_under_apart(acting, given, alpha),
-        }
-    }
-
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
     fn room(&self) -> usize {
         match self {
@@ -166,9 +156,27 @@ impl<T: Scalar> Equations<T> {
         &self.between
     }
 
+    /// Returns what acts, with the torques between links among those from outside; they stand in
+    /// `numbers`.
+    #[inline(always)]
+    pub(crate) fn all_acting<'a>(
+        &self,
+        acting: Acting<'a, T>,
+        given: [&[T]; 2],
+        numbers: &'a mut Vec<T>,
+    ) -> Acting<'a, T> {
+        if self.between.is_empty() {
+            return acting;
+        }
+        numbers.resize(given[0].len(), T::from_f64(0.0));
+        self.write_torques(acting, given, numbers);
+        let torques = Some(&**numbers);
+        Acting { torques, ..acting }
+    }
+
     /// Writes to `torques` what acts on links from outside and between them.
     #[inline(always)]
-    pub(crate) fn write_torques(&self, acting: Acting<'_, T>, given: [&[T]; 2], torques: &mut [T]) {
+    fn write_torques(&self, acting: Acting<'_, T>, given: [&[T]; 2], torques: &mut [T]) {
         match acting.torques {
             // Torques of another number than there are links have no answer.
             Some(outside) if outside.len() != torques.len() => {
@@ -220,16 +228,8 @@ impl<T: Scalar> Equations<T> {
     /// Writes accelerations under torques, likewise.
     #[inline(always)]
     pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
-        let mut torques = Vec::new();
-        let acting = match self.between.is_empty() {
-            true => acting,
-            false => {
-                torques.resize(given[0].len(), T::from_f64(0.0));
-                self.write_torques(acting, given, &mut torques);
-                let torques = Some(&*torques);
-                Acting { torques, ..acting }
-            }
-        };
+        let mut numbers = Vec::new();
+        let acting = self.all_acting(acting, given, &mut numbers);
         self.form.evaluate_under(acting, given, alpha);
     }
 
@@ -266,12 +266,9 @@ impl<T: Scalar> Equations<T> {
         let links = self.between.links();
         let theta: Vec<T> = (0..links).map(theta).collect();
         let omega: Vec<T> = (0..links).map(omega).collect();
-        let mut torques = vec![T::from_f64(0.0); links];
-        self.between.add_torques([&theta, &omega], &mut torques);
         let mut results = vec![T::from_f64(f64::NAN); links];
-        let torques = Some(&*torques);
-        let (acting, given) = (Acting { drive, torques }, [&*theta, &omega]);
-        self.form.evaluate_under_apart(acting, given, &mut results);
+        let torques = None;
+        self.evaluate_under(Acting { drive, torques }, [&theta, &omega], &mut results);
         for (link, acceleration) in results.into_iter().enumerate() {
             alpha(link, acceleration);
         }

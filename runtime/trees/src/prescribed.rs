@@ -10,7 +10,6 @@ use branched_pendulum::tree::{RootDrive, Tree};
 use branched_pendulum_codegen::scene::Scene;
 
 use crate::equations::HeldEquations;
-use crate::forms::Acting;
 use crate::tree::PendulumTree;
 
 /// The equations of a tree some of whose links may be held, and which ones.
@@ -100,17 +99,8 @@ impl<T: Scalar> PendulumTree<T> {
             return no_answer(results);
         };
         let outside = self.acting(at.time, Some(motion.torques));
-        let mut numbers = Vec::new();
-        let acting = match self.between().is_empty() {
-            true => outside,
-            false => {
-                numbers.resize(motion.theta.len(), T::from_f64(0.0));
-                let given = [motion.theta, motion.omega];
-                self.equations.write_torques(outside, given, &mut numbers);
-                let torques = Some(&*numbers);
-                Acting { torques, ..outside }
-            }
-        };
+        let (given, mut numbers) = ([motion.theta, motion.omega], Vec::new());
+        let acting = self.equations.all_acting(outside, given, &mut numbers);
         let mut sum = [T::from_f64(0.0)];
         let torques = acting.on_links(motion.torques.len(), &mut sum);
         let torques = torques.unwrap_or_default();

@@ -97,23 +97,10 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         self.strips.evaluate(drive, theta, omega, alpha);
     }
 
-    /// Writes accelerations under what acts from outside, likewise.
+    /// Writes accelerations under what acts from outside, likewise, in a function that all callers
+    /// share.
     #[inline(always)]
     pub(crate) fn evaluate_under(
-        &self,
-        acting: Acting<'_, T>,
-        [theta, omega]: [&[T]; 2],
-        alpha: &mut [T],
-    ) {
-        let mut sum = [T::from_f64(0.0)];
-        let torques = acting.on_links(theta.len(), &mut sum);
-        let given = [theta, omega, torques.unwrap_or_default()];
-        self.strips.evaluate_under(acting.drive, given, alpha);
-    }
-
-    /// Writes the same, in a function that all callers share.
-    #[inline(always)]
-    pub(crate) fn evaluate_under_apart(
         &self,
         acting: Acting<'_, T>,
         [theta, omega]: [&[T]; 2],

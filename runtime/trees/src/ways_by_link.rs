@@ -78,17 +78,6 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         self.accelerate(&mut Workspace::new(), acting, given, alpha);
     }
 
-    /// Writes the same.
-    #[inline(always)]
-    pub(crate) fn evaluate_under_apart(
-        &self,
-        acting: Acting<'_, T>,
-        given: [&[T]; 2],
-        alpha: &mut [T],
-    ) {
-        self.evaluate_under(acting, given, alpha);
-    }
-
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.
     pub(crate) fn room(&self) -> usize {
         0

@@ -9,6 +9,7 @@
 
 mod chains;
 
+use branched_pendulum::Positions;
 use branched_pendulum::analysis::statistics::Estimate;
 
 use super::arguments::Arguments;
