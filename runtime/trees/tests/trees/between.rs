@@ -3,191 +3,13 @@
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{CanonicalVariables, Workspace};
 use branched_pendulum::transfer::Given;
 use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
-use super::mechanics::near;
-
-/// Uniform numbers from a seed (Numerical Recipes' `ranqd1` in 64 bits).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() * end as f64) as usize
-    }
-}
-
-/// Solves a system of equations by elimination with pivots.
-fn solve(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
-    let n = right.len();
-    for column in 0..n {
-        let size = |row: &usize| matrix[*row][column].abs();
-        let pivot = (column..n).max_by(|a, b| size(a).total_cmp(&size(b)));
-        matrix.swap(column, pivot.unwrap());
-        right.swap(column, pivot.unwrap());
-        let (above, below) = matrix.split_at_mut(column + 1);
-        let pivot = &above[column];
-        for (row, own) in (column + 1..).zip(below) {
-            let factor = own[column] / pivot[column];
-            for (own, pivot) in own.iter_mut().zip(pivot) {
-                *own -= factor * pivot;
-            }
-            right[row] -= factor * right[column];
-        }
-    }
-    for row in (0..n).rev() {
-        let known: f64 = (row + 1..n)
-            .map(|place| matrix[row][place] * right[place])
-            .sum();
-        right[row] = (right[row] - known) / matrix[row][row];
-    }
-    right
-}
-
-/// A tree of links without lateral offsets and without joint torques, in plain numbers, and what
-/// acts between its links: the accelerations by the closed form of the mass matrix.
-struct PlainTree {
-    parents: Vec<Option<usize>>,
-    /// Mass, centre of mass, inertia and pivot on the parent.
-    bodies: Vec<[f64; 4]>,
-    /// The two links, κ, ρ, c, C, q and ε.
-    couplings: Vec<([usize; 2], [f64; 6])>,
-}
-
-impl PlainTree {
-    fn random(numbers: &mut Numbers) -> Self {
-        let links = 2 + numbers.below(11);
-        let parents = (0..links)
-            .map(|link| (link > 0).then(|| numbers.below(link)))
-            .collect();
-        let body = |numbers: &mut Numbers| {
-            let ranges = [(0.05, 0.4), (0.05, 0.3), (1e-4, 3e-3), (0.05, 0.4)];
-            ranges.map(|(low, high)| numbers.between(low, high))
-        };
-        let bodies = (0..links).map(|_| body(numbers)).collect();
-        let coupling = |numbers: &mut Numbers| {
-            let first = numbers.below(links);
-            let second = (first + 1 + numbers.below(links - 1)) % links;
-            let ranges = [
-                (0.0, 0.5),
-                (-1.0, 1.0),
-                (0.0, 1e-2),
-                (0.0, 0.05),
-                (0.0, 1e-2),
-                (0.01, 0.3),
-            ];
-            let own = ranges.map(|(low, high)| numbers.between(low, high));
-            ([first, second], own)
-        };
-        let couplings = (0..1 + numbers.below(4))
-            .map(|_| coupling(numbers))
-            .collect();
-        Self {
-            parents,
-            bodies,
-            couplings,
-        }
-    }
-
-    fn text(&self) -> String {
-        let link = |link: usize| {
-            let [mass, com, inertia, at] = self.bodies[link];
-            let at = match self.parents[link] {
-                Some(_) => format!(", at = {at}"),
-                None => String::new(),
-            };
-            format!("l{link}(mass = {mass}, com = {com}, inertia = {inertia}{at})")
-        };
-        fn written(tree: &PlainTree, own: usize, link: &dyn Fn(usize) -> String) -> String {
-            let children =
-                (0..tree.parents.len()).filter(|other| tree.parents[*other] == Some(own));
-            let children: Vec<String> = children.map(|child| written(tree, child, link)).collect();
-            match children.is_empty() {
-                true => link(own),
-                false => format!("{} [{}]", link(own), children.join(", ")),
-            }
-        }
-        let couplings = self.couplings.iter().map(|([a, b], own)| {
-            let [spring, rest, friction, coulomb, quadratic, width] = own;
-            format!(
-                ", between(l{a}, l{b}, spring = {spring}, rest = {rest}, friction(viscous = \
-                 {friction}, coulomb = {coulomb}, quadratic = {quadratic}, width = {width}))"
-            )
-        });
-        let couplings: String = couplings.collect();
-        format!("gravity = 9.81, {}{couplings}", written(self, 0, &link))
-    }
-
-    fn accelerations(&self, theta: &[f64], omega: &[f64]) -> Vec<f64> {
-        let n = theta.len();
-        let below = |link: usize, above: usize| {
-            let mut at = Some(link);
-            while let Some(own) = at {
-                if own == above {
-                    return true;
-                }
-                at = self.parents[own];
-            }
-            false
-        };
-        let children = |link: usize| (0..n).filter(move |other| self.parents[*other] == Some(link));
-        let carried = |link: usize| -> f64 {
-            (0..n)
-                .filter(|other| below(*other, link))
-                .map(|other| self.bodies[other][0])
-                .sum()
-        };
-        let moment = |link: usize| -> f64 {
-            let [mass, com, ..] = self.bodies[link];
-            let hung: f64 = children(link)
-                .map(|child| self.bodies[child][3] * carried(child))
-                .sum();
-            mass * com + hung
-        };
-        let mut matrix = vec![vec![0.0; n]; n];
-        let mut right = vec![0.0; n];
-        for i in 0..n {
-            let [mass, com, inertia, _] = self.bodies[i];
-            let hung: f64 = children(i)
-                .map(|child| self.bodies[child][3].powi(2) * carried(child))
-                .sum();
-            matrix[i][i] = inertia + mass * com * com + hung;
-            right[i] -= 9.81 * moment(i) * theta[i].sin();
-            for j in (0..n).filter(|j| *j != i && below(*j, i)) {
-                let child = children(i).find(|child| below(j, *child)).unwrap();
-                let entry = self.bodies[child][3] * moment(j);
-                let apart = theta[i] - theta[j];
-                matrix[i][j] = entry * apart.cos();
-                matrix[j][i] = matrix[i][j];
-                right[i] -= entry * apart.sin() * omega[j] * omega[j];
-                right[j] += entry * apart.sin() * omega[i] * omega[i];
-            }
-        }
-        for ([a, b], [spring, rest, friction, coulomb, quadratic, width]) in &self.couplings {
-            let (apart, rate) = (theta[*a] - theta[*b], omega[*a] - omega[*b]);
-            let speed = rate.hypot(*width);
-            let braking = (friction + coulomb / speed + quadratic * speed) * rate;
-            let torque = -spring * (apart - rest) - braking;
-            right[*a] += torque;
-            right[*b] -= torque;
-        }
-        solve(matrix, right)
-    }
-}
+use super::plain::{Numbers, PlainTree};
 
 /// The order of links of a plain tree in the described one.
 fn order(tree: &PendulumTree) -> Vec<usize> {
@@ -299,19 +121,27 @@ fn energy_is_balanced_in_every_form() {
         .state;
     assert!(drift(&by_series) < 1e-10, "{:e}", drift(&by_series));
     let momenta = tree.momenta(start.positions(), start.velocities());
-    let canonical = [start.positions(), &momenta].concat();
+    let canonical = State::new(0.0, [start.positions(), &momenta].concat());
     let system = CanonicalVariables(&tree);
-    let canonical = method
-        .integrate(&system, &State::new(0.0, canonical), 3.0, go_on)
-        .unwrap()
-        .state;
-    let angles = method
-        .integrate(&AbsoluteAngles(&tree), &start, 3.0, go_on)
-        .unwrap()
-        .state;
-    for (own, other) in canonical.positions().iter().zip(angles.positions()) {
-        near(*own, *other, 1e-7);
+    let end = method.integrate(&system, &canonical, 10.0, go_on).unwrap();
+    let (theta, momenta) = end.state.values.split_at(links);
+    let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
+    tree.canonical_rates(0.0, theta, momenta, &mut omega, &mut rates);
+    let moved = State::new(0.0, [theta, &omega].concat());
+    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
+    let plain = Normalisation::Plain;
+    let mut coordinates = values.clone();
+    for (own, absolute) in coordinates.chunks_mut(links).zip(values.chunks(links)) {
+        tree.symmetric_from_absolute(plain, absolute, own);
     }
+    let system = SymmetricCoordinates(&tree);
+    let end = method.integrate(&system, &State::new(0.0, coordinates), 10.0, go_on);
+    let mut moved = State::new(0.0, values.clone());
+    let end = end.unwrap().state.values;
+    for (own, coordinates) in moved.values.chunks_mut(links).zip(end.chunks(links)) {
+        tree.absolute_from_symmetric(plain, coordinates, own);
+    }
+    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
     let lanes = vec![(AbsoluteAngles(&tree), start.clone()); 5];
     for moved in Ensemble::new().integrate_models_in_lanes(&method, &lanes, 10.0) {
         let state = moved.unwrap().state;

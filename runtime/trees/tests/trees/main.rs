@@ -5,6 +5,7 @@ mod costs;
 mod forms;
 mod magnitudes;
 mod mechanics;
+mod plain;
 mod prescribed;
 mod scales;
 mod series;
