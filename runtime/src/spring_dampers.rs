@@ -1,4 +1,4 @@
-//! Torsion springs and friction between links that are not parent and child.
+//! Spring-dampers: torsion springs and friction between links that are not parent and child.
 //!
 //! Each acts on the difference of two links' angles: φ = θ_a − θ_b. The torque on the first link
 //! is −κ (φ − ρ) − (c + C/s + q s) φ̇ with the speed s = √(φ̇² + ε²), and that on the second one

@@ -91,7 +91,7 @@ pub struct Description {
     /// `prescribed(...)`, each by itself.
     pub prescribed: Vec<PrescribedClause>,
     /// `between(...)` and `siblings(...)`, each by itself.
-    pub couplings: Vec<CouplingClause>,
+    pub spring_dampers: Vec<SpringDamperClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
     pub damaged: bool,
@@ -110,7 +110,7 @@ pub struct PrescribedClause {
 
 /// A spring and friction between links that are not parent and child.
 #[derive(Debug, Clone)]
-pub struct CouplingClause {
+pub struct SpringDamperClause {
     /// The word `between` or `siblings`.
     pub name: Ident,
     /// The links, or the node whose copies are meant.
@@ -171,7 +171,7 @@ impl Description {
         for part in self.drive.iter().flat_map(|drive| &drive.parts) {
             part.value.for_each_name(&mut visit_drive);
         }
-        for property in self.couplings.iter().flat_map(|own| &own.properties) {
+        for property in self.spring_dampers.iter().flat_map(|own| &own.properties) {
             property.value.for_each_name(&mut visit);
         }
         names

@@ -17,8 +17,9 @@ use super::misread::{lone_name, not_a_link, not_an_entry, shape_by_equals};
 use super::properties;
 use super::requests::{observable, request};
 use super::{
-    CouplingClause, CratePath, Description, DriveClause, Expression, LockedClause, Node,
-    ObservableClause, ParameterClause, PrescribedClause, Property, Reductions, Request, StructItem,
+    CratePath, Description, DriveClause, Expression, LockedClause, Node, ObservableClause,
+    ParameterClause, PrescribedClause, Property, Reductions, Request, SpringDamperClause,
+    StructItem,
 };
 use crate::report::{Diagnostic, Faults, SceneSetting, SyntaxMessage};
 
@@ -68,7 +69,7 @@ pub(super) fn parse_attribute(
         observables: Vec::new(),
         reductions: Reductions::default(),
         prescribed: Vec::new(),
-        couplings: Vec::new(),
+        spring_dampers: Vec::new(),
         damaged: entries.damaged,
     };
     gather(entries.members, &mut description, report);
@@ -123,7 +124,7 @@ fn gather(members: Vec<Member>, description: &mut Description, report: &mut Faul
             Member::InPhase(nodes) => description.reductions.in_phase.extend(nodes),
             Member::Locked(clause) => description.reductions.locked.push(clause),
             Member::Prescribed(clause) => description.prescribed.push(clause),
-            Member::Coupling(clause) => description.couplings.push(clause),
+            Member::SpringDamper(clause) => description.spring_dampers.push(clause),
             Member::Link(node) => description.roots.push(node),
         }
     }
@@ -149,7 +150,7 @@ enum Member {
     InPhase(Vec<Ident>),
     Locked(LockedClause),
     Prescribed(PrescribedClause),
-    Coupling(CouplingClause),
+    SpringDamper(SpringDamperClause),
     Link(Node),
 }
 
@@ -222,7 +223,7 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
         }));
     }
     if (name == "between" || name == "siblings") && declares(input) {
-        return coupling(name, input, report).map(Member::Coupling);
+        return spring_damper(name, input, report).map(Member::SpringDamper);
     }
     if name == "gravity" || name == "crate" {
         return Err(expected(input, "`=` and a value"));
@@ -234,11 +235,11 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
 }
 
 /// Links, then properties.
-fn coupling(
+fn spring_damper(
     name: Ident,
     input: ParseStream<'_>,
     report: &mut Faults,
-) -> Result<CouplingClause, ListFault> {
+) -> Result<SpringDamperClause, ListFault> {
     let parts = group(input, Delimiter::Parenthesis, "`(` and links")?;
     let (mut links, mut damaged) = (Vec::new(), false);
     let parts = list(parts, report, |input, report| {
@@ -256,7 +257,7 @@ fn coupling(
         damaged |= one.damaged;
         Ok(one.members)
     });
-    Ok(CouplingClause {
+    Ok(SpringDamperClause {
         name,
         damaged: damaged || parts.damaged,
         links,

@@ -44,7 +44,7 @@ impl Display for Description {
             let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
             writeln!(f, "prescribed({})", links.join(", "))?;
         }
-        for clause in &self.couplings {
+        for clause in &self.spring_dampers {
             let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
             write!(f, "{}({}", clause.name, links.join(", "))?;
             for property in &clause.properties {

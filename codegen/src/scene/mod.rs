@@ -14,7 +14,6 @@
 
 mod bodies;
 pub mod coordinates;
-mod couplings;
 mod drive;
 mod expand;
 mod layout;
@@ -41,6 +40,7 @@ mod sectors;
 mod shape_names;
 mod singular;
 mod small_sectors;
+mod spring_dampers;
 mod symbols;
 mod template;
 mod text;
@@ -50,7 +50,6 @@ mod unequal;
 mod values;
 
 pub use coordinates::{Coordinate, CoordinateKind};
-pub use couplings::{Coupling, CouplingEnds};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
 pub use magnitude::{Magnitudes, NEGLIGIBLE};
@@ -65,6 +64,7 @@ pub use rational_expression::RationalExpression;
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
+pub use spring_dampers::{DescribedSpringDamper, SpringDamperEnds};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
@@ -119,7 +119,7 @@ pub struct Scene {
     pub prescribed: Vec<PrescribedSet>,
     /// Springs and friction between links that are not parent and child; of trees that are
     /// computed at run time alone.
-    pub couplings: Vec<Coupling>,
+    pub spring_dampers: Vec<DescribedSpringDamper>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,

@@ -1,6 +1,5 @@
 //! Description to scene, on one page.
 
-use super::couplings::{resolve_couplings, torques_of_couplings};
 use super::drive::resolve_drive;
 use super::expand::{ExpandedTree, check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
@@ -11,6 +10,7 @@ use super::requests::{check_symmetry, resolve_requests};
 use super::rule::{Code, resolve_code};
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
+use super::spring_dampers::{resolve_spring_dampers, torques_of_spring_dampers};
 use super::symbols::check_meanings;
 use super::template::{Template, TreeBuilder, WholeRule};
 use super::values::{Usage, Values, check_used};
@@ -24,16 +24,19 @@ use proc_macro2::{Ident, Span};
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
-    for clause in &description.couplings {
+    for clause in &description.spring_dampers {
         let word = clause.name.to_string();
-        report.error(clause.name.span(), TreeMessage::CompiledCoupling { word });
+        report.error(
+            clause.name.span(),
+            TreeMessage::CompiledSpringDamper { word },
+        );
     }
-    resolve_with_couplings(description, report)
+    resolve_with_spring_dampers(description, report)
 }
 
 /// The same of a description with springs between any links, which code for one tree does not
 /// know.
-pub(super) fn resolve_with_couplings(
+pub(super) fn resolve_with_spring_dampers(
     description: &Description,
     report: &mut Faults,
 ) -> Option<Scene> {
@@ -47,7 +50,8 @@ pub(super) fn resolve_with_couplings(
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
-    let torques = torques_of_couplings(&description.couplings, &mut builder.values, report);
+    let torques =
+        torques_of_spring_dampers(&description.spring_dampers, &mut builder.values, report);
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     resolved.requests.forces |= !description.prescribed.is_empty();
@@ -92,13 +96,14 @@ pub(super) fn resolve_with_couplings(
         }
     }
     // Copies may have stood where the tree was unreadable.
-    let (mut prescribed, mut couplings) = (Vec::new(), Vec::new());
+    let (mut prescribed, mut spring_dampers) = (Vec::new(), Vec::new());
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
         let names = LinkNames::of(&expansion, layout);
         prescribed = resolve_prescribed(&description.prescribed, &names, report);
-        let (clauses, tree) = (&description.couplings, (&expansion, layout));
-        couplings = resolve_couplings(clauses, torques, tree, &description.reductions, report);
+        let (clauses, tree) = (&description.spring_dampers, (&expansion, layout));
+        spring_dampers =
+            resolve_spring_dampers(clauses, torques, tree, &description.reductions, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -114,7 +119,7 @@ pub(super) fn resolve_with_couplings(
         requests: resolved.requests,
         observables: Vec::new(),
         prescribed,
-        couplings,
+        spring_dampers,
         reduction,
         layout,
     };

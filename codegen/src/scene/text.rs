@@ -23,7 +23,7 @@ impl Display for Scene {
             requests,
             observables,
             prescribed,
-            couplings,
+            spring_dampers,
             reduction,
             layout,
         } = self;
@@ -97,9 +97,9 @@ impl Display for Scene {
         for set in prescribed {
             writeln!(f, "prescribed {}", set.members.join(", "))?;
         }
-        for coupling in couplings {
-            writeln!(f, "{}", coupling.what)?;
-            self.write_passive(&coupling.torques, f)?;
+        for spring_damper in spring_dampers {
+            writeln!(f, "{}", spring_damper.what)?;
+            self.write_passive(&spring_damper.torques, f)?;
         }
         writeln!(f, "requests {requests}")?;
         for Observable { name, value } in observables {

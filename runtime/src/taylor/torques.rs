@@ -55,7 +55,7 @@ impl<T: Scalar> TreeTorques<'_, T> {
                 oppose(links.parent(link), -torque);
             }
         }
-        for own in &tree.between {
+        for own in &tree.spring_dampers {
             let [a, b] = own.links;
             let mut angle = theta[a] - theta[b];
             if START {
@@ -92,11 +92,15 @@ impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
     fn moves(&self) -> bool {
         let SeriesTree {
             passive,
-            between,
+            spring_dampers,
             rough,
             ..
         } = self.tree;
-        let own = [passive.is_empty(), between.is_empty(), rough.is_empty()];
+        let own = [
+            passive.is_empty(),
+            spring_dampers.is_empty(),
+            rough.is_empty(),
+        ];
         own.contains(&false) || self.drive.is_some()
     }
 

@@ -48,7 +48,7 @@ pub struct SeriesTree<T> {
     /// Friction, drag, spring and rest of each link, if any has some.
     pub(super) passive: Vec<[T; 4]>,
     /// Springs and viscous friction between links that are not parent and child.
-    pub(super) between: Vec<SpringDamper<T>>,
+    pub(super) spring_dampers: Vec<SpringDamper<T>>,
     pub(super) rough: Vec<RoughFriction<T>>,
     /// What torques are multiplied by.
     pub(super) share: T,
@@ -145,7 +145,7 @@ impl<T: Scalar> SeriesTree<T> {
             weights: links.iter().map(|own| own.weight[0]).collect(),
             lateral_weights: links.iter().map(|own| own.weight[1]).collect(),
             passive: passive.collect(),
-            between: Vec::new(),
+            spring_dampers: Vec::new(),
             rough: rough.into_iter().filter(|law| is_of(law, count)).collect(),
             share,
         }
@@ -154,9 +154,9 @@ impl<T: Scalar> SeriesTree<T> {
     /// Returns the tree with springs and friction between links that are not parent and child, in
     /// the units of the links; those between links that there are not are left out.
     #[must_use]
-    pub fn with(mut self, between: Vec<SpringDamper<T>>) -> Self {
+    pub fn with_spring_dampers(mut self, spring_dampers: Vec<SpringDamper<T>>) -> Self {
         let count = self.inertias.len();
-        for own in between {
+        for own in spring_dampers {
             let [link, other] = own.links;
             if link.max(other) >= count {
                 continue;
@@ -169,7 +169,7 @@ impl<T: Scalar> SeriesTree<T> {
                 width,
             });
             self.rough.extend(law);
-            self.between.push(own);
+            self.spring_dampers.push(own);
         }
         self
     }
@@ -187,7 +187,11 @@ impl<T: Scalar> SeriesTree<T> {
             weights: numbers(&self.weights),
             lateral_weights: numbers(&self.lateral_weights),
             passive: self.passive.iter().map(|own| own.map(&convert)).collect(),
-            between: self.between.iter().map(|own| own.map(&convert)).collect(),
+            spring_dampers: self
+                .spring_dampers
+                .iter()
+                .map(|own| own.map(&convert))
+                .collect(),
             rough: rough.collect(),
             share: convert(self.share),
         }

@@ -85,8 +85,8 @@ impl<T: Scalar> SymmetricTree<T> {
             let joint = (coulomb / speed + quadratic * speed) * rate;
             brake(link, joint, drag * own_speed * own);
         }
-        if !self.between.is_empty() {
-            self.between.add_friction(omega, q);
+        if !self.spring_dampers.is_empty() {
+            self.spring_dampers.add_friction(omega, q);
         }
     }
 

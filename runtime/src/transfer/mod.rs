@@ -104,7 +104,7 @@ pub struct SymmetricTree<T> {
     mean: Option<MeanTree<T>>,
     bodies: Vec<RigidLink<T>>,
     passive: Passive<T>,
-    between: SpringDampers<T>,
+    spring_dampers: SpringDampers<T>,
     /// What springs between links add to the stiffness of each symmetric coordinate by itself;
     /// empty without any.
     stiffness: Vec<T>,
@@ -225,7 +225,7 @@ impl<T: Scalar> SymmetricTree<T> {
             mean,
             bodies: links.iter().map(|link| link.cast(rounded)).collect(),
             passive,
-            between: SpringDampers::default(),
+            spring_dampers: SpringDampers::default(),
             stiffness: Vec::new(),
         })
     }
@@ -236,18 +236,22 @@ impl<T: Scalar> SymmetricTree<T> {
     /// no energies by themselves then: all copies of a node under one link have to have the same
     /// spring between each two of them, at rest where they do not differ.
     #[must_use]
-    pub fn with(mut self, between: SpringDampers<Double>) -> Option<Self> {
-        if between.is_empty() {
+    pub fn with_spring_dampers(mut self, spring_dampers: SpringDampers<Double>) -> Option<Self> {
+        if spring_dampers.is_empty() {
             return Some(self);
         }
-        if between.links() != self.links() {
+        if spring_dampers.links() != self.links() {
             return None;
         }
-        self.stiffness = match between.list().iter().any(|own| own.spring.high() != 0.0) {
-            true => stiffness(&self.shape, &between)?,
+        self.stiffness = match spring_dampers
+            .list()
+            .iter()
+            .any(|own| own.spring.high() != 0.0)
+        {
+            true => stiffness(&self.shape, &spring_dampers)?,
             false => Vec::new(),
         };
-        self.between = between.cast(rounded);
+        self.spring_dampers = spring_dampers.cast(rounded);
         Some(self)
     }
 
@@ -272,7 +276,7 @@ impl<T: Scalar> SymmetricTree<T> {
             }),
             bodies: self.bodies.iter().map(|body| body.cast(&convert)).collect(),
             passive: self.passive.cast(&convert),
-            between: self.between.cast(&convert),
+            spring_dampers: self.spring_dampers.cast(&convert),
             stiffness: self.stiffness.iter().copied().map(&convert).collect(),
         }
     }

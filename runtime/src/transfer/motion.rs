@@ -171,7 +171,7 @@ impl<T: Scalar> SymmetricTree<T> {
             }
         }
         if !self.stiffness.is_empty() {
-            self.between.add_spring_slopes(motion.theta, slopes);
+            self.spring_dampers.add_spring_slopes(motion.theta, slopes);
         }
     }
 
@@ -225,7 +225,7 @@ impl<T: Scalar> SymmetricTree<T> {
         }
         match self.stiffness.is_empty() {
             true => energy,
-            false => energy + self.between.energy(motion.theta),
+            false => energy + self.spring_dampers.energy(motion.theta),
         }
     }
 }

@@ -150,10 +150,15 @@ fn balanced(weights: &[(usize, f64)]) -> Vec<(usize, f64)> {
 /// where copies differ.
 pub(super) fn stiffness<T: Scalar>(
     shape: &SymmetricShape,
-    between: &SpringDampers<Double>,
+    spring_dampers: &SpringDampers<Double>,
 ) -> Option<Vec<T>> {
     let zero = Double::from_f64(0.0);
-    let springs = || between.list().iter().filter(|own| own.spring != zero);
+    let springs = || {
+        spring_dampers
+            .list()
+            .iter()
+            .filter(|own| own.spring != zero)
+    };
     if springs().any(|own| own.rest != zero) {
         return None;
     }

@@ -10,16 +10,16 @@ use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
     /// Returns what acts between links that are not parent and child.
-    pub fn between(&self) -> &SpringDampers<T> {
-        self.equations.between()
+    pub fn spring_dampers(&self) -> &SpringDampers<T> {
+        self.equations.spring_dampers()
     }
 
     /// Returns the power (W) of friction and drag, never positive.
     #[must_use]
     pub fn friction_power(&self, omega: &[T]) -> T {
-        match self.between().is_empty() {
+        match self.spring_dampers().is_empty() {
             true => self.bodies.friction_power(omega),
-            false => self.bodies.friction_power(omega) + self.between().power(omega),
+            false => self.bodies.friction_power(omega) + self.spring_dampers().power(omega),
         }
     }
 
@@ -91,14 +91,14 @@ impl<T: Scalar> PendulumTree<T> {
             return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
         }
         let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
-        let (bodies, between) = (self.bodies.cast(lift), self.between().cast(lift));
+        let (bodies, spring_dampers) = (self.bodies.cast(lift), self.spring_dampers().cast(lift));
         let row = |link: usize| {
             let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
             if let Some(own) = point.get_mut(link) {
                 *own = Dual::variable(own.value, 0);
             }
             let slopes = gradient_of(self.links(), &point, |theta, workspace| {
-                potential_energy(&bodies, &between, workspace, theta)
+                potential_energy(&bodies, &spring_dampers, workspace, theta)
             });
             slopes.into_iter().map(|slope| slope.tangents[0]).collect()
         };
@@ -164,9 +164,9 @@ impl PendulumTree<f64> {
     /// The torques −∂U/∂θ on the links.
     fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
         let bodies = self.bodies.cast(Slopes::<f64>::constant);
-        let between = self.between().cast(Slopes::<f64>::constant);
+        let spring_dampers = self.spring_dampers().cast(Slopes::<f64>::constant);
         let slopes = gradient_of(self.links(), theta, |theta, workspace| {
-            potential_energy(&bodies, &between, workspace, theta)
+            potential_energy(&bodies, &spring_dampers, workspace, theta)
         });
         slopes.into_iter().map(|slope| -slope).collect()
     }
@@ -175,14 +175,14 @@ impl PendulumTree<f64> {
 /// Energy of gravity and of all springs.
 pub(crate) fn potential_energy<T: Scalar>(
     bodies: &FormBodies<T>,
-    between: &SpringDampers<T>,
+    spring_dampers: &SpringDampers<T>,
     workspace: &mut Workspace<T>,
     theta: &[T],
 ) -> T {
     let energy = bodies.potential_energy(workspace, theta);
-    match between.is_empty() {
+    match spring_dampers.is_empty() {
         true => energy,
-        false => energy + between.energy(theta),
+        false => energy + spring_dampers.energy(theta),
     }
 }
 

@@ -129,7 +129,7 @@ impl<T: Scalar> FormEquations<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Equations<T> {
     form: FormEquations<T>,
-    between: SpringDampers<T>,
+    spring_dampers: SpringDampers<T>,
 }
 
 impl<T: Scalar> Equations<T> {
@@ -138,22 +138,25 @@ impl<T: Scalar> Equations<T> {
         parents: &[u32],
         rows: Vec<T>,
         gravity: T,
-        between: SpringDampers<T>,
+        spring_dampers: SpringDampers<T>,
     ) -> Self {
         let form = FormEquations::new(form, parents, rows, gravity);
-        Self { form, between }
+        Self {
+            form,
+            spring_dampers,
+        }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         Equations {
             form: self.form.cast(&convert),
-            between: self.between.cast(convert),
+            spring_dampers: self.spring_dampers.cast(convert),
         }
     }
 
     /// What acts between links.
-    pub(crate) fn between(&self) -> &SpringDampers<T> {
-        &self.between
+    pub(crate) fn spring_dampers(&self) -> &SpringDampers<T> {
+        &self.spring_dampers
     }
 
     /// Returns what acts, with the torques between links among those from outside; they stand in
@@ -165,7 +168,7 @@ impl<T: Scalar> Equations<T> {
         given: [&[T]; 2],
         numbers: &'a mut Vec<T>,
     ) -> Acting<'a, T> {
-        if self.between.is_empty() {
+        if self.spring_dampers.is_empty() {
             return acting;
         }
         numbers.resize(given[0].len(), T::from_f64(0.0));
@@ -185,7 +188,7 @@ impl<T: Scalar> Equations<T> {
             Some(outside) => torques.copy_from_slice(outside),
             None => torques.fill(T::from_f64(0.0)),
         }
-        self.between.add_torques(given, torques);
+        self.spring_dampers.add_torques(given, torques);
     }
 
     /// Writes the accelerations at angles and angular velocities.
@@ -197,7 +200,7 @@ impl<T: Scalar> Equations<T> {
         given: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        let (acting, workspace) = match self.between.is_empty() {
+        let (acting, workspace) = match self.spring_dampers.is_empty() {
             true => (acting, workspace),
             false => {
                 let (torques, inner) = workspace.with_inner(given[0].len());
@@ -219,7 +222,7 @@ impl<T: Scalar> Equations<T> {
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     ) {
-        match self.between.is_empty() {
+        match self.spring_dampers.is_empty() {
             true => self.form.evaluate(drive, theta, omega, alpha),
             false => self.evaluate_coupled(drive, theta, omega, alpha),
         }
@@ -245,7 +248,7 @@ impl<T: Scalar> Equations<T> {
         drive: Option<RootDrive<T>>,
         room: &mut [T],
     ) -> impl InRegisters<R> {
-        match self.between.is_empty() {
+        match self.spring_dampers.is_empty() {
             true => OneOf::First(self.form.in_registers(drive, room)),
             false => OneOf::Second(CoupledAtOneTime {
                 equations: self.cast(R::splat),
@@ -263,7 +266,7 @@ impl<T: Scalar> Equations<T> {
         omega: impl Fn(usize) -> T,
         mut alpha: impl FnMut(usize, T),
     ) {
-        let links = self.between.links();
+        let links = self.spring_dampers.links();
         let theta: Vec<T> = (0..links).map(theta).collect();
         let omega: Vec<T> = (0..links).map(omega).collect();
         let mut results = vec![T::from_f64(f64::NAN); links];

@@ -11,8 +11,8 @@ use branched_pendulum::emitted::{
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum_codegen::scene::{
-    CouplingEnds, FrictionPlace, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, OrbitId,
-    PassiveTorques, Quantity, QuantityAtom, RationalExpression, Scene, Sign,
+    FrictionPlace, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, OrbitId, PassiveTorques,
+    Quantity, QuantityAtom, RationalExpression, Scene, Sign, SpringDamperEnds,
 };
 
 use crate::error::TreeError;
@@ -221,12 +221,14 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
 
 /// Springs and friction between the links of a scene that are not parent and child, two links
 /// each, in numbers that are taken as they are.
-pub(crate) fn couplings<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<SpringDamper<S>> {
+pub(crate) fn spring_dampers<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<SpringDamper<S>> {
     let mut found = Vec::new();
-    for coupling in &scene.couplings {
-        let passive = coupling.torques.map(|quantity| value(quantity, parameters));
+    for spring_damper in &scene.spring_dampers {
+        let passive = spring_damper
+            .torques
+            .map(|quantity| value(quantity, parameters));
         let law = passive.law(FrictionPlace::Joint);
-        let is_viscous = coupling.torques.is_viscous();
+        let is_viscous = spring_damper.torques.is_viscous();
         let between = |links: [usize; 2]| SpringDamper {
             links,
             spring: passive.spring,
@@ -234,9 +236,9 @@ pub(crate) fn couplings<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<Sprin
             friction: passive.friction,
             law: (!is_viscous).then_some([law.coulomb, law.quadratic, law.width]),
         };
-        match &coupling.ends {
-            CouplingEnds::Links(links) => found.push(between(links.map(|LinkId(link)| link))),
-            CouplingEnds::Siblings(node) => {
+        match &spring_damper.ends {
+            SpringDamperEnds::Links(links) => found.push(between(links.map(|LinkId(link)| link))),
+            SpringDamperEnds::Siblings(node) => {
                 found.extend(siblings(scene, node).into_iter().map(between));
             }
         }

@@ -13,7 +13,7 @@ use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 use crate::rows::{self, Form};
-use crate::tree::{PendulumTree, between};
+use crate::tree::{PendulumTree, spring_dampers};
 
 /// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
 /// (rad), followed by the angular velocities (rad/s).
@@ -136,7 +136,7 @@ impl TreeDescription {
         let scene = &*self.scene;
         let passive = || {
             let links = scene.links.iter().map(|link| &link.passive);
-            links.chain(scene.couplings.iter().map(|own| &own.torques))
+            links.chain(scene.spring_dampers.iter().map(|own| &own.torques))
         };
         let is_in = |quantity: &Quantity| {
             let own = QuantityAtom::Parameter(ParameterId(place));
@@ -221,10 +221,10 @@ impl TreeDescription {
         let (parents, carries) = rows::parents(&links);
         let rows = form.rows(&links, &carries);
         let above = -numbers::value(&scene.gravity, values);
-        let between = between(scene, links.len(), values);
+        let spring_dampers = spring_dampers(scene, links.len(), values);
         EquationsOfMotion {
             links: links.len(),
-            equations: Equations::new(form, &parents, rows, above, between),
+            equations: Equations::new(form, &parents, rows, above, spring_dampers),
             drive: Courses::of(scene, &|quantity| numbers::value(quantity, values)),
         }
     }

@@ -6,7 +6,7 @@ use branched_pendulum::ScaleBudget;
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Model, Workspace};
 use branched_pendulum::tree::ScaleTree;
-use branched_pendulum_codegen::scene::{Coupling, CouplingEnds, Scene};
+use branched_pendulum_codegen::scene::{DescribedSpringDamper, Scene, SpringDamperEnds};
 
 use crate::equations::ByRuleEquations;
 use crate::numbers::LinkNumbers;
@@ -33,10 +33,10 @@ impl<T: Scalar> ByRule<T> {
         carries: &[bool],
         gravity: Double,
     ) -> Option<Self> {
-        let is_of_siblings = |own: &Coupling| {
-            matches!(own.ends, CouplingEnds::Siblings(_)) || own.torques.spring.is_zero()
+        let is_of_siblings = |own: &DescribedSpringDamper| {
+            matches!(own.ends, SpringDamperEnds::Siblings(_)) || own.torques.spring.is_zero()
         };
-        if !scene.couplings.iter().all(is_of_siblings) {
+        if !scene.spring_dampers.iter().all(is_of_siblings) {
             return None;
         }
         let mut children = vec![Vec::new(); links.len()];
@@ -196,7 +196,7 @@ impl<T: Scalar> PendulumTree<T> {
 
     /// Adds the energies of springs between siblings.
     fn add_spring_energies(&self, rule: &ByRule<T>, theta: &[T], budget: &mut ScaleBudget<T>) {
-        for ([link, _], energy) in self.between().energies(theta) {
+        for ([link, _], energy) in self.spring_dampers().energies(theta) {
             if let Some(&scale) = rule.depths.get(link) {
                 budget.add_energy(scale, energy);
             }
@@ -216,7 +216,7 @@ impl<T: Scalar> PendulumTree<T> {
             *budget = ScaleBudget::new();
             return;
         };
-        let (links, between) = (self.links(), self.between());
+        let (links, spring_dampers) = (self.links(), self.spring_dampers());
         let (numbers, workspace) = workspace.with_inner(6 * links);
         let mut numbers = numbers.chunks_exact_mut(links);
         let mut column = || numbers.next().unwrap_or_default();
@@ -224,13 +224,13 @@ impl<T: Scalar> PendulumTree<T> {
         let rates = rule.ordered(omega, column());
         let on_links = rule.ordered(torques, column());
         let mut acting = [[].as_slice(); 2];
-        if !between.is_empty() {
+        if !spring_dampers.is_empty() {
             let all = column();
             all.fill(T::from_f64(0.0));
-            between.add_spring_slopes(theta, all);
+            spring_dampers.add_spring_slopes(theta, all);
             let slopes = rule.ordered(all, column());
             all.fill(T::from_f64(0.0));
-            between.add_friction(omega, all);
+            spring_dampers.add_friction(omega, all);
             acting = [slopes, rule.ordered(all, column())];
         }
         // Nothing has so many links as torques of another number.

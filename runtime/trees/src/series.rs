@@ -15,7 +15,7 @@ use crate::tree::{PendulumTree, constant};
 /// Weights are at gravity, or where there is a drive at a gravity of one.
 pub(crate) fn series_of<T: Scalar>(
     links: &[LinkNumbers],
-    between: &SpringDampers<Double>,
+    spring_dampers: &SpringDampers<Double>,
     gravity: Double,
     is_driven: bool,
 ) -> SeriesTree<T> {
@@ -79,8 +79,12 @@ pub(crate) fn series_of<T: Scalar>(
             .law
             .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
     };
-    let between = between.list().iter().map(|own| units(own).map(constant));
-    SeriesTree::new(&constants, laws.collect(), constant(unit), form).with(between.collect())
+    let spring_dampers = spring_dampers
+        .list()
+        .iter()
+        .map(|own| units(own).map(constant));
+    SeriesTree::new(&constants, laws.collect(), constant(unit), form)
+        .with_spring_dampers(spring_dampers.collect())
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {

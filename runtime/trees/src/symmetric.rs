@@ -12,7 +12,7 @@ use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit,
 use crate::description::TreeDescription;
 use crate::error::TreeError;
 use crate::numbers::{self, LinkNumbers, Place};
-use crate::tree::{PendulumTree, between};
+use crate::tree::{PendulumTree, spring_dampers};
 
 /// What copies make of a tree, whatever its constants.
 #[derive(Debug)]
@@ -140,8 +140,10 @@ pub(crate) fn unchecked<T: Scalar>(
     } = symmetry;
     let tree = SymmetricTree::with_unequal_copies(&links, gravity, sectors, unequal);
     let tree = tree.ok_or(TreeError::NoCopies)?;
-    let between = between(scene, links.len(), &parameters);
-    let tree = tree.with(between).ok_or(TreeError::CoupledSectors)?;
+    let spring_dampers = spring_dampers(scene, links.len(), &parameters);
+    let tree = tree
+        .with_spring_dampers(spring_dampers)
+        .ok_or(TreeError::CoupledSectors)?;
     Ok(tree.standing(scene.stands()))
 }
 

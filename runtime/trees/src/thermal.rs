@@ -25,11 +25,13 @@ impl PendulumTree<f64> {
         let mut scene = self.description().scene.as_ref().clone();
         scene.drive = None;
         let links = scene.links.iter_mut().map(|link| &mut link.passive);
-        let couplings = scene.couplings.iter_mut().map(|own| &mut own.torques);
-        for passive in links.chain(couplings) {
+        let spring_dampers = scene.spring_dampers.iter_mut().map(|own| &mut own.torques);
+        for passive in links.chain(spring_dampers) {
             *passive = passive.frictionless();
         }
-        scene.couplings.retain(|own| !own.torques.spring.is_zero());
+        scene
+            .spring_dampers
+            .retain(|own| !own.torques.spring.is_zero());
         let scene = Arc::new(scene);
         Self::of(TreeDescription { scene }, self.described.values().to_vec())
     }

@@ -154,15 +154,15 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(links, drive.is_some());
         let rows = in_numbers(&form.rows(links, &carries));
         let rule = ByRule::of(scene, links, &carries, gravity);
-        let between = between(scene, links.len(), &parameters);
-        let series = series_of(links, &between, gravity, drive.is_some());
+        let spring_dampers = spring_dampers(scene, links.len(), &parameters);
+        let series = series_of(links, &spring_dampers, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let pairs = between.list().iter();
+        let pairs = spring_dampers.list().iter();
         let pairs: Vec<_> = pairs.map(|own| (own.links, own.law.is_some())).collect();
-        let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
+        let equations = Equations::new(form, &parents, rows, above, spring_dampers.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
         let held_sets: Vec<Vec<usize>> = scene
@@ -278,13 +278,13 @@ impl<T: Scalar> PendulumTree<T> {
 }
 
 /// Springs and friction between the links of a scene.
-pub(crate) fn between<S: Scalar>(
+pub(crate) fn spring_dampers<S: Scalar>(
     scene: &Scene,
     links: usize,
     parameters: &[S],
 ) -> SpringDampers<S> {
     // A scene names links that it has.
-    SpringDampers::new(links, numbers::couplings(scene, parameters)).unwrap_or_default()
+    SpringDampers::new(links, numbers::spring_dampers(scene, parameters)).unwrap_or_default()
 }
 
 /// A constant in the numbers of a tree.

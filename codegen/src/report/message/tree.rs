@@ -178,7 +178,7 @@ messages! {
         "write the links whose motion is handed over, as in `prescribed(arm)`",
     ),
     /// A spring or friction between links in code for one tree.
-    CompiledCoupling { word: String } => (
+    CompiledSpringDamper { word: String } => (
         format!("compiled models have no `{word}(...)`"),
         "for trees at run time",
         "read the description while the program runs, by `branched_pendulum_trees::PendulumTree` \
@@ -186,7 +186,7 @@ messages! {
          `UnderTorques`: `docs/limits.md`",
     ),
     /// A spring or friction between links beside copies in phase.
-    CouplingInPhase { what: String } => (
+    SpringDamperInPhase { what: String } => (
         format!("`{what}` beside `in_phase(...)`"),
         "a link in phase stands for several",
         "leave `in_phase(...)` out: copies that start in phase stay so",
@@ -215,8 +215,8 @@ messages! {
         "no siblings",
         "write copies as in `child(...) * 2`, or `between(a, b, ...)` for links of other names",
     ),
-    /// A coupling without spring and friction.
-    IdleCoupling { what: String } => (
+    /// A spring-damper with neither spring nor friction.
+    IdleSpringDamper { what: String } => (
         format!("`{what}` has neither spring nor friction"),
         "nothing acts",
         "write `spring = ...` in N m or `friction = ...` in N m s behind the links",

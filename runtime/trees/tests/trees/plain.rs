@@ -55,7 +55,7 @@ pub(super) struct PlainTree {
     /// Mass, centre of mass, inertia and pivot on the parent.
     bodies: Vec<[f64; 4]>,
     /// The two links, κ, ρ, c, C, q and ε.
-    couplings: Vec<([usize; 2], [f64; 6])>,
+    spring_dampers: Vec<([usize; 2], [f64; 6])>,
 }
 
 impl PlainTree {
@@ -69,7 +69,7 @@ impl PlainTree {
             ranges.map(|(low, high)| numbers.between(low, high))
         };
         let bodies = (0..links).map(|_| body(numbers)).collect();
-        let coupling = |numbers: &mut Numbers| {
+        let spring_damper = |numbers: &mut Numbers| {
             let first = numbers.below(links);
             let second = (first + 1 + numbers.below(links - 1)) % links;
             let ranges = [
@@ -83,13 +83,13 @@ impl PlainTree {
             let own = ranges.map(|(low, high)| numbers.between(low, high));
             ([first, second], own)
         };
-        let couplings = (0..1 + numbers.below(4))
-            .map(|_| coupling(numbers))
+        let spring_dampers = (0..1 + numbers.below(4))
+            .map(|_| spring_damper(numbers))
             .collect();
         Self {
             parents,
             bodies,
-            couplings,
+            spring_dampers,
         }
     }
 
@@ -111,15 +111,18 @@ impl PlainTree {
                 false => format!("{} [{}]", link(own), children.join(", ")),
             }
         }
-        let couplings = self.couplings.iter().map(|([a, b], own)| {
+        let spring_dampers = self.spring_dampers.iter().map(|([a, b], own)| {
             let [spring, rest, friction, coulomb, quadratic, width] = own;
             format!(
                 ", between(l{a}, l{b}, spring = {spring}, rest = {rest}, friction(viscous = \
                  {friction}, coulomb = {coulomb}, quadratic = {quadratic}, width = {width}))"
             )
         });
-        let couplings: String = couplings.collect();
-        format!("gravity = 9.81, {}{couplings}", written(self, 0, &link))
+        let spring_dampers: String = spring_dampers.collect();
+        format!(
+            "gravity = 9.81, {}{spring_dampers}",
+            written(self, 0, &link)
+        )
     }
 
     pub(super) fn accelerations(&self, theta: &[f64], omega: &[f64]) -> Vec<f64> {
@@ -167,7 +170,7 @@ impl PlainTree {
                 right[j] += entry * apart.sin() * omega[i] * omega[i];
             }
         }
-        for ([a, b], [spring, rest, friction, coulomb, quadratic, width]) in &self.couplings {
+        for ([a, b], [spring, rest, friction, coulomb, quadratic, width]) in &self.spring_dampers {
             let (apart, rate) = (theta[*a] - theta[*b], omega[*a] - omega[*b]);
             let speed = rate.hypot(*width);
             let braking = (friction + coulomb / speed + quadratic * speed) * rate;

@@ -242,7 +242,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
     )] struct Pendulum;",
     ),
     (
-        "couplings",
+        "spring_dampers",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
     between(b_1, b_2, spring = 1), between(a, a, friction = 1), between(a, c, spring = 1), between(a, b_1),
@@ -252,7 +252,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
     )] struct Pendulum;",
     ),
     (
-        "couplings_in_phase",
+        "spring_dampers_in_phase",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
     siblings(b, spring = 1), in_phase(b))] struct Pendulum;",

@@ -23,7 +23,7 @@ const KOLMOGOROV: f64 = 2.0 / 3.0;
 
 /// A scale of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Row {
+struct ScaleOfRun {
     /// Number of the scale.
     scale: usize,
     /// Length of a link, m.
@@ -40,9 +40,9 @@ struct Row {
 
 /// A finished run.
 #[derive(Clone, Debug, PartialEq)]
-struct Spectrum {
+struct FinishedRun {
     name: String,
-    rows: Vec<Row>,
+    rows: Vec<ScaleOfRun>,
 }
 
 /// Draws the runs in these folders beside each other, and says where their fluxes are constant
@@ -52,8 +52,8 @@ struct Spectrum {
 /// [`Failure::Reading`] of a folder without a table `scales.csv` of this program,
 /// [`Failure::Lacking`] of a run none of whose differences has an average.
 pub fn run(folders: &[PathBuf], job: &Job) -> Result<(), Failure> {
-    let spectra = folders.iter().map(|folder| Spectrum::read(folder));
-    let spectra = spectra.collect::<Result<Vec<Spectrum>, Failure>>()?;
+    let spectra = folders.iter().map(|folder| FinishedRun::read(folder));
+    let spectra = spectra.collect::<Result<Vec<FinishedRun>, Failure>>()?;
     if let Some(short) = spectra.iter().find(|own| own.differences().is_empty()) {
         return Err(Failure::Lacking {
             what: format!(
@@ -70,7 +70,7 @@ pub fn run(folders: &[PathBuf], job: &Job) -> Result<(), Failure> {
     Ok(())
 }
 
-impl Spectrum {
+impl FinishedRun {
     fn read(folder: &Path) -> Result<Self, Failure> {
         let table = Table::read(folder.join("scales.csv"), &TableOptions::default())?;
         let column = |name: &str| -> Result<Vec<Option<f64>>, Failure> {
@@ -87,7 +87,7 @@ impl Spectrum {
         };
         let row = |place: usize| {
             let at = |list: &[Option<f64>]| list.get(place).copied().flatten();
-            Some(Row {
+            Some(ScaleOfRun {
                 scale: at(&scale)? as usize,
                 length: at(&length)?,
                 mass: at(&mass)?,
@@ -113,15 +113,15 @@ impl Spectrum {
     }
 
     /// The differences, from scale 1 on.
-    fn differences(&self) -> &[Row] {
+    fn differences(&self) -> &[ScaleOfRun] {
         let means = self.rows.iter().take_while(|row| row.scale == 0).count();
         self.rows.get(means..).unwrap_or_default()
     }
 
     /// The longest stretch of differences, one after the other, whose fluxes lie within five per cent of each other.
-    fn inner(&self) -> &[Row] {
+    fn inner(&self) -> &[ScaleOfRun] {
         let rows = self.differences();
-        let mut longest: &[Row] = &[];
+        let mut longest: &[ScaleOfRun] = &[];
         for first in 0..rows.len() {
             for end in first + 1..=rows.len() {
                 let own = &rows[first..end];
@@ -142,7 +142,7 @@ impl Spectrum {
     }
 }
 
-impl Row {
+impl ScaleOfRun {
     /// Π ℓ_s, W m.
     fn pushed(&self) -> f64 {
         self.flux * self.length
@@ -156,7 +156,7 @@ impl Row {
 
 /// The exponent a of E_s/M_s^{1/3} ∝ (Π ℓ_s)^a by weighted least squares, with an error bar that
 /// grows with the misfit; none of fewer than three scales, and without error bars.
-fn exponent(rows: &[Row]) -> Option<Estimate> {
+fn exponent(rows: &[ScaleOfRun]) -> Option<Estimate> {
     let measured = rows.iter().all(|row| row.energy.error > 0.0);
     if rows.len() < 3 || !measured {
         return None;
@@ -183,7 +183,7 @@ fn exponent(rows: &[Row]) -> Option<Estimate> {
     })
 }
 
-fn report(spectra: &[Spectrum]) -> String {
+fn report(spectra: &[FinishedRun]) -> String {
     let mut text = format!(
         "| run | flux constant within {:.0} % over scales | flux there and below, parts of the input | \
          exponent of Π ℓ | E_s/E_s in equilibrium there |\n|---|---|---|---|---|\n",
@@ -196,7 +196,7 @@ fn report(spectra: &[Spectrum]) -> String {
             _ => "none".to_owned(),
         };
         let input = spectrum.input();
-        let listed = |value: &dyn Fn(&Row) -> Option<f64>| {
+        let listed = |value: &dyn Fn(&ScaleOfRun) -> Option<f64>| {
             let values = inner.iter().filter_map(value);
             let values: Vec<String> = values.map(|value| format!("{value:.3}")).collect();
             values.join(", ")
@@ -217,23 +217,24 @@ fn report(spectra: &[Spectrum]) -> String {
     text
 }
 
-fn chart(spectra: &[Spectrum]) -> Chart {
+fn chart(spectra: &[FinishedRun]) -> Chart {
     let mut compensated = Panel::new(Axis::log("E / E by the two-thirds law"));
     let mut flux = Panel::new(Axis::linear("flux into the scale / input").range(0.0, 1.1));
     let most = spectra.iter().map(|own| own.rows.len()).max().unwrap_or(1);
     let mut beside = Panel::new(Axis::log("E / E in equilibrium"));
     beside = beside.line("equilibrium", &[0.0, most as f64 - 1.0], &[1.0; 2]);
     for spectrum in spectra {
-        let line = |panel: Panel, rows: &[Row], value: &dyn Fn(&Row) -> Option<f64>| {
-            let points = rows
-                .iter()
-                .filter_map(|row| Some((row.scale as f64, value(row)?)));
-            let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
-            match x.is_empty() {
-                true => panel,
-                false => panel.series(Series::line(&spectrum.name, &x, &y).with_symbols()),
-            }
-        };
+        let line =
+            |panel: Panel, rows: &[ScaleOfRun], value: &dyn Fn(&ScaleOfRun) -> Option<f64>| {
+                let points = rows
+                    .iter()
+                    .filter_map(|row| Some((row.scale as f64, value(row)?)));
+                let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
+                match x.is_empty() {
+                    true => panel,
+                    false => panel.series(Series::line(&spectrum.name, &x, &y).with_symbols()),
+                }
+            };
         let input = spectrum.input();
         let differences = spectrum.differences();
         compensated = line(compensated, differences, &|row| Some(row.compensated()));
@@ -254,11 +255,11 @@ fn chart(spectra: &[Spectrum]) -> Chart {
 
 #[cfg(test)]
 mod tests {
-    use super::{Row, Spectrum, exponent};
+    use super::{FinishedRun, ScaleOfRun, exponent};
     use branched_pendulum::analysis::statistics::Estimate;
 
-    fn row(scale: usize, energy: f64, flux: f64) -> Row {
-        Row {
+    fn row(scale: usize, energy: f64, flux: f64) -> ScaleOfRun {
+        ScaleOfRun {
             scale,
             length: 0.7_f64.powi(scale as i32),
             mass: 0.1 * 0.8_f64.powi(scale as i32),
@@ -278,7 +279,7 @@ mod tests {
             let energy = 3.0 * own.mass.cbrt() * own.pushed().powf(2.0 / 3.0);
             row(scale, energy, 0.2)
         });
-        let rows: Vec<Row> = rows.collect();
+        let rows: Vec<ScaleOfRun> = rows.collect();
         for own in &rows {
             assert!((own.compensated() - 3.0).abs() < 1e-12);
         }
@@ -293,7 +294,7 @@ mod tests {
         let rows = fluxes.iter().enumerate();
         let rows = rows.map(|(scale, flux)| row(scale, 1.0, *flux)).collect();
         let name = String::new();
-        let spectrum = Spectrum { name, rows };
+        let spectrum = FinishedRun { name, rows };
         let inner: Vec<usize> = spectrum.inner().iter().map(|row| row.scale).collect();
         assert_eq!(inner, [1, 2, 3]);
         // A scale that has no average ends a stretch.

@@ -1,4 +1,4 @@
-//! Springs and friction between links that are not parent and child.
+//! Spring-dampers: torsion springs and friction between links that are not parent and child.
 
 use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
@@ -8,24 +8,24 @@ use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
 use super::{LinkId, Quantity};
-use crate::description::{CouplingClause, Property, Reductions, Value};
+use crate::description::{Property, Reductions, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torsion spring and friction between two links, or between all copies of a node under one
 /// link, on the difference of their angles.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Coupling {
+pub struct DescribedSpringDamper {
     /// The clause in words, as in `between(a, b)`.
     pub what: String,
     /// The links.
-    pub ends: CouplingEnds,
+    pub ends: SpringDamperEnds,
     /// Spring and friction; there is no drag.
     pub torques: PassiveTorques,
 }
 
-/// The links of a coupling.
+/// The links of a spring-damper.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum CouplingEnds {
+pub enum SpringDamperEnds {
     /// Two links; where the code is loops over generations, by their index in the whole tree.
     Links([LinkId; 2]),
     /// All copies of the node of that name under one link, two by two.
@@ -36,7 +36,7 @@ pub enum CouplingEnds {
 const BETWEEN: &str = "between";
 pub(super) const SIBLINGS: &str = "siblings";
 
-/// Properties of a coupling.
+/// Properties of a spring-damper.
 fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
     // Copies do not differ where they are at rest.
     let rests = word == BETWEEN;
@@ -47,18 +47,18 @@ fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
 }
 
 /// The clause in words.
-fn in_words(clause: &CouplingClause) -> String {
+fn in_words(clause: &SpringDamperClause) -> String {
     let links: Vec<String> = clause.links.iter().map(ToString::to_string).collect();
     format!("{}({})", clause.name, links.join(", "))
 }
 
 /// Reads the springs and the friction of all clauses; what is wrong goes to `report`.
-pub(super) fn torques_of_couplings(
-    clauses: &[CouplingClause],
+pub(super) fn torques_of_spring_dampers(
+    clauses: &[SpringDamperClause],
     values: &mut Values,
     report: &mut Faults,
 ) -> Vec<PassiveTorques> {
-    let mut own = |clause: &CouplingClause| {
+    let mut own = |clause: &SpringDamperClause| {
         let (word, what) = (clause.name.to_string(), in_words(clause));
         if !clause.damaged {
             check_idle(&clause.properties, &what, report);
@@ -88,7 +88,7 @@ pub(super) fn torques_of_couplings(
             seen.push(name);
         }
         if clause.properties.is_empty() && !clause.damaged {
-            report.error(clause.name.span(), TreeMessage::IdleCoupling { what });
+            report.error(clause.name.span(), TreeMessage::IdleSpringDamper { what });
         }
         PassiveTorques::of(&given)
     };
@@ -107,18 +107,21 @@ fn unknown(word: &str, property: &Property) -> TreeMessage {
 }
 
 /// Finds the links of all clauses, whose torques are these; what is wrong goes to `report`.
-pub(super) fn resolve_couplings(
-    clauses: &[CouplingClause],
+pub(super) fn resolve_spring_dampers(
+    clauses: &[SpringDamperClause],
     torques: Vec<PassiveTorques<Quantity>>,
     (expansion, layout): (&ExpandedTree, Layout),
     reductions: &Reductions,
     report: &mut Faults,
-) -> Vec<Coupling> {
-    let mut couplings = Vec::new();
+) -> Vec<DescribedSpringDamper> {
+    let mut spring_dampers = Vec::new();
     for (clause, torques) in clauses.iter().zip(torques) {
         let what = in_words(clause);
         if !reductions.in_phase.is_empty() {
-            report.error(clause.name.span(), TreeMessage::CouplingInPhase { what });
+            report.error(
+                clause.name.span(),
+                TreeMessage::SpringDamperInPhase { what },
+            );
             continue;
         }
         if clause.name == SIBLINGS && !reductions.locked.is_empty() {
@@ -130,22 +133,22 @@ pub(super) fn resolve_couplings(
             false => two_links(clause, expansion, layout, report),
         };
         if let Some(ends) = ends {
-            couplings.push(Coupling {
+            spring_dampers.push(DescribedSpringDamper {
                 what,
                 ends,
                 torques,
             });
         }
     }
-    couplings
+    spring_dampers
 }
 
 fn two_links(
-    clause: &CouplingClause,
+    clause: &SpringDamperClause,
     expansion: &ExpandedTree,
     layout: Layout,
     report: &mut Faults,
-) -> Option<CouplingEnds> {
+) -> Option<SpringDamperEnds> {
     let names = LinkNames::of(expansion, layout);
     let found = clause
         .links
@@ -153,7 +156,7 @@ fn two_links(
         .filter_map(|link| names.find(link, report));
     let found: Vec<LinkId> = found.collect();
     match (clause.links.as_slice(), found.as_slice()) {
-        ([_, _], [a, b]) if a != b => Some(CouplingEnds::Links([*a, *b])),
+        ([_, _], [a, b]) if a != b => Some(SpringDamperEnds::Links([*a, *b])),
         // A name that no link has is reported.
         ([_, _], [] | [_]) => None,
         _ if clause.damaged => None,
@@ -165,11 +168,11 @@ fn two_links(
 }
 
 fn siblings(
-    clause: &CouplingClause,
+    clause: &SpringDamperClause,
     expansion: &ExpandedTree,
     layout: Layout,
     report: &mut Faults,
-) -> Option<CouplingEnds> {
+) -> Option<SpringDamperEnds> {
     let [node] = clause.links.as_slice() else {
         if !clause.damaged {
             report.error(clause.name.span(), TreeMessage::NotOneNode);
@@ -203,5 +206,5 @@ fn siblings(
         report.error(node.span(), TreeMessage::NoSiblings { name });
         return None;
     }
-    Some(CouplingEnds::Siblings(name))
+    Some(SpringDamperEnds::Siblings(name))
 }
