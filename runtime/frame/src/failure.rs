@@ -245,9 +245,7 @@ mod tests {
     use branched_pendulum_advice::AdviceError;
     use branched_pendulum_charts::ChartError;
     use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
-    use std::error::Error;
-    use std::io;
-    use std::path::PathBuf;
+    use std::{error::Error, io, path::PathBuf};
 
     fn refused() -> io::Error {
         io::Error::from(io::ErrorKind::PermissionDenied)
