@@ -11,7 +11,7 @@ use crate::report::{Faults, OutputMessage, TreeMessage, nearest};
 /// Names of the links of a tree, by which clauses call them.
 pub(super) struct LinkNames<'a> {
     names: Vec<&'a str>,
-    layout: Layout,
+    pub(super) layout: Layout,
 }
 
 impl<'a> LinkNames<'a> {

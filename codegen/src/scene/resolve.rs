@@ -18,6 +18,7 @@ use super::{Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::{Ident, Span};
+use std::collections::BTreeMap;
 
 /// Checks a description and writes it out link by link.
 ///
@@ -89,21 +90,14 @@ pub(super) fn resolve_with_spring_dampers(
         return None;
     }
     let owners = check_names(&expansion, &templates, report);
-    for (parameter, span) in values.parameters.iter().zip(&values.spans) {
-        if owners.contains_key(&parameter.name) {
-            let name = parameter.name.clone();
-            report.error(*span, TreeMessage::DuplicateName { name });
-        }
-    }
+    check_parameter_names(&values, &owners, report);
     // Copies may have stood where the tree was unreadable.
     let (mut prescribed, mut spring_dampers) = (Vec::new(), Vec::new());
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
         let names = LinkNames::of(&expansion, layout);
         prescribed = resolve_prescribed(&description.prescribed, &names, report);
-        let (clauses, tree) = (&description.spring_dampers, (&expansion, layout));
-        spring_dampers =
-            resolve_spring_dampers(clauses, torques, tree, &description.reductions, report);
+        spring_dampers = resolve_spring_dampers(description, torques, &expansion, &names, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -167,6 +161,16 @@ fn lay_out(
     let links = expansion.links.len();
     let layout = by_rule.unwrap_or_else(|| layout::of_links(code, links, templates, asked, report));
     Some((expansion, layout))
+}
+
+/// Reports parameters whose names are those of links.
+fn check_parameter_names(values: &Values, owners: &BTreeMap<String, usize>, report: &mut Faults) {
+    for (parameter, span) in values.parameters.iter().zip(&values.spans) {
+        if owners.contains_key(&parameter.name) {
+            let name = parameter.name.clone();
+            report.error(*span, TreeMessage::DuplicateName { name });
+        }
+    }
 }
 
 /// Resolves the requests about small differences, which only copies have.

@@ -8,7 +8,7 @@ use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
 use super::{LinkId, Quantity};
-use crate::description::{Property, Reductions, SpringDamperClause, Value};
+use crate::description::{Description, Property, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torsion spring and friction between two links, or between all copies of a node under one
@@ -34,7 +34,7 @@ pub enum SpringDamperEnds {
 
 /// Word of the clause that names two links, and of the one that names a node.
 const BETWEEN: &str = "between";
-pub(super) const SIBLINGS: &str = "siblings";
+const SIBLINGS: &str = "siblings";
 
 /// Properties of a spring-damper.
 fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
@@ -108,12 +108,13 @@ fn unknown(word: &str, property: &Property) -> TreeMessage {
 
 /// Finds the links of all clauses, whose torques are these; what is wrong goes to `report`.
 pub(super) fn resolve_spring_dampers(
-    clauses: &[SpringDamperClause],
+    description: &Description,
     torques: Vec<PassiveTorques<Quantity>>,
-    (expansion, layout): (&ExpandedTree, Layout),
-    reductions: &Reductions,
+    expansion: &ExpandedTree,
+    names: &LinkNames<'_>,
     report: &mut Faults,
 ) -> Vec<DescribedSpringDamper> {
+    let (clauses, reductions) = (&description.spring_dampers, &description.reductions);
     let mut spring_dampers = Vec::new();
     for (clause, torques) in clauses.iter().zip(torques) {
         let what = in_words(clause);
@@ -129,8 +130,8 @@ pub(super) fn resolve_spring_dampers(
             continue;
         }
         let ends = match clause.name == SIBLINGS {
-            true => siblings(clause, expansion, layout, report),
-            false => two_links(clause, expansion, layout, report),
+            true => siblings(clause, expansion, names.layout, report),
+            false => two_links(clause, names, report),
         };
         if let Some(ends) = ends {
             spring_dampers.push(DescribedSpringDamper {
@@ -145,11 +146,9 @@ pub(super) fn resolve_spring_dampers(
 
 fn two_links(
     clause: &SpringDamperClause,
-    expansion: &ExpandedTree,
-    layout: Layout,
+    names: &LinkNames<'_>,
     report: &mut Faults,
 ) -> Option<SpringDamperEnds> {
-    let names = LinkNames::of(expansion, layout);
     let found = clause
         .links
         .iter()

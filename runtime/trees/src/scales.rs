@@ -74,19 +74,12 @@ impl<T: Scalar> ByRule<T> {
             let place = child.map_or([Double::from_f64(0.0); 2], |child| child.pivot);
             Generation { link, place }
         });
-        let mut depths = vec![0; links.len()];
-        for (number, link) in links.iter().enumerate() {
-            let above = link.parent.and_then(|parent| depths.get(parent).copied());
-            if let (Some(above), Some(own)) = (above, depths.get_mut(number)) {
-                *own = above + 1;
-            }
-        }
         let rows: Vec<Generation> = generations.collect();
         let rows = rows::by_rule(links, carries, gravity, &rows);
         Some(Self {
             tree: ScaleTree::new(copies, in_numbers(&rows)),
             order: order.into(),
-            depths: depths.into(),
+            depths: depths(links).into(),
         })
     }
 
@@ -111,6 +104,16 @@ impl<T: Scalar> ByRule<T> {
         }
         room
     }
+}
+
+/// Generation of each link, 0 for the root.
+fn depths(links: &[LinkNumbers]) -> Vec<usize> {
+    let mut depths: Vec<usize> = Vec::with_capacity(links.len());
+    for link in links {
+        let above = link.parent.and_then(|parent| depths.get(parent));
+        depths.push(above.map_or(0, |above| above + 1));
+    }
+    depths
 }
 
 /// Returns true if links are alike but for their parents.
