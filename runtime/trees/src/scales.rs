@@ -242,7 +242,7 @@ impl<T: Scalar> PendulumTree<T> {
         let drive = self.drive.as_ref().map(|drive| drive.inner(time));
         let given = [own, rates, on_links];
         rule.tree
-            .budget_by_scale_with(workspace, drive, given, acting, budget);
+            .budget_by_scale(workspace, drive, given, acting, budget);
         self.add_spring_energies(rule, theta, budget);
     }
 }

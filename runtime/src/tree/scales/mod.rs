@@ -176,21 +176,11 @@ impl<E: ScaleEquations, T: Scalar> ScaleTree<E, T> {
     /// Computes all of the budget: of angles and angular velocities and, unless the third
     /// slice is empty, torques from outside, link by link as those of
     /// [`Scales`](crate::Scales); with the acceleration of the root's pivot and the torque on
-    /// the root. NaN of more than [`MOST_GENERATIONS`].
+    /// the root. Of friction and springs between siblings it takes the slopes (N m) of the
+    /// springs' energies by the angles and the torques (N m) of the friction, each link by link,
+    /// or empty; the springs' energies are left to the caller. NaN of more than
+    /// [`MOST_GENERATIONS`].
     pub fn budget_by_scale(
-        &self,
-        workspace: &mut Workspace<T>,
-        drive: Option<[T; 3]>,
-        given: [&[T]; 3],
-        budget: &mut ScaleBudget<T>,
-    ) {
-        self.budget_by_scale_with(workspace, drive, given, [&[]; 2], budget);
-    }
-
-    /// Computes all of the budget with friction and springs between siblings: the slopes (N m)
-    /// of the springs' energies by the angles, and the torques (N m) of the friction, each link
-    /// by link, or empty. The springs' energies are left to the caller.
-    pub fn budget_by_scale_with(
         &self,
         workspace: &mut Workspace<T>,
         drive: Option<[T; 3]>,
