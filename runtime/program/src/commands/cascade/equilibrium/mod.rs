@@ -78,6 +78,14 @@ impl Equilibrium {
         };
         let (chains, temperature) = own.settled(energy)?;
         let found = Self::by_all_ways(&own, &chains, Bath::at(temperature), energy)?;
+        let factor = found.temperature / temperature;
+        if (factor - 1.0).abs() > NEAREST {
+            let moved = energy / factor;
+            return Err(lacking(&format!(
+                "missed its temperature: it has {moved:.3e} J in equilibrium where {energy:.3e} J were \
+                 asked for; take more `--starts`"
+            )));
+        }
         progress.advance(1.0);
         Ok(found)
     }
@@ -119,14 +127,6 @@ impl Equilibrium {
         let isolated = own.move_all(&isolated, counted, windows)?;
         let isolated = means(&isolated, |chain| &chain.energies, samples);
         let factor = energy / found;
-        if (factor - 1.0).abs() > NEAREST {
-            return Err(Failure::Lacking {
-                what: format!(
-                    "the temperature was missed: the motion has {found:.3e} J where {energy:.3e} J were \
-                     asked for; take more `--starts`"
-                ),
-            });
-        }
         let ways = [langevin, formula, isolated].map(|scales| {
             let scales = scales.into_iter();
             let taken = scales.map(|scale| Estimate {
