@@ -83,7 +83,7 @@ impl Equilibrium {
             let moved = energy / factor;
             return Err(lacking(&format!(
                 "missed its temperature: it has {moved:.3e} J in equilibrium where {energy:.3e} J were \
-                 asked for; take more `--starts`"
+                 asked for (more `--starts` come nearer)"
             )));
         }
         progress.advance(1.0);
