@@ -255,6 +255,15 @@ impl Subject {
         }
     }
 
+    /// Returns the links that names mean which commas part, in their order.
+    ///
+    /// # Errors
+    /// [`Failure::NoLink`].
+    pub fn all_links_named(&self, names: &str) -> Result<Vec<usize>, Failure> {
+        let links = names.split(',').map(|name| self.links_named(name.trim()));
+        Ok(links.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
     /// Returns the copies nearest to the root; none for a tree without copies.
     pub fn first_copies(&self) -> Option<Vec<usize>> {
         let all = self.tree.sectors();

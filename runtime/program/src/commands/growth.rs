@@ -124,6 +124,11 @@ pub struct PairArguments {
 }
 
 impl PairArguments {
+    /// Returns true where copies are named.
+    pub(super) fn is_given(&self) -> bool {
+        self.pair.is_some()
+    }
+
     /// Returns the copies.
     ///
     /// # Errors
@@ -138,12 +143,7 @@ impl PairArguments {
                     subject.name
                 ))
             })?,
-            Some(names) => {
-                let links = names
-                    .split(',')
-                    .map(|name| subject.links_named(name.trim()));
-                links.collect::<Result<Vec<_>, _>>()?.concat()
-            }
+            Some(names) => subject.all_links_named(names)?,
         };
         Copies::of_links(&subject.parents(), &[&links])
             .filter(|_| links.len() > 1)

@@ -71,6 +71,17 @@ fn mistakes_are_named_with_their_place() {
         ),
         (&["map", "--x", "child=0:10"], 2, "is no axis"),
         (&["map", "--x", "mass=0:1:0.5"], 1, "is neither a link"),
+        (&["map", "--link", "child"], 2, "add `--of flip`"),
+        (
+            &["map", "--of", "flip", "--pair", "child"],
+            2,
+            "leave it out",
+        ),
+        (
+            &["map", "--of", "flip", "--link", "child,twig"],
+            1,
+            "there is no link `twig`",
+        ),
         (&["transfer", "--into", "e"], 1, "the tree has in_phase, d"),
         (
             &["advise", "--right", "speed:1"],

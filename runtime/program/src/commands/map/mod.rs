@@ -1,0 +1,194 @@
+//! A quantity over a plane of two others: growth rates, times of flips.
+
+mod flips;
+mod plane;
+mod rates;
+
+use branched_pendulum_data::Cell;
+use clap::{Parser, ValueEnum};
+
+use self::flips::Flips;
+use self::plane::{AxisValues, Plane, Point, Question};
+use self::rates::Rates;
+use super::growth::PairArguments;
+use crate::Failure;
+use crate::frame::Job;
+use crate::frame::command_line::number;
+use crate::release::ReleaseArguments;
+use crate::subject::TreeArguments;
+
+/// Where in a plane do differences between copies grow, and how fast? Or when does a link
+/// first flip? Each axis is the angle of a link at the start, or a parameter of the
+/// description. Draws the growth rate of a small difference beside the motion in phase, or
+/// the time until the first flip, from rest.
+///
+/// A link flips where its angle passes an odd multiple of 180°: it points away from where
+/// it points at angle zero. The time is that of the first link that does so. A link that
+/// starts there flips when it comes back.
+///
+/// Every value is computed at two tolerances; where they differ by more than 1 % it counts
+/// as not determined, and is drawn all the same.
+#[derive(Clone, Debug, Parser, PartialEq)]
+#[command(name = "branched-pendulum map", version, verbatim_doc_comment)]
+pub struct Arguments {
+    #[command(flatten)]
+    tree: TreeArguments,
+    #[command(flatten)]
+    release: ReleaseArguments,
+    /// what is computed at every point
+    #[arg(long, value_enum, value_name = "QUANTITY", default_value_t = Of::Growth)]
+    of: Of,
+    #[command(flatten)]
+    pair: PairArguments,
+    /// flip: the links whose flips count, by their names; all of them, unless they are named
+    #[arg(long, value_name = "LINK[,..]")]
+    link: Option<String>,
+    /// horizontal axis: a link with its angles in degrees, or a parameter with its values;
+    /// all copies of a link have one name
+    #[arg(
+        verbatim_doc_comment,
+        long,
+        value_name = "NAME=FROM:TO:STEP",
+        default_value = "child=-135:135:5",
+        value_parser = AxisValues::read
+    )]
+    x: AxisValues,
+    /// vertical axis, written alike
+    #[arg(
+        long,
+        value_name = "NAME=FROM:TO:STEP",
+        default_value = "parent=0:90:5",
+        value_parser = AxisValues::read
+    )]
+    y: AxisValues,
+    /// time followed, s from 1 to 1000
+    #[arg(long, value_name = "S", default_value = "15", value_parser = number(1.0..=1000.0, "s"))]
+    duration: f64,
+    /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
+    /// hundredth of it, whose values are told
+    #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-8", value_parser = number(1e-12..=1e-3, ""))]
+    tolerance: f64,
+}
+
+/// What is computed at every point of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Of {
+    /// Growth rate of a small difference between copies, 1/s.
+    Growth,
+    /// Time until a link first flips, s.
+    Flip,
+}
+
+impl crate::frame::Arguments for Arguments {
+    const FOLDER: Option<&'static str> = Some("map-output");
+    const CHARTS: bool = true;
+
+    fn check(&self) -> Result<(), String> {
+        if self.x.name == self.y.name {
+            return Err(format!("both axes are `{}`: name another one", self.x.name));
+        }
+        match self.of {
+            Of::Growth if self.link.is_some() => {
+                Err("`--link` names the links whose flips count: add `--of flip`".to_owned())
+            }
+            Of::Flip if self.pair.is_given() => Err(
+                "`--pair` names copies between which differences grow: leave it out, or map \
+                 their growth with `--of growth`"
+                    .to_owned(),
+            ),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Computes the map and writes it; Ctrl-C leaves the points that are done.
+///
+/// # Errors
+/// [`Failure`].
+pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
+    let subject = arguments.tree.read()?;
+    subject.record(job);
+    let (duration, tolerance) = (arguments.duration, arguments.tolerance);
+    let plane = || {
+        let start = arguments.release.state(&subject)?;
+        Plane::new(&subject, start, [&arguments.x, &arguments.y])
+    };
+    match arguments.of {
+        Of::Growth => {
+            // A tree without copies has no such map at all, whatever the axes.
+            let copies = arguments.pair.copies(&subject)?;
+            let plane = &plane()?;
+            let rates = Rates {
+                plane,
+                copies,
+                duration,
+                tolerance,
+            };
+            answer(job, plane, &rates)
+        }
+        Of::Flip => {
+            let links = match &arguments.link {
+                None => (0..subject.tree.names().len()).collect(),
+                Some(names) => subject.all_links_named(names)?,
+            };
+            let plane = &plane()?;
+            let flips = Flips {
+                plane,
+                links,
+                duration,
+                tolerance,
+            };
+            answer(job, plane, &flips)
+        }
+    }
+}
+
+/// Answers a question at all points of the plane, and writes what was found.
+fn answer<Q: Question>(job: &Job, plane: &Plane<'_>, question: &Q) -> Result<(), Failure> {
+    let points = plane.points();
+    let progress = job.progress(points.len());
+    progress.begin("points of the map");
+    let (mut all, mut found) = (0, Vec::new());
+    for block in points.chunks(Q::BLOCK) {
+        if job.is_interrupted() {
+            break;
+        }
+        let answers = question.at(block)?;
+        all += answers.len();
+        let both = block.iter().zip(answers);
+        found.extend(both.filter_map(|(point, answer)| Some((*point, answer?))));
+        job.take_interruption();
+        progress.advance(block.len() as f64);
+    }
+    if all == 0 {
+        return Ok(());
+    }
+    job.print(&question.report(&found, all - found.len()))?;
+    for (name, count) in question.record(&found) {
+        job.report(name, count);
+    }
+    write(job, plane, question, &found)?;
+    match found.is_empty() || !plane.is_plane() {
+        true => Ok(()),
+        false => job.chart("map", &question.chart(&found)),
+    }
+}
+
+fn write<Q: Question>(
+    job: &Job,
+    plane: &Plane<'_>,
+    question: &Q,
+    found: &[(Point, Q::Answer)],
+) -> Result<(), Failure> {
+    let columns: Vec<_> = plane
+        .columns()
+        .into_iter()
+        .chain(question.columns())
+        .collect();
+    job.csv("map.csv", &columns, |csv| {
+        found.iter().try_for_each(|(point, answer)| {
+            let place = point.iter().map(Cell::from);
+            csv.row(place.chain(question.row(answer)))
+        })
+    })
+}
