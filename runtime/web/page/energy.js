@@ -47,9 +47,14 @@ export class EnergyPanel {
     if (HINTS[name]) element("definition").value = name;
   }
 
-  /** Takes a tree with so many scales, 0 where it has none; curves of as many go on. */
-  take(scales) {
-    if (scales !== this.scales) this.begin(scales);
+  /**
+   * Takes a tree with so many scales, 0 where it has none, and why it has none though there are
+   * copies; curves of as many go on.
+   */
+  take(scales, refused) {
+    if (scales === this.scales && refused === this.refused) return;
+    this.refused = refused;
+    this.begin(scales);
   }
 
   /** Copies that differ have no energies by Parseval. */
@@ -65,6 +70,8 @@ export class EnergyPanel {
     this.scales = scales;
     const hasDifferences = scales > 1;
     element("energy-hint").innerHTML = HINTS[hasDifferences ? this.definition : "none"];
+    // Names in the reason are the description's: text, no HTML.
+    if (this.refused) element("energy-hint").textContent = `No H_d and no W: ${this.refused}.`;
     element("definition").parentElement.hidden = !hasDifferences;
     const rows = Array.from({ length: scales }, (_, scale) => {
       const row = document.createElement("tr");

@@ -262,7 +262,7 @@ function record(isPoint = true) {
   budget?.free();
   const time = pendulum.time();
   if (isPoint) {
-    energy.take(energies?.length ?? 0);
+    energy.take(energies?.length ?? 0, pendulum.refused_energies());
     energy.record(time, pendulum.energy(), known);
   }
   const [angles, rates] = [pendulum.angles(), pendulum.rates()];

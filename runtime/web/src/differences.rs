@@ -7,7 +7,7 @@ use branched_pendulum::system::{Model, Positions, Workspace};
 use branched_pendulum::transfer::{
     EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
 };
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{PendulumTree, TreeError};
 
 use crate::pendulum::Budget;
 
@@ -25,9 +25,13 @@ pub(crate) struct Differences {
 }
 
 impl Differences {
-    /// Returns the differences of a tree; none where nothing is a copy of anything.
-    pub(crate) fn of(tree: &PendulumTree) -> Option<Self> {
-        let symmetric = tree.symmetric().ok()?;
+    /// Returns the differences of a tree.
+    ///
+    /// # Errors
+    /// [`TreeError::NoCopies`] where nothing is a copy of anything, and
+    /// [`TreeError::CoupledSectors`] where springs leave the differences no energies.
+    pub(crate) fn of(tree: &PendulumTree) -> Result<Self, TreeError> {
+        let symmetric = tree.symmetric()?;
         let generations = down_the_tree(tree, 0, |above, _| above + 1);
         let sectors = symmetric.sectors().iter().enumerate();
         let scales = sectors.map(|(number, sector)| {
@@ -37,8 +41,8 @@ impl Differences {
             scales.min().copied().filter(|_| number > 0).unwrap_or(0)
         });
         let scales: Vec<usize> = scales.collect();
-        Some(Self {
-            count: scales.iter().max()? + 1,
+        Ok(Self {
+            count: scales.iter().max().ok_or(TreeError::NoCopies)? + 1,
             scales,
             symmetric,
             workspace: Workspace::new(),

@@ -4,7 +4,7 @@ use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::integrate::{AnyIntegrator, Integrator, Stepper};
 use branched_pendulum::system::{Energy, LinkPoint, Model, Positions, RatesOnly, State};
 use branched_pendulum::transfer::{EnergyDefinition, NonConservative};
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{PendulumTree, TreeError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::description;
@@ -23,7 +23,8 @@ pub struct Pendulum {
     motion: Stepper<AnyIntegrator<f64>, RatesOnly<Swing>>,
     /// Components in which the first two equal branches differ.
     copies: Option<Copies>,
-    differences: Option<Differences>,
+    /// Differences between copies, or why they have no energies.
+    differences: Result<Differences, TreeError>,
     /// Energy at which the account of the work began, and the largest since, J.
     begun: f64,
     largest: f64,
@@ -140,7 +141,7 @@ impl Pendulum {
     /// Pivot and end of each link (x, y, x, y, m) if all copies had the mean of their angles, whole
     /// turns left out: the motion in phase. Empty where nothing is a copy.
     pub fn ghost(&self) -> Vec<f64> {
-        if self.differences.is_none() {
+        if self.differences.is_err() {
             return Vec::new();
         }
         let angles = in_phase_part(self.tree(), self.theta_omega().0);
@@ -222,7 +223,7 @@ impl Pendulum {
     pub fn release(&mut self, root: f64, rest: f64, difference: f64) -> Result<(), String> {
         let links = self.tree().links();
         let mut state = in_phase(links, root, rest).values;
-        if self.differences.is_some() {
+        if self.differences.is_ok() {
             set_apart(self.tree(), difference, &mut state);
         } else if let Some(copies) = &self.copies {
             let apart = copies.opposite(state.len());
@@ -290,9 +291,9 @@ impl Pendulum {
     }
 
     /// Energies by scale, by Parseval or from momenta as the paper's H_d; none where nothing is a
-    /// copy. Copies that differ have none by Parseval: they are NaN.
+    /// copy, and where they are [refused](Self::refused_energies). Copies that differ have none by Parseval: they are NaN.
     pub fn budget(&mut self, by_parseval: bool) -> Option<Budget> {
-        let differences = self.differences.as_mut()?;
+        let differences = self.differences.as_mut().ok()?;
         let Swing { tree, hand } = &self.motion.ode().0;
         let (theta, omega, _) = parts(self.motion.state())?;
         let torques = hand.as_ref().map(|hand| hand.torques(tree, theta, omega));
@@ -309,7 +310,16 @@ impl Pendulum {
     /// Returns true if copies differ from each other.
     pub fn has_unequal_copies(&self) -> bool {
         let differences = self.differences.as_ref();
-        differences.is_some_and(Differences::are_of_unequal_copies)
+        differences.is_ok_and(Differences::are_of_unequal_copies)
+    }
+
+    /// Returns why the differences between copies have no energies; none where they have, and
+    /// where nothing is a copy.
+    pub fn refused_energies(&self) -> Option<String> {
+        match &self.differences {
+            Ok(_) | Err(TreeError::NoCopies) => None,
+            Err(error) => Some(error.to_string()),
+        }
     }
 
     /// Returns true if the tree has two equal branches: without them it has no map.

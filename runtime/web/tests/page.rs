@@ -266,6 +266,24 @@ fn copies_that_differ_have_a_budget() {
 }
 
 #[test]
+fn springs_that_couple_sectors_are_the_reason_of_no_budget() {
+    let text = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2]";
+    let tree = |text: &str| Pendulum::new(text, vec![], vec![]).expect("a tree");
+    let mut coupled = tree(&format!("{text}, between(a, b_1, spring = 0.2)"));
+    assert!(coupled.budget(false).is_none());
+    let reason = coupled.refused_energies().expect("a reason");
+    assert!(
+        reason.contains("`siblings(NODE, spring = ...)`"),
+        "{reason}"
+    );
+    let equal = tree(&format!("{text}, siblings(b, spring = 0.2)"));
+    assert_eq!(equal.refused_energies(), None);
+    // The page has words of its own for a tree without copies.
+    let rod = tree("gravity = 9.81, a: rod(mass = 1, length = 1)");
+    assert_eq!(rod.refused_energies(), None);
+}
+
+#[test]
 fn the_ghost_is_the_motion_in_phase() {
     let mut pendulum = paper();
     pendulum.release(0.0, 0.3, 0.2).expect("a release");
