@@ -11,7 +11,7 @@ pub struct Shipped {
 }
 
 /// All of them, in the order in which they are listed.
-pub const SHIPPED: [Shipped; 8] = [
+pub const SHIPPED: [Shipped; 9] = [
     Shipped {
         name: "paper",
         text: include_str!("../trees/paper.txt"),
@@ -82,6 +82,11 @@ pub const SHIPPED: [Shipped; 8] = [
         name: "branch",
         text: include_str!("../trees/branch.txt"),
         values: &[],
+    },
+    Shipped {
+        name: "coupled",
+        text: include_str!("../trees/coupled.txt"),
+        values: &[("bar_mass", 10.0), ("coupling", 0.01)],
     },
     Shipped {
         name: "cascade",

@@ -131,6 +131,42 @@ fn modes_of_a_tree_that_stands() {
     assert!((found[2] + found[3]).abs() < 1e-9);
 }
 
+/// Against each other the pendulums leave the bar at rest: ω² = g/l + 2 κ/(m l²). Alike they are
+/// one of twice the mass under it, a double pendulum, whatever the spring.
+#[test]
+fn modes_of_two_pendulums_that_a_spring_couples() {
+    let folder = Folder::new("coupled");
+    let (gravity, length, bar_length, mass): (f64, f64, f64, f64) = (9.80665, 0.25, 0.1, 0.1);
+    for (bar_mass, coupling) in [(10.0, 0.01), (0.3, 0.08), (1e6, 0.02)] {
+        let set = format!("bar_mass={bar_mass},coupling={coupling}");
+        folder.answer(&["modes", "--tree", "coupled", "--set", &set]);
+        let (_, rows) = folder.table("modes.csv");
+        let frequency = |square: f64| square.sqrt() / TAU;
+        let apart = gravity / length + 2.0 * coupling / (mass * length * length);
+        // (A C − B²) ω⁴ − (K_A C + K_C A) ω² + K_A K_C = 0.
+        let pair = 2.0 * mass;
+        let a = (bar_mass / 3.0 + pair) * bar_length * bar_length;
+        let (b, c) = (pair * bar_length * length, pair * length * length);
+        let of_bar = (bar_mass / 2.0 + pair) * gravity * bar_length;
+        let of_pair = pair * gravity * length;
+        let (square, linear) = (a * c - b * b, of_bar * c + of_pair * a);
+        let root = (linear * linear - 4.0 * square * of_bar * of_pair).sqrt();
+        let alike = [linear - root, linear + root].map(|sum| frequency(sum / (2.0 * square)));
+        let is_apart = |row: &&Vec<f64>| row[2] * row[3] < 0.0;
+        let (own, others): (Vec<&Vec<f64>>, Vec<_>) = rows.iter().partition(is_apart);
+        assert_eq!((own.len(), others.len()), (1, 2), "{set}: {rows:?}");
+        assert!((own[0][0] / frequency(apart) - 1.0).abs() < 1e-9, "{set}");
+        assert!(
+            (own[0][2] / own[0][3] + 1.0).abs() < 1e-6 && own[0][1].abs() < 1e-9,
+            "{set}"
+        );
+        for (row, expected) in others.iter().zip(alike) {
+            assert!((row[0] / expected - 1.0).abs() < 1e-9, "{set}: {row:?}");
+            assert!((row[2] / row[3] - 1.0).abs() < 1e-6, "{set}: {row:?}");
+        }
+    }
+}
+
 /// From a tenth of a degree on nothing grows; from the paper's 48° on a lot does.
 #[test]
 fn growth_begins_where_the_paper_sees_it() {

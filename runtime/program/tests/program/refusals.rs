@@ -46,7 +46,7 @@ fn mistakes_are_named_with_their_place() {
             &["describe", "--tree", "nowhere.txt"][..],
             1,
             "there is no tree `nowhere.txt`: neither a shipped one (paper, apparatus, double-pendulum, \
-             chain, triple, y, branch, cascade) nor",
+             chain, triple, y, branch, coupled, cascade) nor",
         ),
         (
             &["simulate", "--start", "1,2"],
