@@ -180,3 +180,19 @@ fn help_tells_units_of_both_quantities() {
         assert!(help.contains(told), "{told}: {help}");
     }
 }
+
+/// π and −π are one place, and no flip: a link that starts there flips when it comes back.
+#[test]
+fn a_link_that_starts_upside_down_flips_when_it_comes_back() {
+    let folder = Folder::new("flips-upside-down");
+    let words = ["map", "--of", "flip", "--tree", "chain", "--duration", "3"];
+    let axes = ["--x", "lower=-180:180:360", "--y", "upper=60:100:20"];
+    folder.answer(&[&words[..], &axes].concat());
+    let rows = rows(&folder);
+    assert_eq!(rows.len(), 6);
+    for pair in rows.chunks(2) {
+        assert!((pair[0].1 - pair[1].1).abs() < 1e-6, "{pair:?}");
+    }
+    // One degree further the first of these passes the top within 0.03 s.
+    assert!(rows[0].1 > 1.2, "{:?}", rows[0]);
+}
