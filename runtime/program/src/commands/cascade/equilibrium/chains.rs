@@ -74,14 +74,17 @@ impl Isolated<'_> {
     pub(super) fn settled(&self, energy: f64) -> Result<(Vec<Chain>, f64), Failure> {
         let mut chains = self.chains();
         let mut temperature = energy / self.tree.links() as f64;
-        for _ in 0..SETTLING {
+        for number in 0..SETTLING {
             let settling = Stretch {
                 bath: Some(Bath::at(temperature)),
                 counts: false,
             };
             chains = self.move_all(&chains, settling, 1)?;
             let mean = self.energy(&chains);
-            temperature *= (energy / mean).clamp(0.5, 2.0).sqrt();
+            // Steps become shorter, so that the noise of single energies averages out (H. Robbins
+            // and S. Monro, Ann. Math. Stat. 22, 400, 1951).
+            let step = 1.0 / (2.0 + number as f64 / 4.0);
+            temperature *= (energy / mean).clamp(0.5, 2.0).powf(step);
         }
         Ok((chains, temperature))
     }
