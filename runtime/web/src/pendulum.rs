@@ -291,7 +291,8 @@ impl Pendulum {
     }
 
     /// Energies by scale, by Parseval or from momenta as the paper's H_d; none where nothing is a
-    /// copy, and where they are [refused](Self::refused_energies). Copies that differ have none by Parseval: they are NaN.
+    /// copy, and where they are [refused](Self::refused_energies). Copies that differ have none by
+    /// Parseval: they are NaN.
     pub fn budget(&mut self, by_parseval: bool) -> Option<Budget> {
         let differences = self.differences.as_mut().ok()?;
         let Swing { tree, hand } = &self.motion.ode().0;

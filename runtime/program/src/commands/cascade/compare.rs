@@ -118,7 +118,8 @@ impl FinishedRun {
         self.rows.get(means..).unwrap_or_default()
     }
 
-    /// The longest stretch of differences, one after the other, whose fluxes lie within five per cent of each other.
+    /// The longest stretch of differences, one after the other, whose fluxes lie within five per
+    /// cent of each other.
     fn inner(&self) -> &[ScaleOfRun] {
         let rows = self.differences();
         let mut longest: &[ScaleOfRun] = &[];

@@ -79,7 +79,7 @@ impl Equilibrium {
         let (chains, temperature) = own.settled(energy)?;
         let found = Self::by_all_ways(&own, &chains, Bath::at(temperature), energy)?;
         let factor = found.temperature / temperature;
-        if (factor - 1.0).abs() > NEAREST {
+        if factor.is_nan() || (factor - 1.0).abs() > NEAREST {
             let moved = energy / factor;
             return Err(lacking(&format!(
                 "missed its temperature: it has {moved:.3e} J in equilibrium where {energy:.3e} J were \
