@@ -7,7 +7,7 @@ use branched_pendulum_charts::{Axis, Chart, Color};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 
-use super::plane::{Plane, Point, Question, cells, shaded};
+use super::plane::{MapPlane, Point, Question, cells, shaded};
 use crate::Failure;
 
 /// Colour of points without a flip, which the scale of times has not.
@@ -25,7 +25,7 @@ const FINER: f64 = 0.01;
 /// A link flips where its angle passes an odd multiple of π: it points away from where it points
 /// at angle zero.
 pub(super) struct Flips<'a> {
-    pub(super) plane: &'a Plane<'a>,
+    pub(super) plane: &'a MapPlane<'a>,
     /// Links that are looked at.
     pub(super) links: Vec<usize>,
     /// Time followed, s.

@@ -8,7 +8,7 @@ use branched_pendulum_data::Cell;
 use clap::{Parser, ValueEnum};
 
 use self::flips::Flips;
-use self::plane::{AxisValues, Plane, Point, Question};
+use self::plane::{AxisValues, MapPlane, Point, Question};
 use self::rates::Rates;
 use super::growth::PairArguments;
 use crate::Failure;
@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let (duration, tolerance) = (arguments.duration, arguments.tolerance);
     let plane = || {
         let start = arguments.release.state(&subject)?;
-        Plane::new(&subject, start, [&arguments.x, &arguments.y])
+        MapPlane::new(&subject, start, [&arguments.x, &arguments.y])
     };
     match arguments.of {
         Of::Growth => {
@@ -144,7 +144,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 /// Answers a question at all points of the plane, and writes what was found.
-fn answer<Q: Question>(job: &Job, plane: &Plane<'_>, question: &Q) -> Result<(), Failure> {
+fn answer<Q: Question>(job: &Job, plane: &MapPlane<'_>, question: &Q) -> Result<(), Failure> {
     let points = plane.points();
     let progress = job.progress(points.len());
     progress.begin("points of the map");
@@ -176,7 +176,7 @@ fn answer<Q: Question>(job: &Job, plane: &Plane<'_>, question: &Q) -> Result<(),
 
 fn write<Q: Question>(
     job: &Job,
-    plane: &Plane<'_>,
+    plane: &MapPlane<'_>,
     question: &Q,
     found: &[(Point, Q::Answer)],
 ) -> Result<(), Failure> {

@@ -94,14 +94,14 @@ impl Quantity {
 pub(super) type Point = [f64; 2];
 
 /// The plane, with what does not change over it.
-pub(super) struct Plane<'a> {
+pub(super) struct MapPlane<'a> {
     pub(super) subject: &'a Subject,
     start: State<f64>,
     axes: [&'a AxisValues; 2],
     quantities: [Quantity; 2],
 }
 
-impl<'a> Plane<'a> {
+impl<'a> MapPlane<'a> {
     /// Returns the plane of two quantities of a tree that otherwise starts from `start`.
     ///
     /// # Errors

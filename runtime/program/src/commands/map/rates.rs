@@ -6,7 +6,7 @@ use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum_charts::{Axis, Chart};
 use branched_pendulum_data::{Cell, Column};
 
-use super::plane::{Plane, Point, Question, shaded};
+use super::plane::{MapPlane, Point, Question, shaded};
 use crate::Failure;
 use crate::commands::growth::Differences;
 
@@ -15,7 +15,7 @@ const RATES: [f64; 2] = [0.01, 5.0];
 
 /// How fast do differences between copies grow?
 pub(super) struct Rates<'a> {
-    pub(super) plane: &'a Plane<'a>,
+    pub(super) plane: &'a MapPlane<'a>,
     pub(super) copies: Copies,
     /// Time followed, s.
     pub(super) duration: f64,
