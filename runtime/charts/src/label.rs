@@ -1,5 +1,8 @@
 use crate::font::Font;
 
+/// Characters with a meaning of their own.
+const MARKS: &str = "_^{}\\";
+
 /// Where a run of text stands relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
@@ -53,7 +56,7 @@ impl Label {
                 '^' => Level::Super,
                 '\\' => {
                     let escaped = rest.chars().next();
-                    let literal = escaped.filter(|c| "_^{}\\".contains(*c));
+                    let literal = escaped.filter(|c| MARKS.contains(*c));
                     rest = &rest[literal.map_or(0, char::len_utf8)..];
                     label.push(Level::Line, literal.unwrap_or('\\'));
                     continue;
@@ -159,6 +162,24 @@ impl Label {
         words.retain(|word| !word.is_empty());
         words
     }
+}
+
+/// Returns a label that shows `text` as it stands, whatever is in it.
+///
+/// # Examples
+/// ```
+/// assert_eq!(branched_pendulum_charts::verbatim("left_arm"), r"left\_arm");
+/// ```
+#[must_use]
+pub fn verbatim(text: &str) -> String {
+    let mut label = String::with_capacity(text.len());
+    for character in text.chars() {
+        if MARKS.contains(character) {
+            label.push('\\');
+        }
+        label.push(character);
+    }
+    label
 }
 
 /// The text that a `_` or `^` acts on, and the text that follows it.

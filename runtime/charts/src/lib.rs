@@ -30,7 +30,8 @@
 //! # Labels
 //! In every label `_` lowers and `^` raises the next character, or the group
 //! in braces that follows: `θ_d`, `f_+`, `10^{−3}`. A backslash takes the
-//! meaning from the character after it (`mid\_range`); a `_` or `^` with
+//! meaning from the character after it (`mid\_range`), and [`verbatim`] does so for a whole
+//! name; a `_` or `^` with
 //! nothing to act on, or with a brace that is never closed, stands for itself.
 //! Line feeds and other control characters become spaces. A character that
 //! the embedded font lacks (it has Latin, Greek, Cyrillic and common
@@ -87,4 +88,5 @@ mod ticks;
 pub use description::{Axis, Chart, Panel, Series};
 pub use error::ChartError;
 pub use film::{Film, FilmLink};
+pub use label::verbatim;
 pub use style::{Color, Dash, Symbol};

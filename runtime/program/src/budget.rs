@@ -3,7 +3,7 @@
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{EnergyDefinition, Given, NonConservative, SectorBudget};
-use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum_charts::{Axis, Chart, Panel, verbatim};
 use branched_pendulum_data::{Cell, Column};
 
 use crate::Failure;
@@ -109,7 +109,7 @@ pub fn write(
     })?;
     let end = times.last().copied().unwrap_or(0.0);
     let chart = Chart::new(
-        format!("{}: differences between copies", subject.name),
+        format!("{}: differences between copies", verbatim(&subject.name)),
         Axis::linear("time (s)").range(0.0, end),
     );
     let panel = |label: &str, of: &dyn Fn(&SectorSeries) -> &[f64]| {
@@ -119,7 +119,7 @@ pub fn write(
             .take(MOST_LINES);
         let panel = Panel::new(Axis::linear(label)).zero_line();
         differences.fold(panel, |panel, own| {
-            panel.line(own.name.clone(), times, of(own))
+            panel.line(verbatim(&own.name), times, of(own))
         })
     };
     let chart = chart.panel(panel("H_d (J)", &|own| &own.energies));

@@ -3,7 +3,7 @@ use crate::clip::{self, Rect};
 use crate::decimal::number;
 use crate::decimate;
 use crate::font::{Font, Outline};
-use crate::label::{Label, Level};
+use crate::label::{Label, Level, verbatim};
 use crate::ticks::{Ticks, ticks};
 
 type Failure = Result<(), Box<dyn std::error::Error>>;
@@ -222,4 +222,13 @@ fn lines_are_cut_at_the_frame() {
     assert!(clip::line(&[(-5.0, -5.0), (15.0, -1.0)], &area).is_empty());
     let far = clip::line(&[(5.0, 5.0), (5.0, f64::INFINITY)], &area);
     assert_eq!(far, [vec![(5.0, 5.0), (5.0, 10.0)]]);
+}
+
+#[test]
+fn a_verbatim_label_shows_any_text_as_it_stands() {
+    for text in ["left_arm", "x^2", r"a\_b", "{θ_d}", "plain", "_^{}\\"] {
+        let label = Label::parse(&verbatim(text));
+        assert_eq!(label.plain(), text);
+        assert!(label.runs.iter().all(|run| run.level == Level::Line), "{text}");
+    }
 }

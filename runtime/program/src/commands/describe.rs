@@ -5,7 +5,7 @@ use std::fmt::Write;
 use branched_pendulum::Positions;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Model;
-use branched_pendulum_charts::Film;
+use branched_pendulum_charts::{Film, verbatim};
 use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
 
@@ -53,7 +53,8 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let mut rest = rest.unwrap_or_else(|_| vec![0.0; tree.links()]);
     fan(&subject.parents(), &mut rest);
     let angles = film::angles(tree, &rest);
-    let picture = Film::new(subject.name.clone(), 1.0).tree("", &film::links(tree), &[angles])?;
+    let picture =
+        Film::new(verbatim(&subject.name), 1.0).tree("", &film::links(tree), &[angles])?;
     job.film("tree", &picture)
 }
 

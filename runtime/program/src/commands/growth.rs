@@ -5,7 +5,7 @@ use std::fmt::Write;
 use branched_pendulum::analysis::growth::{BetweenCopies, Checked, Grown, Growth};
 use branched_pendulum::analysis::variational::{Copies, linearised};
 use branched_pendulum::prelude::*;
-use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Dash, Panel, Series, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
@@ -365,11 +365,12 @@ const SHOWN: [f64; 2] = [0.8, 1e6];
 
 fn chart(arguments: &Arguments, subject: &Subject, link: &str, scans: &[Scan]) -> Chart {
     let ends = [0, arguments.angles_deg.len() - 1].map(|index| arguments.angles_deg[index]);
-    let x = Axis::linear(format!("angle of {link} at the release (°)")).range(ends[0], ends[1]);
+    let x = Axis::linear(format!("angle of {} at the release (°)", verbatim(link)))
+        .range(ends[0], ends[1]);
     let height = 90.0 + 210.0 * arguments.horizons.len() as f64;
     let title = format!(
         "{}: growth of a small difference between copies",
-        subject.name
+        verbatim(&subject.name)
     );
     let chart = Chart::new(title, x).size(900.0, height);
     arguments
@@ -384,7 +385,7 @@ fn chart(arguments: &Arguments, subject: &Subject, link: &str, scans: &[Scan]) -
                     .iter()
                     .map(|grown| grown.factors[number].value.min(1e99));
                 let factors: Vec<f64> = factors.collect();
-                let label = scan.label.as_str();
+                let label = verbatim(&scan.label);
                 panel.series(Series::line(label, &scan.angles_deg, &factors).dash(Dash::Solid))
             });
             chart.panel(panel)

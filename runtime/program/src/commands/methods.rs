@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::RatesOnly;
-use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use clap::Parser;
 
@@ -242,7 +242,7 @@ fn write(job: &Job, subject: &Subject, runs: &[Measurement]) -> Result<(), Failu
                 false => panel.series(Series::line(method.title(), &x, &y).with_symbols()),
             }
         });
-        Chart::new(subject.name.clone(), Axis::log(x))
+        Chart::new(verbatim(&subject.name), Axis::log(x))
             .panel(panel)
             .size(900.0, 600.0)
     };

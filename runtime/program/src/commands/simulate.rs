@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use branched_pendulum::Energy;
 use branched_pendulum::prelude::*;
-use branched_pendulum_charts::{Axis, Chart, Film, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Film, Panel, Series, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::TreeError;
 use clap::Parser;
@@ -90,7 +90,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         let pictures: Vec<Vec<f64>> = pictures
             .map(|state| film::angles(tree, &state[..tree.links()]))
             .collect();
-        let film = Film::new(subject.name.clone(), stride as f64 / arguments.rate);
+        let film = Film::new(verbatim(&subject.name), stride as f64 / arguments.rate);
         job.film("film", &film.tree("", &film::links(tree), &pictures)?)?;
     }
     Ok(())
@@ -236,14 +236,18 @@ fn charts(
     let names = subject.tree.names().iter().enumerate().take(MOST_LINES);
     let angles = names.fold(angles, |panel, (link, name)| {
         let own = samples.states.iter().map(|state| state[link].to_degrees());
-        panel.series(Series::line(name.as_str(), times, &own.collect::<Vec<_>>()))
+        panel.series(Series::line(
+            verbatim(name),
+            times,
+            &own.collect::<Vec<_>>(),
+        ))
     });
     let panel = Panel::new(Axis::linear("energy (J)"))
         .line("kinetic", times, &energies.kinetic)
         .line("potential", times, &energies.potential)
         .line("sum", times, &energies.total());
     let chart = Chart::new(
-        subject.name.clone(),
+        verbatim(&subject.name),
         Axis::linear("time (s)").range(0.0, end),
     );
     job.chart(

@@ -6,7 +6,7 @@ use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::Given;
 use branched_pendulum::{Transfer, TransferForm};
-use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum_charts::{Axis, Chart, Panel, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::TreeError;
 use clap::Parser;
@@ -181,7 +181,9 @@ impl Series<'_> {
             });
         let end = self.times.last().copied().unwrap_or(0.0);
         let x = Axis::linear("time (s)").range(0.0, end);
-        let chart = Chart::new(self.title.clone(), x).panel(panel).panel(errors);
+        let chart = Chart::new(verbatim(&self.title), x)
+            .panel(panel)
+            .panel(errors);
         chart.size(900.0, 640.0)
     }
 }

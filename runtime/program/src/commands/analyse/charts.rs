@@ -1,6 +1,6 @@
 //! Angle, energy and power against time, with their errors.
 
-use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, verbatim};
 use branched_pendulum_measure::Bands;
 
 use super::camera::Truth;
@@ -48,7 +48,7 @@ pub fn chart<const N: usize>(
         with_band(axis, times, &estimate.energies, index, &truth)
     };
     Chart::new(
-        format!("{} from measured angles", names.energy_words),
+        format!("{} from measured angles", verbatim(&names.energy_words)),
         Axis::linear("t (s)"),
     )
     .size(900.0, 800.0)

@@ -7,6 +7,7 @@ use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Energy, Model, Workspace};
 use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
+use branched_pendulum_charts::verbatim;
 use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use branched_pendulum_trees::PendulumTree;
 
@@ -196,7 +197,10 @@ fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N
         .collect();
     let name = |of: usize| all.get(of).copied().unwrap_or_default();
     let coordinates = std::array::from_fn(|of| name(of).to_owned());
-    let symbols = std::array::from_fn(|of| name(of).replacen("theta", "θ", 1));
+    let symbols = std::array::from_fn(|of| match name(of).strip_prefix("theta_") {
+        Some(index) => format!("θ_{{{index}}}"),
+        None => verbatim(name(of)),
+    });
     let counts: Vec<usize> = sectors.iter().map(|own| own.coordinates().len()).collect();
     let before = |sector: usize| counts.iter().take(sector).sum::<usize>();
     // The last of those in phase: means of leaves.

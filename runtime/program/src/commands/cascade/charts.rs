@@ -2,7 +2,9 @@
 //! tree in motion.
 
 use branched_pendulum::analysis::statistics::Average;
-use branched_pendulum_charts::{Axis, Chart, ChartError, Color, Dash, Film, Panel, Series};
+use branched_pendulum_charts::{
+    Axis, Chart, ChartError, Color, Dash, Film, Panel, Series, verbatim,
+};
 
 use super::arguments::Arguments;
 use super::equilibrium::Equilibrium;
@@ -136,6 +138,6 @@ pub fn film(driven: &DrivenTree, states: &[Vec<f64>], interval: f64) -> Result<F
     let tree = &driven.subject.tree;
     let angles = |state: &Vec<f64>| film::angles(tree, &state[..driven.links()]);
     let pictures: Vec<Vec<f64>> = states.iter().map(angles).collect();
-    let title = format!("{}, driven", driven.subject.name);
+    let title = format!("{}, driven", verbatim(&driven.subject.name));
     Film::new(title, interval).tree("", &film::links(tree), &pictures)
 }

@@ -9,7 +9,7 @@
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::analysis::statistics::Estimate;
-use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
 use branched_pendulum_data::{Table, TableOptions};
 
 use crate::Failure;
@@ -233,7 +233,9 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
                 let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();
                 match x.is_empty() {
                     true => panel,
-                    false => panel.series(Series::line(&spectrum.name, &x, &y).with_symbols()),
+                    false => {
+                        panel.series(Series::line(verbatim(&spectrum.name), &x, &y).with_symbols())
+                    }
                 }
             };
         let input = spectrum.input();

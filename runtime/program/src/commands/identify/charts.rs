@@ -1,6 +1,6 @@
 //! Errors of the identified model, and the energy, against time.
 
-use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series, verbatim};
 use branched_pendulum_measure::identification::AngleErrors;
 
 use super::source::Measurement;
@@ -67,7 +67,7 @@ fn errors(panel: Panel, errors: &AngleErrors) -> Panel {
         let error = |row: &Vec<Option<f64>>| 1e3 * row[index].unwrap_or(f64::NAN);
         let values: Vec<f64> = errors.rows.iter().map(error).collect();
         panel.series(
-            Series::line(link.clone(), &errors.times, &values)
+            Series::line(verbatim(link), &errors.times, &values)
                 .color(Color::of_series(index))
                 .dash(Dash::Solid),
         )

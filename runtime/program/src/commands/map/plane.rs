@@ -1,7 +1,7 @@
 //! The plane of a map: two quantities with the values that they take.
 
 use branched_pendulum::system::State;
-use branched_pendulum_charts::{Axis, Chart, Panel, Series};
+use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 
@@ -183,16 +183,16 @@ impl<'a> MapPlane<'a> {
     /// Returns a chart of the plane, whose panel `fill` gives its series.
     pub(super) fn chart(&self, title: &str, fill: impl FnOnce(Panel) -> Panel) -> Chart {
         let panel = fill(Panel::new(Axis::linear(self.label(1))));
-        let title = format!("{}: {title}", self.subject.name);
+        let title = format!("{}: {title}", verbatim(&self.subject.name));
         let chart = Chart::new(title, Axis::linear(self.label(0))).panel(panel);
         chart.size(960.0, 720.0)
     }
 
     /// Label of an axis in the chart.
     fn label(&self, axis: usize) -> String {
-        let name = &self.axes[axis].name;
+        let name = verbatim(&self.axes[axis].name);
         match self.quantities[axis] {
-            Quantity::Parameter(_) => name.clone(),
+            Quantity::Parameter(_) => name,
             Quantity::Angles(_) => format!("angle of {name} at the release (°)"),
         }
     }

@@ -1,6 +1,6 @@
 //! Charts: energies by scale, and what flowed between the scales.
 
-use branched_pendulum_charts::{Axis, Chart, Panel};
+use branched_pendulum_charts::{Axis, Chart, Panel, verbatim};
 
 use super::report::{by_scale, matrix_by_scale};
 use super::run::{Budgets, Onset, PARSEVAL};
@@ -40,7 +40,7 @@ pub fn chart(driven: &Subject, run: &Onset) -> Chart {
     }
     let title = format!(
         "{}: energy of the sectors by the scale at which they branch",
-        driven.name
+        verbatim(&driven.name)
     );
     Chart::new(title, Axis::linear("t (s)"))
         .size(1000.0, 820.0)
