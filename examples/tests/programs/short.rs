@@ -136,6 +136,29 @@ fn more_friction_leaves_less_energy() {
     assert!(left.windows(2).all(|pair| pair[0] > pair[1]), "{text}");
 }
 
+#[test]
+fn branches_damp_the_trunk_best_at_twice_its_frequency() {
+    let text = printed(env!("CARGO_BIN_EXE_damping-by-branching"));
+    let rows = text.lines().skip(3).map(|line| {
+        let words = line.split_whitespace().filter(|word| *word != "%");
+        words
+            .map(|word| word.parse().unwrap())
+            .collect::<Vec<f64>>()
+    });
+    let rows: Vec<Vec<f64>> = rows.collect();
+    assert_eq!(rows.len(), 5, "{text}");
+    for row in &rows {
+        // By small motions nothing is lost: the part that is grows with the amplitude.
+        assert!(
+            row[3..].is_sorted_by(|less, more| 1.5 * less < *more || *more > 40.0),
+            "{text}"
+        );
+        assert!(row[2] > 1.5 && row[3] < 6.0, "{text}");
+    }
+    let best = rows.iter().max_by(|a, b| a[3].total_cmp(&b[3])).unwrap();
+    assert!((best[2] - 2.0).abs() < 0.1 && best[6] > 50.0, "{text}");
+}
+
 /// E(10 s) by the friction's power along another method's motion of the same rod.
 #[test]
 fn a_committed_expansion_is_the_scene() {

@@ -10,11 +10,9 @@ use branched_pendulum::analysis::statistics::StatisticsError;
 use branched_pendulum::analysis::truncation::TruncationError;
 use branched_pendulum::analysis::{EquilibriumError, ModesError, SectorModesError};
 use branched_pendulum::approximate::LinearError;
-use branched_pendulum_advice::AdviceError;
 use branched_pendulum_charts::ChartError;
 use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
 use branched_pendulum_measure::{IdentificationError, SmoothingError, SpectrumError};
-use branched_pendulum_trees::TreeError;
 
 use crate::sealed::SealError;
 use crate::sweep::SweepError;
@@ -32,7 +30,7 @@ pub enum Failure {
         /// Name of the file or of the shipped tree.
         name: String,
         /// The mistakes.
-        source: TreeError,
+        source: Box<dyn Error + Send + Sync>,
     },
     /// A file with a description that could not be read.
     #[error(
@@ -116,7 +114,7 @@ pub enum Failure {
     NoPair,
     /// There is no advice.
     #[error("there is no advice")]
-    Advice(#[from] AdviceError),
+    Advice(#[source] Box<dyn Error + Send + Sync>),
     /// A file of measurements could not be read.
     #[error("the measurements could not be read{}", options(&.0.kind))]
     Reading(#[from] ReadError),
@@ -205,6 +203,19 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// A description, named by its file or as a shipped tree, with mistakes.
+    pub fn tree(name: &str, mistakes: impl Error + Send + Sync + 'static) -> Self {
+        Self::Tree {
+            name: name.to_owned(),
+            source: Box::new(mistakes),
+        }
+    }
+
+    /// A question to which there is no advice.
+    pub fn advice(error: impl Error + Send + Sync + 'static) -> Self {
+        Self::Advice(Box::new(error))
+    }
+
     /// A run that an integrator has not brought to its end.
     pub fn integration(angle_deg: f64, error: impl Error + Send + Sync + 'static) -> Self {
         Self::Integration {
@@ -242,7 +253,6 @@ mod tests {
     use branched_pendulum::integrate::{IntegrationError, RunError};
     use branched_pendulum::prelude::*;
     use branched_pendulum::system::OdeFn;
-    use branched_pendulum_advice::AdviceError;
     use branched_pendulum_charts::ChartError;
     use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
     use std::{error::Error, io, path::PathBuf};
@@ -331,10 +341,8 @@ mod tests {
             Box::new(Failure::Frames(Box::new(request()))),
             Box::new(Failure::Truncation(truncation())),
             Box::new(Failure::Growth(request().into())),
-            Box::new(Failure::Advice(AdviceError::Request("a start"))),
-            Box::new(Failure::Advice(AdviceError::Reference(Box::new(
-                integration(),
-            )))),
+            Box::new(Failure::tree("swing.txt", no_rows())),
+            Box::new(Failure::advice(modes())),
             Box::new(Failure::Folder {
                 path: folder(),
                 source: refused(),

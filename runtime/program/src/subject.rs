@@ -103,10 +103,8 @@ impl TreeArguments {
         let shipped = self.shipped();
         let shipped = shipped.map_or([].as_slice(), |shipped| shipped.values);
         let description = TreeDescription::parse(&text);
-        let description = description.map_err(|error| Failure::Tree {
-            name: self.tree.clone(),
-            source: error.into(),
-        })?;
+        let description =
+            description.map_err(|error| Failure::tree(&self.tree, TreeError::from(error)))?;
         let known = self.parameters.as_deref();
         let known = known.map(|path| KnownConstants::read(path, &description));
         let KnownConstants {
@@ -193,10 +191,7 @@ impl Described {
 
     /// Returns a mistake in what is asked of the tree, with its name.
     pub fn refused(&self, source: TreeError) -> Failure {
-        Failure::Tree {
-            name: self.name.clone(),
-            source,
-        }
+        Failure::tree(&self.name, source)
     }
 }
 
@@ -221,10 +216,7 @@ impl Subject {
     /// [`Failure::Tree`].
     pub fn with(&self, name: &str, value: f64) -> Result<PendulumTree, Failure> {
         let with = self.tree.with(name, value);
-        with.map_err(|source| Failure::Tree {
-            name: self.name.clone(),
-            source,
-        })
+        with.map_err(|source| Failure::tree(&self.name, source))
     }
 
     /// Returns the links that `name` means: the link of that name, or all copies of it, whose

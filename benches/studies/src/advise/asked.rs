@@ -98,11 +98,12 @@ pub fn with<R>(
     question: &Question,
     ask: impl FnOnce(&Advisor<'_>, &Candidates<'_>) -> Result<R, AdviceError>,
 ) -> Result<R, Failure> {
-    Ok(match question.scene {
+    let answer = match question.scene {
         SceneName::Paper => paper(question, ask),
         SceneName::Cascade => cascade(question, ask),
         SceneName::Branch => branch(question, ask),
-    }?)
+    };
+    answer.map_err(Failure::advice)
 }
 
 /// Starts, times and outputs that all scenes have; `release` gives the angles for a

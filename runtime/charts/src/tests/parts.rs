@@ -229,6 +229,9 @@ fn a_verbatim_label_shows_any_text_as_it_stands() {
     for text in ["left_arm", "x^2", r"a\_b", "{θ_d}", "plain", "_^{}\\"] {
         let label = Label::parse(&verbatim(text));
         assert_eq!(label.plain(), text);
-        assert!(label.runs.iter().all(|run| run.level == Level::Line), "{text}");
+        assert!(
+            label.runs.iter().all(|run| run.level == Level::Line),
+            "{text}"
+        );
     }
 }

@@ -132,10 +132,10 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         .iter()
         .any(|(output, _)| *output == Output::Transfer);
     let symmetric = match wants_transfer {
-        true => Some(tree.symmetric().map_err(|source| Failure::Tree {
-            name: subject.name.clone(),
-            source,
-        })?),
+        true => Some(
+            tree.symmetric()
+                .map_err(|source| Failure::tree(&subject.name, source))?,
+        ),
         false => None,
     };
     let system = AbsoluteAngles(tree);
@@ -168,7 +168,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let progress = job.progress(1);
     progress.begin(&subject.name);
     let candidates = candidates(&subject, arguments, &start);
-    let advice = progress.ticking(|| advisor.advise(&candidates))?;
+    let advice = progress
+        .ticking(|| advisor.advise(&candidates))
+        .map_err(Failure::advice)?;
     progress.next();
     job.print(&format!("{}\n\n{advice}", subject.name))?;
     if let Some(chosen) = advice.chosen() {
@@ -250,4 +252,24 @@ fn write(job: &Job, advice: &Advice) -> Result<(), Failure> {
         }
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use branched_pendulum_advice::AdviceError;
+
+    use crate::Failure;
+    use crate::frame::messages;
+
+    #[test]
+    fn every_cause_is_told_once() {
+        let cause = std::io::Error::other("the step is too small");
+        let failure = Failure::advice(AdviceError::Reference(Box::new(cause)));
+        let messages = messages(&failure);
+        assert_eq!(messages.len(), 3, "{messages:?}");
+        for (index, cause) in messages.iter().enumerate() {
+            let is_told_before = messages[..index].iter().any(|above| above.contains(cause));
+            assert!(!is_told_before, "{messages:?}");
+        }
+    }
 }

@@ -62,10 +62,7 @@ const FORMS: [(TransferForm, &str); 6] = [
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
     subject.record(job);
-    let refused = |source: TreeError| Failure::Tree {
-        name: subject.name.clone(),
-        source,
-    };
+    let refused = |source: TreeError| Failure::tree(&subject.name, source);
     let symmetric = subject.tree.symmetric().map_err(refused)?;
     let names: Vec<&str> = symmetric
         .sectors()

@@ -130,10 +130,9 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
             .filter(|_| sectors.len() > 1),
         };
         let told = sector.map(|sector| {
-            let symmetric = tree.symmetric().map_err(|source| Failure::Tree {
-                name: described.name.clone(),
-                source,
-            })?;
+            let symmetric = tree
+                .symmetric()
+                .map_err(|source| Failure::tree(&described.name, source))?;
             let dual = symmetric.cast(Dual::constant);
             Ok::<_, Failure>(Told {
                 tree: symmetric,

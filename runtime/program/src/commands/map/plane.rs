@@ -150,10 +150,7 @@ impl<'a> MapPlane<'a> {
         for (quantity, &value) in self.quantities.iter().zip(point) {
             if let Quantity::Parameter(name) = quantity {
                 let changed = tree.with(name, value);
-                tree = changed.map_err(|source| Failure::Tree {
-                    name: self.subject.name.clone(),
-                    source,
-                })?;
+                tree = changed.map_err(|source| Failure::tree(&self.subject.name, source))?;
             }
         }
         Ok(tree)

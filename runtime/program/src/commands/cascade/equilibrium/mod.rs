@@ -69,10 +69,7 @@ impl Equilibrium {
                 .subject
                 .tree
                 .conservative()
-                .map_err(|source| Failure::Tree {
-                    name: name.clone(),
-                    source,
-                })?,
+                .map_err(|source| Failure::tree(&name, source))?,
             arguments,
             scales: driven.generations(),
         };

@@ -63,10 +63,7 @@ impl Release {
         if subject.tree.drive(0.0).is_some() {
             return Ok(subject.clone());
         }
-        let refused = |source| Failure::Tree {
-            name: subject.name.clone(),
-            source,
-        };
+        let refused = |source| Failure::tree(&subject.name, source);
         let text = format!(
             "drive(torque = {:e} * cos({:e} * t)),\n{}",
             self.torque,
@@ -93,10 +90,9 @@ impl Release {
 /// many sectors or copies that differ.
 pub fn run(release: &Release, subject: &Subject, job: &Job) -> Result<(), Failure> {
     let (tree, name) = (&subject.tree, &subject.name);
-    let symmetric = tree.symmetric().map_err(|source| Failure::Tree {
-        name: name.clone(),
-        source,
-    })?;
+    let symmetric = tree
+        .symmetric()
+        .map_err(|source| Failure::tree(&name, source))?;
     let sectors = tree.sectors().len();
     let what = match () {
         () if sectors > MOST_SECTORS => Some(format!(

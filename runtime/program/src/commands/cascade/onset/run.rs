@@ -82,10 +82,9 @@ impl Onset {
         mut progress: impl FnMut(f64),
     ) -> Result<Self, Failure> {
         let tree = &driven.tree;
-        let symmetric = tree.symmetric().map_err(|source| Failure::Tree {
-            name: driven.name.clone(),
-            source,
-        })?;
+        let symmetric = tree
+            .symmetric()
+            .map_err(|source| Failure::tree(&driven.name, source))?;
         let start = at_release(release, tree);
         let mut recorder = Recorder::new(tree, symmetric, release.duration);
         recorder.sample(0.0, &start.values);
