@@ -20,8 +20,8 @@ impl Emission<'_> {
 
     /// Returns true if any friction or drag is not viscous.
     pub(super) fn has_nonlinear_friction(&self) -> bool {
-        let mut links = self.scene.links.iter();
-        links.any(|link| !link.passive.is_viscous())
+        let mut torques = self.scene.passive_torques();
+        torques.any(|torques| !torques.is_viscous())
     }
 
     /// The matrix that formulas in symmetric coordinates call D.
@@ -36,7 +36,7 @@ impl Emission<'_> {
 
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
-        let passive = || self.scene.links.iter().map(|link| &link.passive);
+        let passive = || self.scene.passive_torques();
         let present = [
             (passive().any(PassiveTorques::has_friction), "friction"),
             (passive().any(PassiveTorques::has_drag), "drag"),

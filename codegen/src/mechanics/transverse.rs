@@ -57,8 +57,7 @@ impl Derivation<'_> {
             (JointQuantity::SmallRate, &frame.velocities, &small.rates),
         ] {
             for (link, own) in of_links.iter().enumerate() {
-                let mut joints = self.joints.iter();
-                let Some((&symbol, _)) = joints.find(|(_, joint)| joint.own == *own) else {
+                let Some((symbol, _)) = self.joint_in(*own) else {
                     continue;
                 };
                 let relative = self.joint_of(quantity, link, changes, Formula::zero());

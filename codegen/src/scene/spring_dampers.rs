@@ -1,5 +1,7 @@
 //! Spring-dampers: torsion springs and friction between links that are not parent and child.
 
+use std::collections::BTreeMap;
+
 use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
 use super::layout::Layout;
@@ -7,7 +9,7 @@ use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
-use super::{LinkId, Quantity};
+use super::{Coordinate, LinkId, OrbitId, Quantity, Scene};
 use crate::description::{Description, Property, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
@@ -30,6 +32,125 @@ pub enum SpringDamperEnds {
     Links([LinkId; 2]),
     /// All copies of the node of that name under one link, two by two.
     Siblings(String),
+}
+
+/// Two links that a spring-damper acts between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LinkPair {
+    /// Index of the spring-damper in [`Scene::spring_dampers`].
+    pub spring_damper: usize,
+    /// The links.
+    pub links: [LinkId; 2],
+}
+
+impl LinkPair {
+    /// Weights of symmetric coordinates in the difference of the links' angles, by their index.
+    pub fn weights(&self, coordinates: &[Coordinate]) -> Vec<(usize, i64)> {
+        let weight = |coordinate: &Coordinate, link: LinkId| {
+            let mut own = coordinate.weights.iter();
+            own.find(|(known, _)| *known == link)
+                .map_or(0, |(_, weight)| *weight)
+        };
+        let [a, b] = self.links;
+        let weights = coordinates
+            .iter()
+            .enumerate()
+            .map(|(index, coordinate)| (index, weight(coordinate, a) - weight(coordinate, b)));
+        weights.filter(|(_, weight)| *weight != 0).collect()
+    }
+}
+
+impl Scene {
+    /// The links that spring-dampers act between, two by two, where the code is not loops.
+    pub fn link_pairs(&self) -> Vec<LinkPair> {
+        let mut pairs = Vec::new();
+        for (spring_damper, own) in self.spring_dampers.iter().enumerate() {
+            let mut add = |links| {
+                pairs.push(LinkPair {
+                    spring_damper,
+                    links,
+                });
+            };
+            match &own.ends {
+                SpringDamperEnds::Links(links) => add(*links),
+                SpringDamperEnds::Siblings(node) => {
+                    for copies in self.copies_of(node) {
+                        for (place, &first) in copies.iter().enumerate() {
+                            copies[place + 1..]
+                                .iter()
+                                .for_each(|&other| add([first, other]));
+                        }
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The copies of a node under each link.
+    fn copies_of<'a>(&'a self, node: &'a str) -> impl Iterator<Item = &'a [LinkId]> {
+        let node_of = |link: LinkId| {
+            let OrbitId(orbit) = self.links.get(link.0)?.orbit;
+            Some(self.orbits.get(orbit)?.node.as_str())
+        };
+        let groups = self.groups.iter().map(|group| group.copies.as_slice());
+        groups.filter(move |copies| copies.first().and_then(|&first| node_of(first)) == Some(node))
+    }
+
+    /// Names of what a spring-damper acts between, by which its constants are called; a number
+    /// besides where one before acts between the same.
+    pub fn spring_damper_names(&self, index: usize) -> Vec<String> {
+        let ends = |own: &DescribedSpringDamper| match &own.ends {
+            SpringDamperEnds::Links(links) => {
+                links.map(|LinkId(link)| self.links[link].name.clone())
+            }
+            SpringDamperEnds::Siblings(node) => [node.clone(), node.clone()],
+        };
+        let own = ends(&self.spring_dampers[index]);
+        let before = self.spring_dampers[..index].iter();
+        let number = 1 + before.filter(|other| ends(other) == own).count();
+        let number = (number > 1).then(|| number.to_string());
+        own.into_iter().chain(number).collect()
+    }
+
+    /// Springs, friction and drag of all links, and between them.
+    pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
+        let links = self.links.iter().map(|link| &link.passive);
+        links.chain(self.spring_dampers.iter().map(|own| &own.torques))
+    }
+
+    /// The first spring-damper whose spring couples symmetric coordinates, or is at rest where
+    /// copies differ: sectors have no energies by themselves then. None where all springs
+    /// together leave each coordinate to itself.
+    pub(super) fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
+        let mut all: BTreeMap<[usize; 2], Vec<Quantity>> = BTreeMap::new();
+        let mut first: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        for pair in self.link_pairs() {
+            let torques = &self.spring_dampers[pair.spring_damper].torques;
+            if torques.spring.is_zero() {
+                continue;
+            }
+            if !torques.rest.is_zero() {
+                return Some(pair.spring_damper);
+            }
+            let weights = pair.weights(coordinates);
+            for (place, &(i, own)) in weights.iter().enumerate() {
+                for &(j, other) in &weights[place + 1..] {
+                    let share = [Quantity::integer(own * other), torques.spring.clone()];
+                    all.entry([i, j])
+                        .or_default()
+                        .push(Quantity::product(share));
+                    first.entry([i, j]).or_insert(pair.spring_damper);
+                }
+            }
+        }
+        let coupled = all
+            .into_iter()
+            .filter(|(_, shares)| !Quantity::sum(shares.clone()).is_zero());
+        coupled
+            .filter_map(|(key, _)| first.get(&key).copied())
+            .min()
+    }
 }
 
 /// Word of the clause that names two links, and of the one that names a node.

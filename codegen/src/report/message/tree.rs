@@ -177,14 +177,6 @@ messages! {
         "no link",
         "write the links whose motion is handed over, as in `prescribed(arm)`",
     ),
-    /// A spring or friction between links in code for one tree.
-    CompiledSpringDamper { word: String } => (
-        format!("compiled models have no `{word}(...)`"),
-        "for trees at run time",
-        "read the description while the program runs, by `branched_pendulum_trees::PendulumTree` \
-         or the program `branched-pendulum`, or add the torques by `emit(forces)` and \
-         `UnderTorques`: `docs/limits.md`",
-    ),
     /// A spring or friction between links beside copies in phase.
     SpringDamperInPhase { what: String } => (
         format!("`{what}` beside `in_phase(...)`"),
