@@ -3,8 +3,7 @@
 
 use super::algebra::Formula;
 use super::expression::{Role, SymbolId, Symbols};
-use super::link_pairs::PairDifferences;
-use super::meaning::{CompositeObservable, DerivedDrive, JointDifference};
+use super::meaning::{CompositeObservable, DerivedDrive, JointDifference, PairDifferences};
 use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::Scene;

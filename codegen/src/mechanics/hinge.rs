@@ -5,7 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::SymbolId;
 use super::joint::JointQuantity;
-use super::link_pairs::PairDifferences;
+use super::meaning::PairDifferences;
 use crate::scene::{LinkId, LinkPair, PassiveTorques, Scene};
 
 /// Two links, or the root and the ground, with a spring and friction between them.

@@ -4,7 +4,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, SymbolId};
 use super::joint::JointQuantity;
-use super::meaning::JointDifference;
+use super::meaning::{JointDifference, PairDifferences};
 use crate::scene::{Coordinate, LinkId, LinkPair, PassiveTorques};
 
 /// A spring and friction between two links as the articulated recursion and the arithmetic on
@@ -19,25 +19,6 @@ pub struct PairJoint<V = Expr> {
     pub rate: V,
     /// Spring and friction.
     pub passive: PassiveTorques<V>,
-}
-
-/// Differences of the angles and the rates of two links, as far as anything depends on them.
-pub(super) struct PairDifferences {
-    pub(super) pair: LinkPair,
-    /// θ_a − θ_b − ρ.
-    pub(super) angle: Option<Formula>,
-    /// ω_a − ω_b.
-    pub(super) rate: Option<Formula>,
-}
-
-impl PairDifferences {
-    pub(super) fn of(pair: LinkPair) -> Self {
-        Self {
-            pair,
-            angle: None,
-            rate: None,
-        }
-    }
 }
 
 impl Derivation<'_> {

@@ -3,7 +3,7 @@
 
 use super::algebra::Formula;
 use super::expression::{Expr, SymbolId};
-use crate::scene::{FrictionPlace, Function, LinkId};
+use crate::scene::{FrictionPlace, Function, LinkId, LinkPair};
 use std::collections::BTreeMap;
 
 /// Meaning of a symbol that depends on time alone.
@@ -112,6 +112,25 @@ impl JointDifference {
         let terms = terms.map(|&(id, weight)| times(weight, Expr::Symbol(id)));
         let rest = (!self.rest.is_zero()).then(|| times(-1, self.rest.clone()));
         Expr::Sum(terms.chain(rest).collect())
+    }
+}
+
+/// Differences of the angles and the rates of two links, as far as anything depends on them.
+pub(super) struct PairDifferences {
+    pub(super) pair: LinkPair,
+    /// θ_a − θ_b − ρ.
+    pub(super) angle: Option<Formula>,
+    /// ω_a − ω_b.
+    pub(super) rate: Option<Formula>,
+}
+
+impl PairDifferences {
+    pub(super) fn of(pair: LinkPair) -> Self {
+        Self {
+            pair,
+            angle: None,
+            rate: None,
+        }
     }
 }
 

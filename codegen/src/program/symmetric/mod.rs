@@ -22,13 +22,14 @@ mod reciprocal;
 mod sector;
 mod series;
 mod solve;
+mod spring_dampers;
 mod tree;
 
 pub(super) use budget::{Share, SymmetricMotion};
 pub(super) use field::{SymmetricField, SymmetricTree};
 pub(super) use friction::LawValues;
 pub(super) use motion::{ConstantValues, Fields, OrbitValues, Pose};
-pub(super) use pairs::SpringDamperValues;
 pub(super) use series::{SeriesArithmetic, TruncatedSeries};
 pub(super) use solve::MassFactors;
+pub(super) use spring_dampers::SpringDamperValues;
 pub(super) use tree::{OrbitLinks, SectorId, orbits};

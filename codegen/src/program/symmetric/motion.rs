@@ -3,8 +3,8 @@
 
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
-use super::pairs::SpringDamperValues;
 use super::series::TruncatedSeries;
+use super::spring_dampers::SpringDamperValues;
 use crate::mechanics::OrbitCoupling;
 use crate::scene::PassiveTorques;
 
