@@ -24,9 +24,18 @@ impl Emission<'_> {
         torques.any(|torques| !torques.is_viscous())
     }
 
+    /// Whether differences that are zero stay so.
+    pub(super) fn fate_of_differences(&self) -> &'static str {
+        match self.scene.couples_differences(&self.mechanics.coordinates) {
+            false => "A difference that is zero with its rate stays exactly zero.",
+            true => "What acts between links couples differences, so that they do not stay zero.",
+        }
+    }
+
     /// The matrix that formulas in symmetric coordinates call D.
     pub(super) fn braking_note(&self) -> &'static str {
-        match self.has_nonlinear_friction() {
+        let mut links = self.scene.links.iter();
+        match links.any(|link| !link.passive.is_viscous()) {
             true => {
                 " In the formulas D are the means and differences of torques of friction that is not viscous."
             }

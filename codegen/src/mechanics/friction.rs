@@ -295,11 +295,12 @@ impl Derivation<'_> {
 
     /// √(w² + ε²) for formulas.
     fn speed(&mut self, names: &[String], rate: &Expr, width: &Expr) -> SymbolId {
+        let is_name = matches!(rate, Expr::Symbol(_));
         let spelt = |print: fn(&Expr, &Symbols) -> String| {
             let [rate, width] = [rate, width].map(|expr| print(expr, &self.symbols));
-            match rate.contains(' ') {
-                true => [format!("({rate})"), width],
-                false => [rate, width],
+            match is_name {
+                true => [rate, width],
+                false => [format!("({rate})"), width],
             }
         };
         let ([rate, width], [latex_rate, latex_width]) = (spelt(super::text), spelt(super::latex));

@@ -44,10 +44,8 @@ impl Derivation<'_> {
             JointQuantity::Rate => ("joint_rate", "φ̇", "\\dot\\varphi"),
             JointQuantity::PairAngle => ("relative_angle", "φ", "\\varphi"),
             JointQuantity::PairRate => ("relative_rate", "φ̇", "\\dot\\varphi"),
-            JointQuantity::SymmetricPairAngle => ("symmetric_angle", "φ̃", "\\tilde\\varphi"),
-            JointQuantity::SymmetricPairRate => {
-                ("symmetric_rate", "dφ̃/dt", "\\dot{\\tilde\\varphi}")
-            }
+            JointQuantity::SymmetricPairAngle => ("symmetric_angle", "ψ", "\\psi"),
+            JointQuantity::SymmetricPairRate => ("symmetric_rate", "ψ̇", "\\dot\\psi"),
             JointQuantity::SmallAngle => ("joint_delta", "δφ", "\\delta\\varphi"),
             JointQuantity::SmallRate => ("joint_delta_rate", "δφ̇", "\\delta\\dot\\varphi"),
         };

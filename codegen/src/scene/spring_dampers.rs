@@ -9,7 +9,7 @@ use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
-use super::{Coordinate, LinkId, OrbitId, Quantity, Scene};
+use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Scene};
 use crate::description::{Description, Property, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
@@ -117,6 +117,26 @@ impl Scene {
     pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
         let links = self.links.iter().map(|link| &link.passive);
         links.chain(self.spring_dampers.iter().map(|own| &own.torques))
+    }
+
+    /// Returns true if differences of copies that are zero with their rates do not stay zero, for
+    /// what acts between links: on several coordinates, or at rest where copies differ.
+    pub fn couples_differences(&self, coordinates: &[Coordinate]) -> bool {
+        let couples = |pair: LinkPair| {
+            let own = &self.spring_dampers[pair.spring_damper];
+            let weights = pair.weights(coordinates);
+            let is_mean = |&(index, _): &(usize, i64)| {
+                matches!(coordinates[index].kind, CoordinateKind::Mean { .. })
+            };
+            match own.ends {
+                SpringDamperEnds::Siblings(_) => false,
+                SpringDamperEnds::Links(_) => {
+                    !weights.iter().all(is_mean)
+                        && (weights.len() > 1 || !own.torques.rest.is_zero())
+                }
+            }
+        };
+        self.link_pairs().into_iter().any(couples)
     }
 
     /// The first spring-damper whose spring couples symmetric coordinates, or is at rest where
