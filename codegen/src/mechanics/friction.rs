@@ -5,7 +5,7 @@ use super::algebra::Formula;
 use super::derivation::{Derivation, Index};
 use super::expression::{Expr, Role, SymbolId, Symbols};
 use super::frame::DerivedFrame;
-use super::hinge::{Hinge, HingePart};
+use super::hinge::{HingePart, HingeWords};
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
 use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
@@ -71,7 +71,7 @@ impl Derivation<'_> {
                 if law.is_none() {
                     continue;
                 }
-                self.name_law(&hinge, place, law);
+                self.name_law(&hinge.words, place, law);
                 let source = match (place, hinge.part) {
                     (FrictionPlace::Joint, part @ HingePart::Pivot(link)) => DerivedSource::Link {
                         link: LinkId(link),
@@ -122,8 +122,13 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names C, q and ε of a hinge.
-    fn name_law(&mut self, hinge: &Hinge<'_>, place: FrictionPlace, law: &FrictionLaw) {
+    /// Names C, q and ε of a hinge, and returns them.
+    pub(super) fn name_law(
+        &mut self,
+        hinge: &HingeWords,
+        place: FrictionPlace,
+        law: &FrictionLaw,
+    ) -> [Formula; 3] {
         let index = Index::of(&hinge.constants);
         let (mark, latex_mark) = (place.mark(), place.latex_mark());
         let (words, what) = match place {
@@ -141,17 +146,21 @@ impl Derivation<'_> {
             ("q", "q", "quadratic ", "N m s²", &law.quadratic),
             ("ε", "\\varepsilon", "width of ", "rad/s", &law.width),
         ];
-        for (word, (letter, latex, kind, unit, value)) in words.into_iter().zip(letters) {
+        let mut named = [const { None }; 3];
+        for ((word, place), (letter, latex, kind, unit, value)) in
+            words.into_iter().zip(&mut named).zip(letters)
+        {
             let value = self.quantity(value);
-            self.constant(
+            *place = Some(self.constant(
                 &format!("{word}_{}", index.code),
                 &format!("{letter}{mark}_{}", index.text),
                 &format!("{latex}{latex_mark}_{{\\mathrm{{{}}}}}", index.latex),
                 &format!("{kind}{what}"),
                 unit,
                 value,
-            );
+            ));
         }
+        named.map(|constant| constant.unwrap_or_else(Formula::zero))
     }
 
     /// The passive torques of an orbit, or of what acts between links, in named constants;

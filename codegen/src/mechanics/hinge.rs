@@ -11,14 +11,19 @@ use crate::scene::{LinkId, LinkPair, PassiveTorques, Scene};
 /// Two links, or the root and the ground, with a spring and friction between them.
 pub(super) struct Hinge<'s> {
     pub(super) part: HingePart,
-    /// Names of the constants.
-    pub(super) constants: Vec<String>,
-    /// What the spring is one of, in words.
-    pub(super) owner: String,
-    /// Place of spring and friction in words.
-    pub(super) place: String,
+    pub(super) words: HingeWords,
     /// Spring and friction; drag of the link of a pivot besides.
     pub(super) passive: &'s PassiveTorques,
+}
+
+/// The hinge in constants and in words.
+pub(super) struct HingeWords {
+    /// Names of the constants.
+    pub(super) constants: Vec<String>,
+    /// What the spring is one of.
+    pub(super) owner: String,
+    /// Place of spring and friction.
+    pub(super) place: String,
 }
 
 /// The links of a hinge.
@@ -37,24 +42,31 @@ impl Scene {
             let orbit = &self.orbits[link.orbit.0].name;
             Hinge {
                 part: HingePart::Pivot(index),
-                constants: vec![orbit.clone()],
-                owner: format!("of `{orbit}`"),
-                place: format!("in the pivot of `{orbit}`"),
+                words: HingeWords {
+                    constants: vec![orbit.clone()],
+                    owner: format!("of `{orbit}`"),
+                    place: format!("in the pivot of `{orbit}`"),
+                },
                 passive: &link.passive,
             }
         });
         let pairs = self.link_pairs().into_iter().enumerate();
-        let pairs = pairs.map(|(number, pair)| {
-            let own = &self.spring_dampers[pair.spring_damper];
-            Hinge {
-                part: HingePart::Pair(number, pair),
-                constants: self.spring_damper_names(pair.spring_damper),
-                owner: format!("of `{}`", own.what),
-                place: format!("of `{}`", own.what),
-                passive: &own.torques,
-            }
+        let pairs = pairs.map(|(number, pair)| Hinge {
+            part: HingePart::Pair(number, pair),
+            words: self.words_of(pair.spring_damper),
+            passive: &self.spring_dampers[pair.spring_damper].torques,
         });
         pivots.chain(pairs).collect()
+    }
+
+    /// A spring-damper in constants and in words.
+    pub(super) fn words_of(&self, spring_damper: usize) -> HingeWords {
+        let what = format!("of `{}`", self.spring_dampers[spring_damper].what);
+        HingeWords {
+            constants: self.spring_damper_names(spring_damper),
+            owner: what.clone(),
+            place: what,
+        }
     }
 }
 
@@ -107,13 +119,14 @@ impl Derivation<'_> {
     /// Names of the links of a pair; a number besides where a spring-damper before acts
     /// between the same.
     pub(super) fn pair_names(&self, pair: LinkPair) -> Vec<String> {
-        let links = pair
+        let names = pair
             .links
             .map(|LinkId(link)| self.scene.links[link].name.clone());
-        let number = self.scene.spring_damper_names(pair.spring_damper);
-        links
-            .into_iter()
-            .chain(number.into_iter().skip(2))
-            .collect()
+        let before = self.pairs.iter().filter(|known| {
+            known.pair.links == pair.links && known.pair.spring_damper < pair.spring_damper
+        });
+        let number = 1 + before.count();
+        let number = (number > 1).then(|| number.to_string());
+        names.into_iter().chain(number).collect()
     }
 }

@@ -5,7 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
-use super::hinge::{Hinge, HingePart};
+use super::hinge::{Hinge, HingePart, HingeWords};
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::DerivedTorque;
@@ -219,11 +219,12 @@ impl Derivation<'_> {
         for hinge in scene.hinges() {
             let Hinge {
                 part,
-                constants,
-                place,
+                words,
                 passive,
-                ..
             } = &hinge;
+            let HingeWords {
+                constants, place, ..
+            } = words;
             if !passive.friction.is_zero() {
                 let meaning = format!("viscous friction {place}");
                 let relative = self.hinge_rate(*part, velocities);
@@ -232,7 +233,7 @@ impl Derivation<'_> {
                 terms.push(dissipated(&c, &relative));
             }
             if let (HingePart::Pivot(index), false) = (*part, passive.drag.is_zero()) {
-                let meaning = format!("viscous drag {} against the ground", hinge.owner);
+                let meaning = format!("viscous drag {} against the ground", words.owner);
                 let value = self.quantity(&passive.drag);
                 let k = self.lettered(letters::DRAG, constants, &meaning, value);
                 terms.push(dissipated(&k, &Formula::symbol(velocities[index])));
@@ -248,11 +249,14 @@ impl Derivation<'_> {
         for hinge in scene.hinges() {
             let Hinge {
                 part,
+                words,
+                passive,
+            } = &hinge;
+            let HingeWords {
                 constants,
                 owner,
                 place,
-                passive,
-            } = &hinge;
+            } = words;
             if passive.spring.is_zero() {
                 continue;
             }

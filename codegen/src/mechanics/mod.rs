@@ -40,6 +40,7 @@ pub mod sectors;
 mod series;
 mod show;
 mod show_transverse;
+mod siblings;
 mod small;
 mod symmetric;
 mod transfer;

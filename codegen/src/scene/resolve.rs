@@ -103,7 +103,9 @@ pub(super) fn resolve_for(
         check_symmetry(&mut resolved, &expansion, report);
         let names = LinkNames::of(&expansion, layout);
         prescribed = resolve_prescribed(&description.prescribed, &names, report);
-        spring_dampers = resolve_spring_dampers(description, torques, &expansion, &names, report);
+        let whole = reduction.as_ref();
+        spring_dampers =
+            resolve_spring_dampers(description, torques, &expansion, whole, &names, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),

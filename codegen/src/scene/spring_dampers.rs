@@ -9,7 +9,7 @@ use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
-use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Scene};
+use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
 use crate::description::{Description, Property, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
@@ -57,6 +57,24 @@ impl LinkPair {
             .enumerate()
             .map(|(index, coordinate)| (index, weight(coordinate, a) - weight(coordinate, b)));
         weights.filter(|(_, weight)| *weight != 0).collect()
+    }
+}
+
+impl Reduction {
+    /// The node of that name, if its copies move alike.
+    fn in_phase(&self, name: &str) -> Option<&WholeNode> {
+        let mut orbits = self.orbits.iter();
+        orbits.find(|orbit| orbit.name == name && orbit.in_phase && orbit.copies > 1)
+    }
+
+    /// Number of links of the whole tree for which one that copies of a node hang from stands.
+    fn copies_above(&self, name: &str) -> usize {
+        let Some(index) = self.orbits.iter().position(|orbit| orbit.name == name) else {
+            return 1;
+        };
+        let above = self.orbits[..index].iter();
+        let above = above.filter(|above| above.end > index && above.in_phase);
+        above.map(|above| above.copies).product()
     }
 }
 
@@ -116,7 +134,20 @@ impl Scene {
     /// Springs, friction and drag of all links, and between them.
     pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
         let links = self.links.iter().map(|link| &link.passive);
-        links.chain(self.spring_dampers.iter().map(|own| &own.torques))
+        let pairs = self.link_pairs().into_iter();
+        links.chain(pairs.map(|pair| &self.spring_dampers[pair.spring_damper].torques))
+    }
+
+    /// The spring-dampers between copies that move in phase as this link, by their indices.
+    pub fn spring_dampers_in_phase(&self, link: LinkId) -> Vec<usize> {
+        let OrbitId(orbit) = self.links[link.0].orbit;
+        let node = &self.orbits[orbit].node;
+        let is_in_phase =
+            (self.reduction.as_ref()).is_some_and(|whole| whole.in_phase(node).is_some());
+        let own = self.spring_dampers.iter().enumerate().filter(|(_, own)| {
+            matches!(&own.ends, SpringDamperEnds::Siblings(name) if is_in_phase && name == node)
+        });
+        own.map(|(index, _)| index).collect()
     }
 
     /// Returns true if differences of copies that are zero with their rates do not stay zero, for
@@ -252,28 +283,35 @@ pub(super) fn resolve_spring_dampers(
     description: &Description,
     torques: Vec<PassiveTorques<Quantity>>,
     expansion: &ExpandedTree,
+    reduction: Option<&Reduction>,
     names: &LinkNames<'_>,
     report: &mut Faults,
 ) -> Vec<DescribedSpringDamper> {
     let (clauses, reductions) = (&description.spring_dampers, &description.reductions);
     let mut spring_dampers = Vec::new();
-    for (clause, torques) in clauses.iter().zip(torques) {
+    for (clause, mut torques) in clauses.iter().zip(torques) {
         let what = in_words(clause);
-        if !reductions.in_phase.is_empty() {
+        let is_of_siblings = clause.name == SIBLINGS;
+        // In code that is loops over generations a link in phase stands for them all.
+        let is_apart = is_of_siblings && names.layout == Layout::Unrolled;
+        if !reductions.in_phase.is_empty() && !is_apart {
             report.error(
                 clause.name.span(),
                 TreeMessage::SpringDamperInPhase { what },
             );
             continue;
         }
-        if clause.name == SIBLINGS && !reductions.locked.is_empty() {
+        if is_of_siblings && !reductions.locked.is_empty() {
             report.error(clause.name.span(), TreeMessage::SiblingsBesideLock { what });
             continue;
         }
-        let ends = match clause.name == SIBLINGS {
-            true => siblings(clause, expansion, names.layout, report),
+        let ends = match is_of_siblings {
+            true => siblings(clause, expansion, reduction, names.layout, report),
             false => two_links(clause, names, report),
         };
+        if let (Some(SpringDamperEnds::Siblings(node)), Some(reduction)) = (&ends, reduction) {
+            torques.times(reduction.copies_above(node));
+        }
         if let Some(ends) = ends {
             spring_dampers.push(DescribedSpringDamper {
                 what,
@@ -310,6 +348,7 @@ fn two_links(
 fn siblings(
     clause: &SpringDamperClause,
     expansion: &ExpandedTree,
+    reduction: Option<&Reduction>,
     layout: Layout,
     report: &mut Faults,
 ) -> Option<SpringDamperEnds> {
@@ -333,6 +372,7 @@ fn siblings(
     };
     let has_copies = match layout {
         Layout::Generations { branching, .. } => branching > 1 && depth > 0,
+        _ if reduction.is_some_and(|whole| whole.in_phase(&name).is_some()) => true,
         _ => expansion.groups.iter().any(|group| {
             let first = group
                 .copies

@@ -181,7 +181,8 @@ messages! {
     SpringDamperInPhase { what: String } => (
         format!("`{what}` beside `in_phase(...)`"),
         "a link in phase stands for several",
-        "leave `in_phase(...)` out: copies that start in phase stay so",
+        "leave `in_phase(...)` out: copies that start in phase stay so; what acts between the \
+         copies of a node, `siblings(...)`, goes with it",
     ),
     /// Copies of a node beside links that do not move in their joints.
     SiblingsBesideLock { what: String } => (

@@ -183,6 +183,40 @@ fn functions_are_those_of_trees_at_run_time() {
     canonical.assert_below(1e-10, "rates of momenta");
 }
 
+/// Copies apart on copies in phase: what acts between them is as strong as those that one link
+/// stands for together.
+#[test]
+fn copies_on_copies_in_phase_move_as_in_the_whole_tree() {
+    let tree = "gravity = 9.80665,
+        a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.2, length = 0.35) [
+            c: rod(mass = 0.1, length = 0.2, friction = 1e-3) * 2] * 3],
+        siblings(c, spring = 0.3, friction(viscous = 1e-2, coulomb = 0.1, quadratic = 1e-2)),
+        siblings(b, spring = 0.2)";
+    let (whole, in_phase) = (compile(tree), compile(&format!("{tree}, in_phase(b)")));
+    let at_run_time = PendulumTree::parse(&format!("{tree}, in_phase(b)"));
+    let at_run_time = at_run_time.expect("the compiler takes it");
+    let mut random = Random::new(5);
+    for _ in 0..50 {
+        let (theta, omega) = (random.around_zero(4, PI), random.around_zero(4, 5.0));
+        let whole_of = |own: &[f64]| -> Vec<f64> {
+            let branch = [own[1], own[2], own[3]];
+            [vec![own[0]], branch.repeat(3)].concat()
+        };
+        let inputs = [whole_of(&theta), whole_of(&omega)];
+        let expected = whole.evaluate("accelerations", &inputs.each_ref().map(Vec::as_slice));
+        let found = in_phase.evaluate("accelerations", &[&theta, &omega]);
+        let own = at_run_time.accelerations(0.0, &theta, &omega);
+        let size = expected.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+        for ((found, own), expected) in found.iter().zip(own).zip(expected) {
+            assert!(
+                (found - expected).abs() < 1e-12 * size,
+                "{found} {expected}"
+            );
+            assert!((own - expected).abs() < 1e-12 * size, "{own} {expected}");
+        }
+    }
+}
+
 /// Two equal rods in one pivot: against each other they have
 /// ω² = (m g ℓ/2 + 2 κ)/(m ℓ²/3), and together what gravity alone gives them.
 #[test]
