@@ -280,7 +280,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "spring_dampers_in_phase",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
-    siblings(b, spring = 1), in_phase(b))] struct Pendulum;",
+    siblings(b, spring = 1), between(a, b, spring = 1), in_phase(b))] struct Pendulum;",
     ),
     (
         "siblings_beside_a_lock",
