@@ -31,6 +31,7 @@ OUTSIDE = ["-p", "branched-pendulum-tests", "--test", "outside"]
 
 BOTH_SOLVES = "solves::both_agree_with_the_oracle_and_each_other"
 DRIVEN = "drive::accelerations_and_power_agree_with_both_oracles"
+BETWEEN = "between::motions_are_those_of_bodies"
 CARTESIAN = "random_trees::accelerations_agree_with_cartesian_jacobians"
 
 C, R, D, M = "codegen/src", "runtime/src", "runtime/data/src", "runtime/measure/src"
@@ -52,11 +53,17 @@ EXPRESSIONS = [
     ("inertia about the centre of mass missing", f"{C}/mechanics/lagrangian.rs",
      "sums.add(index, index, inertia);", "sums.add(index, index, Formula::zero());",
      MECHANICS, BOTH_SOLVES),
-    ("friction against the ground instead of the parent", f"{C}/mechanics/lagrangian.rs",
-     "self.joint_rate(index, velocities)", "Formula::symbol(velocities[index])",
+    ("friction against the ground instead of the parent", f"{C}/mechanics/hinge.rs",
+     "self.joint_rate(link, velocities)", "Formula::symbol(velocities[link])",
      MECHANICS, CARTESIAN),
-    ("sign of rest angles", f"{C}/mechanics/meaning.rs",
-     "minus(self.rest.clone())", "self.rest.clone()", MECHANICS, CARTESIAN),
+    ("sign of rest angles", f"{C}/program/lower.rs",
+     "self.builder.sub(value, rest)", "self.builder.add(value, rest)", MECHANICS, CARTESIAN),
+    ("torque between links on the second one", f"{C}/program/link/torques.rs",
+     "builder.add(torques[other.0], other.1)", "builder.sub(torques[other.0], other.1)",
+     MECHANICS, BETWEEN),
+    ("weights of springs between copies", f"{C}/program/symmetric/spring_dampers.rs",
+     "weight * weight", "weight.abs()", MECHANICS,
+     "between::sectors::budgets_are_those_of_trees_at_run_time"),
     ("sign of lateral levers", f"{C}/mechanics/positions.rs",
      "&(along * &sin) + &(across * &cos)", "&(along * &sin) - &(across * &cos)",
      MECHANICS, CARTESIAN),

@@ -1,8 +1,8 @@
 //! Scenes that are written out as bodies in plain numbers, for the oracles.
 
-use branched_pendulum_codegen::scene::{Link, Offset, Quantity, Scene};
+use branched_pendulum_codegen::scene::{FrictionLaw, Link, Offset, Quantity, Scene};
 
-use crate::oracle::{self, Law, Tree};
+use crate::oracle::{self, Between, Law, Tree};
 
 /// Returns the tree of a scene without parameters.
 ///
@@ -24,7 +24,22 @@ pub fn bodies_of(scene: &Scene) -> Tree {
     Tree {
         gravity: number(&scene.gravity),
         links: links.collect(),
+        between: between(scene),
     }
+}
+
+fn between(scene: &Scene) -> Vec<Between> {
+    let pairs = scene.link_pairs().into_iter().map(|pair| {
+        let passive = &scene.spring_dampers[pair.spring_damper].torques;
+        Between {
+            links: pair.links.map(|link| link.0),
+            friction: number(&passive.friction),
+            spring: number(&passive.spring),
+            rest: number(&passive.rest),
+            law: law(&passive.laws[0]),
+        }
+    });
+    pairs.collect()
 }
 
 /// Returns a point along and across its link.
@@ -40,12 +55,16 @@ fn number(quantity: &Quantity) -> f64 {
 }
 
 fn laws(link: &Link) -> [Law; 2] {
-    link.passive.laws.each_ref().map(|law| match law.is_none() {
+    link.passive.laws.each_ref().map(law)
+}
+
+fn law(law: &FrictionLaw) -> Law {
+    match law.is_none() {
         false => Law {
             coulomb: number(&law.coulomb),
             quadratic: number(&law.quadratic),
             width: number(&law.width),
         },
         true => Law::default(),
-    })
+    }
 }

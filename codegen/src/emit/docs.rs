@@ -10,8 +10,8 @@ use proc_macro2::TokenStream;
 impl Emission<'_> {
     /// Returns true if a spring is at rest beside its parent's line.
     pub(super) fn has_rest_angles(&self) -> bool {
-        let mut links = self.scene.links.iter();
-        links.any(|link| !link.passive.rest.is_zero())
+        let mut torques = self.scene.passive_torques();
+        torques.any(|torques| !torques.rest.is_zero())
     }
 
     /// The state of potential energy zero, for docs.

@@ -60,7 +60,7 @@ impl Emission<'_> {
             Purpose::SymmetricAccelerations => vec![
                 format!("Second time derivatives (in rad/s²) of the symmetric coordinates at {}`coordinates` (in rad) and `rates` (in rad/s).", self.at_time()),
                 String::new(),
-                format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. A difference that is zero with its rate stays exactly zero.{}", self.and_time(), self.braking_note()),
+                format!("Solves M̃(q) q̈ + b̃(q, q̇{}) = 0. {}{}", self.and_time(), self.fate_of_differences(), self.braking_note()),
             ],
             Purpose::SymmetricMomenta => {
                 vec!["Generalized momenta p = M̃(q) q̇ (in kg m²/s) at symmetric `coordinates` (in rad) and their `rates` (in rad/s) (Toda and Ooshida, Eq. 10).".into()]

@@ -20,13 +20,22 @@ impl Emission<'_> {
 
     /// Returns true if any friction or drag is not viscous.
     pub(super) fn has_nonlinear_friction(&self) -> bool {
-        let mut links = self.scene.links.iter();
-        links.any(|link| !link.passive.is_viscous())
+        let mut torques = self.scene.passive_torques();
+        torques.any(|torques| !torques.is_viscous())
+    }
+
+    /// Whether differences that are zero stay so.
+    pub(super) fn fate_of_differences(&self) -> &'static str {
+        match self.scene.couples_differences(&self.mechanics.coordinates) {
+            false => "A difference that is zero with its rate stays exactly zero.",
+            true => "What acts between links couples differences, so that they do not stay zero.",
+        }
     }
 
     /// The matrix that formulas in symmetric coordinates call D.
     pub(super) fn braking_note(&self) -> &'static str {
-        match self.has_nonlinear_friction() {
+        let mut links = self.scene.links.iter();
+        match links.any(|link| !link.passive.is_viscous()) {
             true => {
                 " In the formulas D are the means and differences of torques of friction that is not viscous."
             }
@@ -36,7 +45,7 @@ impl Emission<'_> {
 
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
-        let passive = || self.scene.links.iter().map(|link| &link.passive);
+        let passive = || self.scene.passive_torques();
         let present = [
             (passive().any(PassiveTorques::has_friction), "friction"),
             (passive().any(PassiveTorques::has_drag), "drag"),

@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
+use super::link_pairs::PairJoint;
 use crate::scene::{LinkId, PassiveTorques};
 
 /// Constants of the links of one orbit, zero where the scene has no such thing: expressions
@@ -42,6 +43,8 @@ pub struct Articulation {
     /// The joints of each orbit of the scene, in its order; one link stands for
     /// all of its orbit.
     pub joints: Vec<Joint>,
+    /// Springs and friction between links that are not parent and child, two by two.
+    pub pairs: Vec<PairJoint>,
 }
 
 impl Derivation<'_> {
@@ -64,12 +67,13 @@ impl Derivation<'_> {
                 ],
                 pivot: [&link.pivot.along, &link.pivot.lateral]
                     .map(|component| expr(self.quantity(component).expand())),
-                passive: self.passive_constants(&orbit.name),
+                passive: self.passive_constants(&[&orbit.name]),
             }
         });
         Articulation {
             gravity: expr(self.quantity(&scene.gravity).expand()),
             joints: joints.collect(),
+            pairs: self.plain_pairs(),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::algebra::Formula;
 use super::expression::{Role, SymbolId, Symbols};
-use super::meaning::{CompositeObservable, DerivedDrive, JointDifference};
+use super::meaning::{CompositeObservable, DerivedDrive, JointDifference, PairDifferences};
 use super::observables::EnergySymbols;
 use super::print::latex_name;
 use crate::scene::Scene;
@@ -33,6 +33,25 @@ pub enum Trigonometric {
     SinBetween(SymbolId, SymbolId),
 }
 
+/// Names as the index of a letter, in code, in text and in LaTeX.
+pub(super) struct Index {
+    pub(super) code: String,
+    pub(super) text: String,
+    pub(super) latex: String,
+}
+
+impl Index {
+    pub(super) fn of(names: &[impl AsRef<str>]) -> Self {
+        let plain: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+        let latex: Vec<String> = plain.iter().map(|name| latex_name(name)).collect();
+        Self {
+            code: plain.join("_"),
+            text: plain.join(","),
+            latex: latex.join(","),
+        }
+    }
+}
+
 /// A constant while it is derived.
 pub(super) struct ConstantEntry {
     pub(super) value: Formula,
@@ -53,6 +72,8 @@ pub(super) struct Derivation<'s> {
     pub(super) combinations: Vec<AngleCombination>,
     pub(super) drive: DerivedDrive,
     pub(super) joints: BTreeMap<SymbolId, JointDifference<Formula>>,
+    /// Differences of links that are not parent and child, pair by pair.
+    pub(super) pairs: Vec<PairDifferences>,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
@@ -86,6 +107,7 @@ impl<'s> Derivation<'s> {
             combinations: Vec::new(),
             drive: DerivedDrive::default(),
             joints: BTreeMap::new(),
+            pairs: Vec::new(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
             composites: BTreeMap::new(),
@@ -120,12 +142,26 @@ impl<'s> Derivation<'s> {
         latex: &str,
         name: &str,
     ) -> SymbolId {
-        let latex = format!("{latex}_{{\\mathrm{{{}}}}}", latex_name(name));
+        self.indexed_by(role, [code, text, latex], &[name])
+    }
+
+    /// A symbol with names for indices: its letter in code, in text and in LaTeX.
+    pub(super) fn indexed_by(
+        &mut self,
+        role: Role,
+        [code, text, latex]: [&str; 3],
+        names: &[impl AsRef<str>],
+    ) -> SymbolId {
+        let Index {
+            code: code_index,
+            text: text_index,
+            latex: latex_index,
+        } = Index::of(names);
         self.symbols.intern(
             role,
-            &format!("{code}_{name}"),
-            &format!("{text}_{name}"),
-            &latex,
+            &format!("{code}_{code_index}"),
+            &format!("{text}_{text_index}"),
+            &format!("{latex}_{{\\mathrm{{{latex_index}}}}}"),
         )
     }
 
@@ -334,11 +370,12 @@ impl<'s> Derivation<'s> {
                 }
                 None => {
                     let joint = self.joints.get(&symbol);
-                    let of_joint = joint.map(|joint| [Some(joint.own), joint.parent]);
-                    let members = of_joint.unwrap_or([Some(symbol), None]).into_iter();
+                    let of_joint = joint.map(|joint| joint.terms.as_slice());
+                    let alone = [(symbol, 1)];
+                    let members = of_joint.unwrap_or(&alone).iter();
                     found.extend(
                         members
-                            .flatten()
+                            .map(|(member, _)| *member)
                             .filter(|&member| self.symbols.get(member).role == Role::Coordinate),
                     );
                 }

@@ -53,6 +53,9 @@ pub(super) struct SmallMotion {
     /// Angles and rates of joints by their symbols: the link, and by how much they change
     /// where the parent does not change and where it does.
     pub(super) joints: BTreeMap<SymbolId, (usize, [Formula; 2])>,
+    /// Differences of copies from their mean, zero in phase, by their symbols: the link that
+    /// stands for the copies, and the change.
+    pub(super) copies: BTreeMap<SymbolId, (usize, Formula)>,
 }
 
 impl SmallMotion {
@@ -62,6 +65,16 @@ impl SmallMotion {
 
     pub(super) fn rate(&self, link: usize) -> Formula {
         Formula::symbol(self.rates[link])
+    }
+
+    /// A formula of the motion in phase.
+    pub(super) fn in_phase(&self, formula: &Formula) -> Formula {
+        let zeros = self
+            .copies
+            .keys()
+            .map(|&symbol| (symbol, Formula::zero()))
+            .collect::<Vec<_>>();
+        formula.substitute(&zeros)
     }
 
     /// By how much an angle or a rate, of a link or of a joint, changes where these links move;
@@ -81,6 +94,20 @@ impl SmallMotion {
                 (true, None) => alone.clone(),
                 (false, _) => Formula::zero(),
             });
+        }
+        if let Some((link, change)) = self.copies.get(&symbol) {
+            // Only between these copies themselves there is a difference.
+            return Some(match block.start == *link {
+                true => change.clone(),
+                false => Formula::zero(),
+            });
+        }
+        if let Some(pair) = derivation.joints.get(&symbol) {
+            let terms = pair.terms.iter().filter_map(|&(own, weight)| {
+                let change = self.change(derivation, frame, own, block)?;
+                Some(&Formula::integer(weight) * &change)
+            });
+            return Some(terms.sum());
         }
         let of = |symbols: &[SymbolId], changes: &[SymbolId]| {
             let link = symbols.iter().position(|own| *own == symbol)?;

@@ -99,10 +99,9 @@ impl Derivation<'_> {
         let joints = self.joints.iter();
         mechanics.joints = joints
             .map(|(&symbol, joint)| {
-                let JointDifference { own, parent, rest } = joint;
-                let rest = self.expr(rest);
-                let (own, parent) = (*own, *parent);
-                (symbol, JointDifference { own, parent, rest })
+                let JointDifference { terms, rest } = joint;
+                let (terms, rest) = (terms.clone(), self.expr(rest));
+                (symbol, JointDifference { terms, rest })
             })
             .collect();
         mechanics.trigonometry = self.trigonometry;

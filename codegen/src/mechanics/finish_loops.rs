@@ -22,6 +22,7 @@ impl Derivation<'_> {
             articulation: Articulation {
                 gravity: self.expr(&gravity.expand()),
                 joints: Vec::new(),
+                pairs: Vec::new(),
             },
             link: Some(link),
             joint_forces: Some(self.plain_forces(&forces)),

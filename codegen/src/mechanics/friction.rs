@@ -2,12 +2,12 @@
 //! stand in the equations of motion as viscous torques do.
 
 use super::algebra::Formula;
-use super::derivation::Derivation;
+use super::derivation::{Derivation, Index};
 use super::expression::{Expr, Role, SymbolId, Symbols};
 use super::frame::DerivedFrame;
+use super::hinge::{HingePart, HingeWords};
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
-use super::print::latex_name;
 use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
 
 /// A torque (C/s + q s) w of friction, by which a link or its joint is braked.
@@ -26,10 +26,12 @@ pub struct BrakingTorque {
 /// The meaning of a braking torque in its frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TorqueSource {
-    /// The torque of one link.
+    /// The torque on one link, against another one or the ground.
     Link {
-        /// The link.
+        /// The link that the torque brakes where its rate is positive.
         link: LinkId,
+        /// The link that it drives then.
+        against: Option<LinkId>,
         /// Rate w of the link in the frame's velocities.
         rate: Expr,
         /// Law of the friction.
@@ -62,21 +64,30 @@ impl Derivation<'_> {
     /// The torques of all links, with their constants named.
     pub(super) fn braking_torques(&mut self, velocities: &[SymbolId]) -> Vec<DerivedTorque> {
         let mut torques = Vec::new();
-        for index in 0..velocities.len() {
-            let scene = self.scene;
+        let scene = self.scene;
+        for hinge in scene.hinges() {
             for place in FrictionPlace::ALL {
-                let law = scene.links[index].passive.law(place);
+                let law = hinge.passive.law(place);
                 if law.is_none() {
                     continue;
                 }
-                self.name_law(index, place, law);
-                let rate = match place {
-                    FrictionPlace::Joint => self.joint_rate(index, velocities),
-                    FrictionPlace::Ground => Formula::symbol(velocities[index]),
+                self.name_law(&hinge.words, place, law);
+                let source = match (place, hinge.part) {
+                    (FrictionPlace::Joint, part @ HingePart::Pivot(link)) => DerivedSource::Link {
+                        link: LinkId(link),
+                        rate: self.hinge_rate(part, velocities),
+                    },
+                    (FrictionPlace::Ground, HingePart::Pivot(link)) => DerivedSource::Link {
+                        link: LinkId(link),
+                        rate: Formula::symbol(velocities[link]),
+                    },
+                    (_, part @ HingePart::Pair(number, _)) => DerivedSource::Pair {
+                        number,
+                        rate: self.hinge_rate(part, velocities),
+                    },
                 };
-                let link = LinkId(index);
-                let source = DerivedSource::Link { link, rate };
-                torques.push(self.torque_called(&scene.links[index].name, place, source));
+                let names = self.hinge_names(hinge.part);
+                torques.push(self.torque_called(&names, place, source));
             }
         }
         torques
@@ -84,23 +95,21 @@ impl Derivation<'_> {
 
     fn torque_called(
         &mut self,
-        name: &str,
+        names: &[impl AsRef<str>],
         place: FrictionPlace,
         source: DerivedSource,
     ) -> DerivedTorque {
-        let (mark, tex) = (place.mark(), latex_name(name));
+        let mark = place.mark();
         let code = match place {
             FrictionPlace::Joint => "braking",
             FrictionPlace::Ground => "braking_ground",
         };
         let mark_latex = place.latex_mark();
         let mut intern = |suffix: &str, prime: &str, latex_prime: &str| {
-            self.symbols.intern(
-                Role::Derived,
-                &format!("{code}{suffix}_{name}"),
-                &format!("D{mark}{prime}_{name}"),
-                &format!("D{mark_latex}{latex_prime}_{{\\mathrm{{{tex}}}}}"),
-            )
+            let code = format!("{code}{suffix}");
+            let text = format!("D{mark}{prime}");
+            let latex = format!("D{mark_latex}{latex_prime}");
+            self.indexed_by(Role::Derived, [&code, &text, &latex], names)
         };
         DerivedTorque {
             symbol: intern("", "", ""),
@@ -113,18 +122,23 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names C, q and ε of a link.
-    fn name_law(&mut self, index: usize, place: FrictionPlace, law: &FrictionLaw) {
-        let orbit = self.orbit_name(index);
+    /// Names C, q and ε of a hinge, and returns them.
+    pub(super) fn name_law(
+        &mut self,
+        hinge: &HingeWords,
+        place: FrictionPlace,
+        law: &FrictionLaw,
+    ) -> [Formula; 3] {
+        let index = Index::of(&hinge.constants);
         let (mark, latex_mark) = (place.mark(), place.latex_mark());
         let (words, what) = match place {
             FrictionPlace::Joint => (
                 ["coulomb", "quadratic_friction", "friction_width"],
-                format!("friction in the pivot of `{orbit}`"),
+                format!("friction {}", hinge.place),
             ),
             FrictionPlace::Ground => (
                 ["coulomb_drag", "quadratic_drag", "drag_width"],
-                format!("drag of `{orbit}` against the ground"),
+                format!("drag {} against the ground", hinge.owner),
             ),
         };
         let letters = [
@@ -132,32 +146,38 @@ impl Derivation<'_> {
             ("q", "q", "quadratic ", "N m s²", &law.quadratic),
             ("ε", "\\varepsilon", "width of ", "rad/s", &law.width),
         ];
-        for (word, (letter, latex, kind, unit, value)) in words.into_iter().zip(letters) {
+        let mut named = [const { None }; 3];
+        for ((word, place), (letter, latex, kind, unit, value)) in
+            words.into_iter().zip(&mut named).zip(letters)
+        {
             let value = self.quantity(value);
-            self.constant(
-                &format!("{word}_{orbit}"),
-                &format!("{letter}{mark}_{orbit}"),
-                &format!("{latex}{latex_mark}_{{\\mathrm{{{}}}}}", latex_name(&orbit)),
+            *place = Some(self.constant(
+                &format!("{word}_{}", index.code),
+                &format!("{letter}{mark}_{}", index.text),
+                &format!("{latex}{latex_mark}_{{\\mathrm{{{}}}}}", index.latex),
                 &format!("{kind}{what}"),
                 unit,
                 value,
-            );
+            ));
         }
+        named.map(|constant| constant.unwrap_or_else(Formula::zero))
     }
 
-    /// The passive torques of an orbit in named constants; zero where it has none.
-    pub(super) fn passive_constants(&self, orbit: &str) -> PassiveTorques<Expr> {
+    /// The passive torques of an orbit, or of what acts between links, in named constants;
+    /// zero where it has none.
+    pub(super) fn passive_constants(&self, names: &[impl AsRef<str>]) -> PassiveTorques<Expr> {
+        let index = &Index::of(names).text;
         PassiveTorques {
-            friction: self.named_constant(letters::FRICTION.text, orbit),
-            drag: self.named_constant(letters::DRAG.text, orbit),
-            spring: self.named_constant(letters::SPRING.text, orbit),
-            rest: self.named_constant(letters::REST.text, orbit),
-            laws: FrictionPlace::ALL.map(|place| self.law_constants(orbit, place)),
+            friction: self.named_constant(letters::FRICTION.text, index),
+            drag: self.named_constant(letters::DRAG.text, index),
+            spring: self.named_constant(letters::SPRING.text, index),
+            rest: self.named_constant(letters::REST.text, index),
+            laws: FrictionPlace::ALL.map(|place| self.law_constants(index, place)),
         }
     }
 
-    fn law_constants(&self, orbit: &str, place: FrictionPlace) -> FrictionLaw<Expr> {
-        let named = |letter| self.named_constant(&format!("{letter}{}", place.mark()), orbit);
+    fn law_constants(&self, index: &str, place: FrictionPlace) -> FrictionLaw<Expr> {
+        let named = |letter| self.named_constant(&format!("{letter}{}", place.mark()), index);
         FrictionLaw {
             coulomb: named("C"),
             quadratic: named("q"),
@@ -165,8 +185,8 @@ impl Derivation<'_> {
         }
     }
 
-    fn named_constant(&self, letter: &str, orbit: &str) -> Expr {
-        let found = self.symbols.find(&format!("{letter}_{orbit}"));
+    fn named_constant(&self, letter: &str, index: &str) -> Expr {
+        let found = self.symbols.find(&format!("{letter}_{index}"));
         let found = found.filter(|id| self.constants.contains_key(id));
         found.map_or_else(Expr::zero, Expr::Symbol)
     }
@@ -186,7 +206,7 @@ impl Derivation<'_> {
                 let first = self.scene.orbits[orbit].links[0];
                 if !self.scene.links[first.0].passive.law(place).is_none() {
                     let source = DerivedSource::Coordinate(index);
-                    found.push(self.torque_called(&coordinate.name, place, source));
+                    found.push(self.torque_called(&[&coordinate.name], place, source));
                 }
             }
         }
@@ -217,7 +237,9 @@ impl Derivation<'_> {
         change_of: impl Fn(&Formula) -> Formula,
     ) -> Formula {
         for torque in &frame.torques {
-            if let DerivedSource::Link { rate, .. } = &torque.source {
+            if let DerivedSource::Link { rate, .. } | DerivedSource::Pair { rate, .. } =
+                &torque.source
+            {
                 let [slope, curvature] = torque.slopes;
                 for (own, slope) in [(torque.symbol, slope), (slope, curvature)] {
                     if own == symbol {
@@ -234,14 +256,20 @@ impl Derivation<'_> {
         let torques = torques.iter().map(|torque| {
             let source = match &torque.source {
                 DerivedSource::Link { link, rate } => {
-                    let law = self.law_constants(&self.orbit_name(link.0), torque.place);
-                    let rate = self.expr(rate);
-                    TorqueSource::Link {
-                        link: *link,
-                        speed: self.speed(*link, &rate, &law.width),
-                        rate,
-                        law: Box::new(law),
-                    }
+                    let parent = self.scene.links[link.0].parent;
+                    let is_in_pivot = torque.place == FrictionPlace::Joint;
+                    let ends = (*link, parent.filter(|_| is_in_pivot));
+                    let constants = [self.orbit_name(link.0)];
+                    let name = self.scene.links[link.0].name.clone();
+                    self.plain_source(torque.place, rate, ends, &constants, &[name])
+                }
+                DerivedSource::Pair { number, rate } => {
+                    let pair = self.pairs[*number].pair;
+                    let [link, against] = pair.links;
+                    let constants = self.scene.spring_damper_names(pair.spring_damper);
+                    let names = self.pair_names(pair);
+                    let ends = (link, Some(against));
+                    self.plain_source(torque.place, rate, ends, &constants, &names)
                 }
                 DerivedSource::Coordinate(index) => TorqueSource::Coordinate(*index),
             };
@@ -255,19 +283,39 @@ impl Derivation<'_> {
         torques.collect()
     }
 
+    fn plain_source(
+        &mut self,
+        place: FrictionPlace,
+        rate: &Formula,
+        (link, against): (LinkId, Option<LinkId>),
+        constants: &[String],
+        names: &[String],
+    ) -> TorqueSource {
+        let law = self.law_constants(&Index::of(constants).text, place);
+        let rate = self.expr(rate);
+        TorqueSource::Link {
+            link,
+            against,
+            speed: self.speed(names, &rate, &law.width),
+            rate,
+            law: Box::new(law),
+        }
+    }
+
     /// √(w² + ε²) for formulas.
-    fn speed(&mut self, LinkId(link): LinkId, rate: &Expr, width: &Expr) -> SymbolId {
+    fn speed(&mut self, names: &[String], rate: &Expr, width: &Expr) -> SymbolId {
+        let is_name = matches!(rate, Expr::Symbol(_));
         let spelt = |print: fn(&Expr, &Symbols) -> String| {
             let [rate, width] = [rate, width].map(|expr| print(expr, &self.symbols));
-            match rate.contains(' ') {
-                true => [format!("({rate})"), width],
-                false => [rate, width],
+            match is_name {
+                true => [rate, width],
+                false => [format!("({rate})"), width],
             }
         };
         let ([rate, width], [latex_rate, latex_width]) = (spelt(super::text), spelt(super::latex));
         self.symbols.intern(
             Role::Derived,
-            &format!("speed_{}", self.scene.links[link].name),
+            &format!("speed_{}", Index::of(names).code),
             &format!("√({rate}² + {width}²)"),
             &format!("\\sqrt{{{latex_rate}^2 + {latex_width}^2}}"),
         )

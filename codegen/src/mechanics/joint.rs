@@ -15,6 +15,12 @@ use crate::scene::{Coordinate, LinkId};
 pub(super) enum JointQuantity {
     Angle,
     Rate,
+    /// Of two links that are not parent and child.
+    PairAngle,
+    PairRate,
+    /// The same in symmetric coordinates.
+    SymmetricPairAngle,
+    SymmetricPairRate,
     /// Of small differences beside a motion.
     SmallAngle,
     SmallRate,
@@ -25,21 +31,25 @@ impl Derivation<'_> {
     pub(super) fn joint(
         &mut self,
         quantity: JointQuantity,
-        name: &str,
+        names: &[impl AsRef<str>],
         difference: JointDifference<Formula>,
     ) -> Formula {
-        if difference.parent.is_none() && difference.rest.is_zero() {
-            return Formula::symbol(difference.own);
+        if let ([(own, 1)], true) = (difference.terms.as_slice(), difference.rest.is_zero()) {
+            return Formula::symbol(*own);
         }
         let (code, text, latex) = match quantity {
             // Without its rest it is the angle of the joint.
             JointQuantity::Angle if !difference.rest.is_zero() => ("deflection", "φ", "\\varphi"),
             JointQuantity::Angle => ("joint_angle", "φ", "\\varphi"),
             JointQuantity::Rate => ("joint_rate", "φ̇", "\\dot\\varphi"),
+            JointQuantity::PairAngle => ("relative_angle", "φ", "\\varphi"),
+            JointQuantity::PairRate => ("relative_rate", "φ̇", "\\dot\\varphi"),
+            JointQuantity::SymmetricPairAngle => ("symmetric_angle", "ψ", "\\psi"),
+            JointQuantity::SymmetricPairRate => ("symmetric_rate", "ψ̇", "\\dot\\psi"),
             JointQuantity::SmallAngle => ("joint_delta", "δφ", "\\delta\\varphi"),
             JointQuantity::SmallRate => ("joint_delta_rate", "δφ̇", "\\delta\\dot\\varphi"),
         };
-        let symbol = self.indexed(Role::Joint, code, text, latex, name);
+        let symbol = self.indexed_by(Role::Joint, [code, text, latex], names);
         self.joints.insert(symbol, difference);
         Formula::symbol(symbol)
     }
@@ -59,12 +69,9 @@ impl Derivation<'_> {
     ) -> Formula {
         let scene = self.scene;
         let parent = scene.links[link].parent;
-        let difference = JointDifference {
-            own: symbols[link],
-            parent: parent.map(|LinkId(parent)| symbols[parent]),
-            rest,
-        };
-        self.joint(quantity, &scene.links[link].name, difference)
+        let parent = parent.map(|LinkId(parent)| symbols[parent]);
+        let difference = JointDifference::of_links(symbols[link], parent, rest);
+        self.joint(quantity, &[&scene.links[link].name], difference)
     }
 
     /// What stands for the differences of links in symmetric coordinates: that of a link is
@@ -82,8 +89,7 @@ impl Derivation<'_> {
             (JointQuantity::Rate, &absolute.velocities, rates),
         ] {
             let of_link = |derivation: &Self, &own: &SymbolId| {
-                let mut joints = derivation.joints.iter();
-                let (&symbol, joint) = joints.find(|(_, joint)| joint.own == own)?;
+                let (symbol, joint) = derivation.joint_in(own)?;
                 Some((symbol, joint.rest.substitute(&constants.replacements)))
             };
             let joints: Vec<Option<(SymbolId, Formula)>> =
@@ -101,14 +107,13 @@ impl Derivation<'_> {
                 }
                 let rest =
                     &rests.into_iter().sum::<Formula>() / &Formula::integer(coordinate.norm());
-                let difference = JointDifference {
-                    own: of_coordinates[index],
-                    parent: self
-                        .above(coordinates, coordinate)
-                        .map(|parent| of_coordinates[parent]),
-                    rest: rest.expand(),
-                };
-                let difference = self.joint(quantity, &coordinate.name, difference);
+                let above = self.above(coordinates, coordinate);
+                let difference = JointDifference::of_links(
+                    of_coordinates[index],
+                    above.map(|parent| of_coordinates[parent]),
+                    rest.expand(),
+                );
+                let difference = self.joint(quantity, &[&coordinate.name], difference);
                 for (LinkId(link), weight) in &coordinate.weights {
                     sums[*link] = &sums[*link] + &(&Formula::integer(*weight) * &difference);
                 }
@@ -117,6 +122,13 @@ impl Derivation<'_> {
             replacements.extend(joints.filter_map(|(joint, sum)| Some((joint?.0, sum))));
         }
         replacements
+    }
+
+    /// The joint in which the link with this angle or rate hangs, if it has a symbol.
+    pub(super) fn joint_in(&self, own: SymbolId) -> Option<(SymbolId, &JointDifference<Formula>)> {
+        let joints = self.joints.iter().map(|(&symbol, joint)| (symbol, joint));
+        let mut own = joints.filter(|(_, joint)| joint.own() == Some(own));
+        own.find(|(symbol, _)| !self.is_of_pair(*symbol))
     }
 
     /// The coordinate that the parents of a coordinate's links have with the same weights.
@@ -146,10 +158,8 @@ impl Derivation<'_> {
     pub(super) fn with_rests(&self, formula: &Formula) -> Formula {
         let lone = |symbol: SymbolId| {
             let joint = self.joints.get(&symbol)?;
-            joint
-                .parent
-                .is_none()
-                .then(|| (symbol, joint.written_out()))
+            let is_lone = joint.terms.len() == 1;
+            is_lone.then(|| (symbol, joint.written_out()))
         };
         let replacements: Vec<_> = formula.symbols().into_iter().filter_map(lone).collect();
         formula.substitute(&replacements)

@@ -5,7 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
-use super::joint::JointQuantity;
+use super::hinge::{Hinge, HingePart, HingeWords};
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::DerivedTorque;
@@ -21,6 +21,7 @@ impl Derivation<'_> {
         let coordinates: Vec<SymbolId> = names.iter().map(|n| self.coordinate(n)).collect();
         let velocities: Vec<SymbolId> = names.iter().map(|n| self.velocity(n)).collect();
         let momenta: Vec<SymbolId> = names.iter().map(|n| self.momentum(n)).collect();
+        self.prepare_pairs();
         let mass = self.mass_matrix(&coordinates);
         let potential = self.potential(&coordinates);
         let springs = self.springs(&coordinates);
@@ -210,46 +211,62 @@ impl Derivation<'_> {
     }
 
     /// Rayleigh's dissipation function R = ½ Σ c_i (ω_i − ω_π(i))² + ½ Σ k_i ω_i²
-    /// of friction in the pivots and drag against the ground, so that the
-    /// generalized torque of both is −∂R/∂ω_i, term by term.
+    /// of friction in the pivots and drag against the ground, and ½ Σ c (ω_a − ω_b)² of
+    /// friction between links, so that the generalized torque of all is −∂R/∂ω_i, term by
+    /// term.
     fn dissipation(&mut self, velocities: &[SymbolId]) -> Vec<Formula> {
         let (scene, mut terms) = (self.scene, Vec::new());
-        for index in 0..velocities.len() {
-            let orbit = self.orbit_name(index);
-            let passive = &scene.links[index].passive;
+        for hinge in scene.hinges() {
+            let Hinge {
+                part,
+                words,
+                passive,
+            } = &hinge;
+            let HingeWords {
+                constants, place, ..
+            } = words;
             if !passive.friction.is_zero() {
-                let meaning = format!("viscous friction in the pivot of `{orbit}`");
-                let relative = self.joint_rate(index, velocities);
+                let meaning = format!("viscous friction {place}");
+                let relative = self.hinge_rate(*part, velocities);
                 let value = self.quantity(&passive.friction);
-                let c = self.lettered(letters::FRICTION, &[&orbit], &meaning, value);
+                let c = self.lettered(letters::FRICTION, constants, &meaning, value);
                 terms.push(dissipated(&c, &relative));
             }
-            if !passive.drag.is_zero() {
-                let meaning = format!("viscous drag of `{orbit}` against the ground");
+            if let (HingePart::Pivot(index), false) = (*part, passive.drag.is_zero()) {
+                let meaning = format!("viscous drag {} against the ground", words.owner);
                 let value = self.quantity(&passive.drag);
-                let k = self.lettered(letters::DRAG, &[&orbit], &meaning, value);
+                let k = self.lettered(letters::DRAG, constants, &meaning, value);
                 terms.push(dissipated(&k, &Formula::symbol(velocities[index])));
             }
         }
         terms
     }
 
-    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)².
+    /// Energy of the torsion springs, ½ Σ κ_i (θ_i − θ_π(i) − ρ_i)² and, between links,
+    /// ½ Σ κ (θ_a − θ_b − ρ)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let (scene, mut terms) = (self.scene, Vec::new());
-        for index in 0..angles.len() {
-            let orbit = self.orbit_name(index);
-            let passive = &scene.links[index].passive;
+        for hinge in scene.hinges() {
+            let Hinge {
+                part,
+                words,
+                passive,
+            } = &hinge;
+            let HingeWords {
+                constants,
+                owner,
+                place,
+            } = words;
             if passive.spring.is_zero() {
                 continue;
             }
-            let meaning = format!("angle at which the torsion spring of `{orbit}` is at rest");
+            let meaning = format!("angle at which the torsion spring {owner} is at rest");
             let value = self.quantity(&passive.rest);
-            let rest = self.lettered(letters::REST, &[&orbit], &meaning, value);
-            let strain = self.joint_of(JointQuantity::Angle, index, angles, rest);
-            let meaning = format!("stiffness of the torsion spring in the pivot of `{orbit}`");
+            let rest = self.lettered(letters::REST, constants, &meaning, value);
+            let strain = self.hinge_angle(*part, angles, rest);
+            let meaning = format!("stiffness of the torsion spring {place}");
             let value = self.quantity(&passive.spring);
-            let stiffness = self.lettered(letters::SPRING, &[&orbit], &meaning, value);
+            let stiffness = self.lettered(letters::SPRING, constants, &meaning, value);
             terms.push(stored(&stiffness, &strain));
         }
         terms.into_iter().sum::<Formula>()

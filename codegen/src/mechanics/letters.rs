@@ -1,8 +1,7 @@
 //! Letters of the constants of links.
 
 use super::algebra::Formula;
-use super::derivation::Derivation;
-use super::print::latex_name;
+use super::derivation::{Derivation, Index};
 
 /// A letter of constants, in code, in text and in LaTeX, and their unit.
 #[derive(Clone, Copy)]
@@ -40,11 +39,12 @@ pub(super) const COUPLING: Letter = letter("coupling", "μ", "\\mu", "kg m²");
 pub(super) const LATERAL_COUPLING: Letter = letter("lateral_coupling", "ν", "\\nu", "kg m²");
 
 impl Derivation<'_> {
-    /// A constant of an orbit, or of one and another above it, named by a letter.
+    /// A constant of an orbit, of one and another above it, or of what acts between links,
+    /// named by a letter.
     pub(super) fn lettered(
         &mut self,
         letter: Letter,
-        orbits: &[&str],
+        names: &[impl AsRef<str>],
         meaning: &str,
         value: Formula,
     ) -> Formula {
@@ -54,11 +54,11 @@ impl Derivation<'_> {
             latex,
             unit,
         } = letter;
-        let latex_names: Vec<String> = orbits.iter().map(|orbit| latex_name(orbit)).collect();
+        let index = Index::of(names);
         self.constant(
-            &format!("{code}_{}", orbits.join("_")),
-            &format!("{text}_{}", orbits.join(",")),
-            &format!("{latex}_{{\\mathrm{{{}}}}}", latex_names.join(",")),
+            &format!("{code}_{}", index.code),
+            &format!("{text}_{}", index.text),
+            &format!("{latex}_{{\\mathrm{{{}}}}}", index.latex),
             meaning,
             unit,
             value,

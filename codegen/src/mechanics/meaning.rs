@@ -3,7 +3,7 @@
 
 use super::algebra::Formula;
 use super::expression::{Expr, SymbolId};
-use crate::scene::{FrictionPlace, Function, LinkId};
+use crate::scene::{FrictionPlace, Function, LinkId, LinkPair};
 use std::collections::BTreeMap;
 
 /// Meaning of a symbol that depends on time alone.
@@ -59,46 +59,78 @@ impl DerivedDrive {
     }
 }
 
-/// A link's angle less its parent's, and less the one at which the spring is at rest; or the
-/// rate of the joint.
+/// The difference of two links' angles, less the one at which their spring is at rest, or of
+/// their rates: of a link and its parent in a joint, of others between which something acts. Also
+/// the same in other coordinates, a sum of these.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointDifference<F = Expr> {
-    /// The link's own angle or rate.
-    pub own: SymbolId,
-    /// The parent's.
-    pub parent: Option<SymbolId>,
+    /// Angles or rates with their weights. Of a joint the link's own comes first.
+    pub terms: Vec<(SymbolId, i64)>,
     /// The angle at which the spring is at rest, zero of rates.
     pub rest: F,
+}
+
+impl<F> JointDifference<F> {
+    /// A link's own less that of another one, if it is not the ground.
+    pub(super) fn of_links(own: SymbolId, other: Option<SymbolId>, rest: F) -> Self {
+        let other = other.map(|other| (other, -1));
+        Self {
+            terms: std::iter::once((own, 1)).chain(other).collect(),
+            rest,
+        }
+    }
+
+    /// The link's own.
+    pub(super) fn own(&self) -> Option<SymbolId> {
+        self.terms.first().map(|(own, _)| *own)
+    }
 }
 
 impl JointDifference<Formula> {
     /// The derivative by an angle or a rate.
     pub(super) fn slope(&self, symbol: SymbolId) -> Option<Formula> {
-        match symbol {
-            own if own == self.own => Some(Formula::integer(1)),
-            parent if Some(parent) == self.parent => Some(Formula::integer(-1)),
-            _ => None,
-        }
+        let found = self.terms.iter().find(|(known, _)| *known == symbol);
+        found.map(|(_, weight)| Formula::integer(*weight))
     }
 
     /// The difference written out.
     pub(super) fn written_out(&self) -> Formula {
-        let parent = self.parent.map_or_else(Formula::zero, Formula::symbol);
-        &(&Formula::symbol(self.own) - &parent) - &self.rest
+        let terms = self.terms.iter();
+        let terms = terms.map(|&(id, weight)| &Formula::integer(weight) * &Formula::symbol(id));
+        &terms.sum::<Formula>() - &self.rest
     }
 }
 
 impl JointDifference {
     /// The difference as a formula, in the order in which it is computed.
     pub fn formula(&self) -> Expr {
-        let minus = |expr: Expr| {
-            let number = Expr::Number((-1_i64).into());
-            Expr::Product(vec![number, expr])
+        let times = |weight: i64, expr: Expr| match weight {
+            1 => expr,
+            _ => Expr::Product(vec![Expr::Number(weight.into()), expr]),
         };
-        let parent = self.parent.map(|parent| minus(Expr::Symbol(parent)));
-        let rest = (!self.rest.is_zero()).then(|| minus(self.rest.clone()));
-        let own = std::iter::once(Expr::Symbol(self.own));
-        Expr::Sum(own.chain(parent).chain(rest).collect())
+        let terms = self.terms.iter();
+        let terms = terms.map(|&(id, weight)| times(weight, Expr::Symbol(id)));
+        let rest = (!self.rest.is_zero()).then(|| times(-1, self.rest.clone()));
+        Expr::Sum(terms.chain(rest).collect())
+    }
+}
+
+/// Differences of the angles and the rates of two links, as far as anything depends on them.
+pub(super) struct PairDifferences {
+    pub(super) pair: LinkPair,
+    /// θ_a − θ_b − ρ.
+    pub(super) angle: Option<Formula>,
+    /// ω_a − ω_b.
+    pub(super) rate: Option<Formula>,
+}
+
+impl PairDifferences {
+    pub(super) fn of(pair: LinkPair) -> Self {
+        Self {
+            pair,
+            angle: None,
+            rate: None,
+        }
     }
 }
 
@@ -122,7 +154,15 @@ pub(super) struct DerivedTorque {
 
 #[derive(Clone)]
 pub(super) enum DerivedSource {
-    Link { link: LinkId, rate: Formula },
+    Link {
+        link: LinkId,
+        rate: Formula,
+    },
+    /// Of two links that are not parent and child, by the number of their pair.
+    Pair {
+        number: usize,
+        rate: Formula,
+    },
     Coordinate(usize),
 }
 
@@ -130,7 +170,9 @@ impl DerivedTorque {
     /// D w of a link.
     pub(super) fn work(&self) -> Option<Formula> {
         match &self.source {
-            DerivedSource::Link { rate, .. } => Some(&Formula::symbol(self.symbol) * rate),
+            DerivedSource::Link { rate, .. } | DerivedSource::Pair { rate, .. } => {
+                Some(&Formula::symbol(self.symbol) * rate)
+            }
             DerivedSource::Coordinate(_) => None,
         }
     }
@@ -138,7 +180,9 @@ impl DerivedTorque {
     /// The torque with its rate in other symbols.
     pub(super) fn substitute(&self, replacements: &[(SymbolId, Formula)]) -> Self {
         let mut torque = self.clone();
-        if let DerivedSource::Link { rate, .. } = &mut torque.source {
+        if let DerivedSource::Link { rate, .. } | DerivedSource::Pair { rate, .. } =
+            &mut torque.source
+        {
             *rate = rate.substitute(replacements).expand();
         }
         torque

@@ -37,7 +37,7 @@ impl Derivation<'_> {
         });
         Some(SmallMechanics {
             sectors: sectors.collect(),
-            energy: self.expr(&energy),
+            energy: self.expr(&small.in_phase(&energy)),
         })
     }
 

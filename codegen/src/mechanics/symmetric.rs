@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::SymbolId;
 use super::frame::{DerivedFrame, MassMatrix};
+use super::meaning::{DerivedSource, DerivedTorque};
 use super::mismatch::CopyConstants;
 use crate::scene::{Coordinate, CoordinateKind, Group, LinkId};
 use std::collections::BTreeMap;
@@ -95,7 +96,9 @@ impl Derivation<'_> {
                 })
                 .collect()
         };
-        let joints = self.symmetric_joints(absolute, coordinates, [&ids, &velocities], constants);
+        let mut joints =
+            self.symmetric_joints(absolute, coordinates, [&ids, &velocities], constants);
+        joints.extend(self.symmetric_pairs(coordinates, [&ids, &velocities]));
         let with_constants = |mut linear: Vec<(SymbolId, Formula)>| {
             linear.extend(joints.iter().chain(&constants.replacements).cloned());
             linear
@@ -121,7 +124,11 @@ impl Derivation<'_> {
             false => {
                 let (torques, of_links) = self.symmetric_torques(&absolute.torques, coordinates);
                 in_rates.extend(of_links);
-                torques
+                let is_of_pair =
+                    |torque: &&DerivedTorque| matches!(torque.source, DerivedSource::Pair { .. });
+                let pairs = absolute.torques.iter().filter(is_of_pair);
+                let pairs = pairs.map(|torque| torque.substitute(&in_rates));
+                torques.into_iter().chain(pairs).collect()
             }
         };
         DerivedFrame {

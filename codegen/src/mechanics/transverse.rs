@@ -32,15 +32,22 @@ impl Derivation<'_> {
             differences: symbols(Role::Derived, "delta", "δ", "\\delta"),
             rates: symbols(Role::Derived, "delta_rate", "δ̇", "\\dot\\delta"),
             joints: BTreeMap::new(),
+            copies: BTreeMap::new(),
         };
         self.small_joints(frame, &mut small);
+        let coupled = self.with_siblings(frame, &mut small);
+        let frame = &coupled;
         let balances = self.balances(frame, &small);
         let sectors = self.scene.transverse_sectors().into_iter();
         let sectors: Vec<TransverseFormulas> = sectors
             .map(|sector| self.transverse_sector(frame, &small, &balances, sector))
             .collect();
+        let acting = self.small(frame, &small, &sectors);
+        for symbol in small.copies.keys() {
+            self.joints.remove(symbol);
+        }
         TransverseMechanics {
-            small: self.small(frame, &small, &sectors),
+            small: acting,
             sectors,
             accelerations: small.accelerations,
         }
@@ -57,8 +64,7 @@ impl Derivation<'_> {
             (JointQuantity::SmallRate, &frame.velocities, &small.rates),
         ] {
             for (link, own) in of_links.iter().enumerate() {
-                let mut joints = self.joints.iter();
-                let Some((&symbol, _)) = joints.find(|(_, joint)| joint.own == *own) else {
+                let Some((symbol, _)) = self.joint_in(*own) else {
                     continue;
                 };
                 let relative = self.joint_of(quantity, link, changes, Formula::zero());

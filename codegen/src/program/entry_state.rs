@@ -3,12 +3,12 @@
 use super::ValueId;
 use super::lower::{Environment, Lowering};
 use super::symmetric::{
-    ConstantValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic, SymmetricMotion,
-    SymmetricTree, TruncatedSeries,
+    ConstantValues, Fields, LawValues, OrbitValues, Pose, SeriesArithmetic, SpringDamperValues,
+    SymmetricMotion, SymmetricTree, TruncatedSeries,
 };
 use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics};
+use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics, PairJoint};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.
@@ -77,7 +77,14 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             sine: series(&coupling.sine),
         })
         .collect();
-    ConstantValues { orbits, couplings }
+    let pairs = &mechanics.articulation.pairs;
+    let passive = |own: &PairJoint| own.passive.map(&mut series);
+    let spring_dampers = SpringDamperValues::of(pairs, &mechanics.coordinates, passive);
+    ConstantValues {
+        orbits,
+        couplings,
+        spring_dampers,
+    }
 }
 
 /// Torques from outside on the links.

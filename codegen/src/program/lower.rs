@@ -124,11 +124,16 @@ impl<'a> Lowering<'a> {
                 }
             }
             Role::Joint => {
-                let JointDifference { own, parent, rest } = &self.mechanics.joints[&symbol];
-                let mut value = self.symbol(environment, *own);
-                if let Some(parent) = parent {
-                    let parent = self.symbol(environment, *parent);
-                    value = self.builder.sub(value, parent);
+                let JointDifference { terms, rest } = &self.mechanics.joints[&symbol];
+                let mut value = self.builder.integer(0);
+                for &(symbol, weight) in terms {
+                    let term = self.symbol(environment, symbol);
+                    let size = self.builder.integer(weight.abs());
+                    let term = self.builder.mul(size, term);
+                    value = match weight < 0 {
+                        true => self.builder.sub(value, term),
+                        false => self.builder.add(value, term),
+                    };
                 }
                 let rest = self.expr(environment, rest);
                 let value = self.builder.sub(value, rest);

@@ -64,7 +64,7 @@ pub use rational_expression::RationalExpression;
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
-pub use spring_dampers::{DescribedSpringDamper, SpringDamperEnds};
+pub use spring_dampers::{DescribedSpringDamper, LinkPair, SpringDamperEnds};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
@@ -117,8 +117,8 @@ pub struct Scene {
     /// Links whose motion the caller states, those of each set together. The sets come with
     /// `requests.forces`.
     pub prescribed: Vec<PrescribedSet>,
-    /// Springs and friction between links that are not parent and child; of trees that are
-    /// computed at run time alone.
+    /// Springs and friction between links that are not parent and child. Code in loops has none:
+    /// such scenes are computed at run time.
     pub spring_dampers: Vec<DescribedSpringDamper>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.

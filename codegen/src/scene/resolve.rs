@@ -1,5 +1,6 @@
 //! Description to scene, on one page.
 
+use super::coordinates::symmetric_coordinates;
 use super::drive::resolve_drive;
 use super::expand::{ExpandedTree, check_names, check_pairs, check_size, expand};
 use super::layout::{self, Asked, Layout};
@@ -25,19 +26,23 @@ use std::collections::BTreeMap;
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
-    for clause in &description.spring_dampers {
-        let word = clause.name.to_string();
-        report.error(
-            clause.name.span(),
-            TreeMessage::CompiledSpringDamper { word },
-        );
-    }
-    resolve_with_spring_dampers(description, report)
+    let scene = resolve_for(Computed::Compiled, description, report)?;
+    check_coupling(description, &scene, report);
+    report.is_empty().then_some(scene)
 }
 
-/// The same of a description with springs between any links, which code for one tree does not
-/// know.
-pub(super) fn resolve_with_spring_dampers(
+/// The way in which a scene is computed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Computed {
+    /// By code for this tree.
+    Compiled,
+    /// By code for every tree.
+    AtRunTime,
+}
+
+/// Checks a description of a tree that is computed in this way.
+pub(super) fn resolve_for(
+    computed: Computed,
     description: &Description,
     report: &mut Faults,
 ) -> Option<Scene> {
@@ -62,6 +67,7 @@ pub(super) fn resolve_with_spring_dampers(
     let asked = Asked {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
+        spring_dampers: computed == Computed::Compiled && !description.spring_dampers.is_empty(),
     };
     let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
     let reduction = readable
@@ -97,7 +103,9 @@ pub(super) fn resolve_with_spring_dampers(
         check_symmetry(&mut resolved, &expansion, report);
         let names = LinkNames::of(&expansion, layout);
         prescribed = resolve_prescribed(&description.prescribed, &names, report);
-        spring_dampers = resolve_spring_dampers(description, torques, &expansion, &names, report);
+        let whole = reduction.as_ref();
+        spring_dampers =
+            resolve_spring_dampers(description, torques, &expansion, whole, &names, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -170,6 +178,22 @@ fn check_parameter_names(values: &Values, owners: &BTreeMap<String, usize>, repo
             let name = parameter.name.clone();
             report.error(*span, TreeMessage::DuplicateName { name });
         }
+    }
+}
+
+/// Reports springs that couple sectors of which energies are asked for.
+fn check_coupling(description: &Description, scene: &Scene, report: &mut Faults) {
+    let requests = &scene.requests;
+    if scene.spring_dampers.is_empty() || (requests.transfer.is_none() && requests.budget.is_none())
+    {
+        return;
+    }
+    let coupling = scene.coupling_spring(&symmetric_coordinates(scene));
+    let Some(index) = coupling else { return };
+    let clause = description.spring_dampers.get(index);
+    if let (Some(clause), Some(own)) = (clause, scene.spring_dampers.get(index)) {
+        let what = own.what.clone();
+        report.error(clause.name.span(), OutputMessage::CoupledSectors { what });
     }
 }
 

@@ -1,5 +1,7 @@
 //! Spring-dampers: torsion springs and friction between links that are not parent and child.
 
+use std::collections::BTreeMap;
+
 use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
 use super::layout::Layout;
@@ -7,7 +9,7 @@ use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
 use super::values::Values;
-use super::{LinkId, Quantity};
+use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
 use crate::description::{Description, Property, SpringDamperClause, Value};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
@@ -30,6 +32,176 @@ pub enum SpringDamperEnds {
     Links([LinkId; 2]),
     /// All copies of the node of that name under one link, two by two.
     Siblings(String),
+}
+
+/// Two links that a spring-damper acts between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LinkPair {
+    /// Index of the spring-damper in [`Scene::spring_dampers`].
+    pub spring_damper: usize,
+    /// The links.
+    pub links: [LinkId; 2],
+}
+
+impl LinkPair {
+    /// Weights of symmetric coordinates in the difference of the links' angles, by their index.
+    pub fn weights(&self, coordinates: &[Coordinate]) -> Vec<(usize, i64)> {
+        let weight = |coordinate: &Coordinate, link: LinkId| {
+            let mut own = coordinate.weights.iter();
+            own.find(|(known, _)| *known == link)
+                .map_or(0, |(_, weight)| *weight)
+        };
+        let [a, b] = self.links;
+        let weights = coordinates
+            .iter()
+            .enumerate()
+            .map(|(index, coordinate)| (index, weight(coordinate, a) - weight(coordinate, b)));
+        weights.filter(|(_, weight)| *weight != 0).collect()
+    }
+}
+
+impl Reduction {
+    /// The node of that name, if its copies move alike.
+    fn in_phase(&self, name: &str) -> Option<&WholeNode> {
+        let mut orbits = self.orbits.iter();
+        orbits.find(|orbit| orbit.name == name && orbit.in_phase && orbit.copies > 1)
+    }
+
+    /// Number of links of the whole tree for which one that copies of a node hang from stands.
+    fn copies_above(&self, name: &str) -> usize {
+        let Some(index) = self.orbits.iter().position(|orbit| orbit.name == name) else {
+            return 1;
+        };
+        let above = self.orbits[..index].iter();
+        let above = above.filter(|above| above.end > index && above.in_phase);
+        above.map(|above| above.copies).product()
+    }
+}
+
+impl Scene {
+    /// The links that spring-dampers act between, two by two, where the code is not loops.
+    pub fn link_pairs(&self) -> Vec<LinkPair> {
+        let mut pairs = Vec::new();
+        for (spring_damper, own) in self.spring_dampers.iter().enumerate() {
+            let mut add = |links| {
+                pairs.push(LinkPair {
+                    spring_damper,
+                    links,
+                });
+            };
+            match &own.ends {
+                SpringDamperEnds::Links(links) => add(*links),
+                SpringDamperEnds::Siblings(node) => {
+                    for copies in self.copies_of(node) {
+                        for (place, &first) in copies.iter().enumerate() {
+                            copies[place + 1..]
+                                .iter()
+                                .for_each(|&other| add([first, other]));
+                        }
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The copies of a node under each link.
+    fn copies_of<'a>(&'a self, node: &'a str) -> impl Iterator<Item = &'a [LinkId]> {
+        let node_of = |link: LinkId| {
+            let OrbitId(orbit) = self.links.get(link.0)?.orbit;
+            Some(self.orbits.get(orbit)?.node.as_str())
+        };
+        let groups = self.groups.iter().map(|group| group.copies.as_slice());
+        groups.filter(move |copies| copies.first().and_then(|&first| node_of(first)) == Some(node))
+    }
+
+    /// Names of what a spring-damper acts between, by which its constants are called; a number
+    /// besides where one before acts between the same.
+    pub fn spring_damper_names(&self, index: usize) -> Vec<String> {
+        let ends = |own: &DescribedSpringDamper| match &own.ends {
+            SpringDamperEnds::Links(links) => {
+                links.map(|LinkId(link)| self.links[link].name.clone())
+            }
+            SpringDamperEnds::Siblings(node) => [node.clone(), node.clone()],
+        };
+        let own = ends(&self.spring_dampers[index]);
+        let before = self.spring_dampers[..index].iter();
+        let number = 1 + before.filter(|other| ends(other) == own).count();
+        let number = (number > 1).then(|| number.to_string());
+        own.into_iter().chain(number).collect()
+    }
+
+    /// Springs, friction and drag of all links, and between them.
+    pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
+        let links = self.links.iter().map(|link| &link.passive);
+        let pairs = self.link_pairs().into_iter();
+        links.chain(pairs.map(|pair| &self.spring_dampers[pair.spring_damper].torques))
+    }
+
+    /// The spring-dampers between copies that move in phase as this link, by their indices.
+    pub fn spring_dampers_in_phase(&self, link: LinkId) -> Vec<usize> {
+        let OrbitId(orbit) = self.links[link.0].orbit;
+        let node = &self.orbits[orbit].node;
+        let is_in_phase =
+            (self.reduction.as_ref()).is_some_and(|whole| whole.in_phase(node).is_some());
+        let own = self.spring_dampers.iter().enumerate().filter(|(_, own)| {
+            matches!(&own.ends, SpringDamperEnds::Siblings(name) if is_in_phase && name == node)
+        });
+        own.map(|(index, _)| index).collect()
+    }
+
+    /// Returns true if differences of copies that are zero with their rates do not stay zero, for
+    /// what acts between links: on several coordinates, or at rest where copies differ.
+    pub fn couples_differences(&self, coordinates: &[Coordinate]) -> bool {
+        let couples = |pair: LinkPair| {
+            let own = &self.spring_dampers[pair.spring_damper];
+            let weights = pair.weights(coordinates);
+            let is_mean = |&(index, _): &(usize, i64)| {
+                matches!(coordinates[index].kind, CoordinateKind::Mean { .. })
+            };
+            match own.ends {
+                SpringDamperEnds::Siblings(_) => false,
+                SpringDamperEnds::Links(_) => {
+                    !weights.iter().all(is_mean)
+                        && (weights.len() > 1 || !own.torques.rest.is_zero())
+                }
+            }
+        };
+        self.link_pairs().into_iter().any(couples)
+    }
+
+    /// The first spring-damper whose spring couples symmetric coordinates, or is at rest where
+    /// copies differ: sectors have no energies by themselves then. None where all springs
+    /// together leave each coordinate to itself.
+    pub(super) fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
+        let mut all: BTreeMap<[usize; 2], Vec<Quantity>> = BTreeMap::new();
+        let mut first: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+        for pair in self.link_pairs() {
+            let torques = &self.spring_dampers[pair.spring_damper].torques;
+            if torques.spring.is_zero() {
+                continue;
+            }
+            if !torques.rest.is_zero() {
+                return Some(pair.spring_damper);
+            }
+            let weights = pair.weights(coordinates);
+            for (place, &(i, own)) in weights.iter().enumerate() {
+                for &(j, other) in &weights[place + 1..] {
+                    let share = [Quantity::integer(own * other), torques.spring.clone()];
+                    all.entry([i, j])
+                        .or_default()
+                        .push(Quantity::product(share));
+                    first.entry([i, j]).or_insert(pair.spring_damper);
+                }
+            }
+        }
+        let coupled = all
+            .into_iter()
+            .filter(|(_, shares)| !Quantity::sum(shares.clone()).is_zero());
+        coupled
+            .filter_map(|(key, _)| first.get(&key).copied())
+            .min()
+    }
 }
 
 /// Word of the clause that names two links, and of the one that names a node.
@@ -111,28 +283,35 @@ pub(super) fn resolve_spring_dampers(
     description: &Description,
     torques: Vec<PassiveTorques<Quantity>>,
     expansion: &ExpandedTree,
+    reduction: Option<&Reduction>,
     names: &LinkNames<'_>,
     report: &mut Faults,
 ) -> Vec<DescribedSpringDamper> {
     let (clauses, reductions) = (&description.spring_dampers, &description.reductions);
     let mut spring_dampers = Vec::new();
-    for (clause, torques) in clauses.iter().zip(torques) {
+    for (clause, mut torques) in clauses.iter().zip(torques) {
         let what = in_words(clause);
-        if !reductions.in_phase.is_empty() {
+        let is_of_siblings = clause.name == SIBLINGS;
+        // In code that is loops over generations a link in phase stands for them all.
+        let is_apart = is_of_siblings && names.layout == Layout::Unrolled;
+        if !reductions.in_phase.is_empty() && !is_apart {
             report.error(
                 clause.name.span(),
                 TreeMessage::SpringDamperInPhase { what },
             );
             continue;
         }
-        if clause.name == SIBLINGS && !reductions.locked.is_empty() {
+        if is_of_siblings && !reductions.locked.is_empty() {
             report.error(clause.name.span(), TreeMessage::SiblingsBesideLock { what });
             continue;
         }
-        let ends = match clause.name == SIBLINGS {
-            true => siblings(clause, expansion, names.layout, report),
+        let ends = match is_of_siblings {
+            true => siblings(clause, expansion, reduction, names.layout, report),
             false => two_links(clause, names, report),
         };
+        if let (Some(SpringDamperEnds::Siblings(node)), Some(reduction)) = (&ends, reduction) {
+            torques.times(reduction.copies_above(node));
+        }
         if let Some(ends) = ends {
             spring_dampers.push(DescribedSpringDamper {
                 what,
@@ -169,6 +348,7 @@ fn two_links(
 fn siblings(
     clause: &SpringDamperClause,
     expansion: &ExpandedTree,
+    reduction: Option<&Reduction>,
     layout: Layout,
     report: &mut Faults,
 ) -> Option<SpringDamperEnds> {
@@ -192,6 +372,7 @@ fn siblings(
     };
     let has_copies = match layout {
         Layout::Generations { branching, .. } => branching > 1 && depth > 0,
+        _ if reduction.is_some_and(|whole| whole.in_phase(&name).is_some()) => true,
         _ => expansion.groups.iter().any(|group| {
             let first = group
                 .copies

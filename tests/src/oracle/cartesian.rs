@@ -108,6 +108,16 @@ impl Motion {
             motion.potential += 0.5 * link.spring * turn * turn;
             motion.potential_terms += 0.5 * link.spring * turn * turn;
         }
+        for own in &tree.between {
+            let [a, b] = own.links;
+            let (torque, terms) = own.torque(theta, omega);
+            motion.bias[a] -= torque;
+            motion.bias[b] += torque;
+            motion.bias_terms[a] += terms;
+            motion.bias_terms[b] += terms;
+            motion.potential += own.energy(theta);
+            motion.potential_terms += own.energy(theta);
+        }
         motion.bias[0] -= push.torque;
         motion.bias_terms[0] += push.torque_terms;
         motion

@@ -84,6 +84,12 @@ pub fn driven(tree: &Tree, theta: &[f64], omega: &[f64], push: &Push) -> Vec<f64
             right[row] -= omega[parent] * omega[parent] * down[axis];
         }
     }
+    for own in &tree.between {
+        let [a, b] = own.links;
+        let (torque, _) = own.torque(theta, omega);
+        right[angle(a)] += torque;
+        right[angle(b)] -= torque;
+    }
     let solution = matrix
         .lu()
         .solve(&right)

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use super::{Law, Link, Tree};
+use super::{Between, Law, Link, Tree};
 use branched_pendulum_compiler_tests::random::Random;
 
 /// Properties of a random tree.
@@ -43,15 +43,46 @@ struct Node {
 
 /// A tree of at most `recipe.links` links; the same seed gives the same tree.
 pub fn sample(recipe: &Recipe, seed: u64) -> Sample {
-    grown(recipe, seed, false)
+    grown(recipe, seed, Additions::default())
 }
 
 /// Such a tree with Coulomb and quadratic friction and drag.
 pub fn braked_sample(recipe: &Recipe, seed: u64) -> Sample {
-    grown(recipe, seed, true)
+    let braked = Additions {
+        laws: true,
+        ..Additions::default()
+    };
+    grown(recipe, seed, braked)
 }
 
-fn grown(recipe: &Recipe, seed: u64, braked: bool) -> Sample {
+/// What acts between links of a random tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Coupling {
+    /// Nothing.
+    #[default]
+    None,
+    /// Springs and friction between any links, and between all copies of nodes.
+    Any,
+    /// Springs between all copies of nodes, and friction between any links.
+    Symmetric,
+}
+
+/// Such a tree with springs and friction between links that are not parent and child.
+pub fn coupled_sample(recipe: &Recipe, seed: u64, coupling: Coupling) -> Sample {
+    let laws = true;
+    grown(recipe, seed, Additions { laws, coupling })
+}
+
+/// Parts of a tree beside those that all have.
+#[derive(Clone, Copy, Default)]
+struct Additions {
+    /// Coulomb and quadratic friction and drag.
+    laws: bool,
+    coupling: Coupling,
+}
+
+fn grown(recipe: &Recipe, seed: u64, additions: Additions) -> Sample {
+    let braked = additions.laws;
     let mut random = Random::new(seed);
     let gravity = decimal(&mut random, 1.0, 20.0);
     let mut nodes = vec![node(&mut random, None, 1, braked)];
@@ -77,15 +108,97 @@ fn grown(recipe: &Recipe, seed: u64, braked: bool) -> Sample {
     }
     let mut text = format!("gravity = {}, ", gravity.0);
     write_node(&nodes, 0, &mut text);
-    if !recipe.requests.is_empty() {
-        let _ = write!(text, ", emit({})", recipe.requests);
-    }
     let mut tree = Tree {
         gravity: gravity.1,
         links: Vec::new(),
+        between: Vec::new(),
     };
-    write_links(&nodes, 0, None, &mut tree.links);
+    let mut places = Vec::new();
+    write_links(&nodes, 0, None, "", &mut (&mut tree.links, &mut places));
+    let clauses = match additions.coupling {
+        Coupling::None => 0,
+        _ => 1 + random.below(3),
+    };
+    for _ in 0..clauses {
+        let clause = clause(&mut random, &places, additions.coupling, &mut tree.between);
+        let _ = write!(text, ", {clause}");
+    }
+    if !recipe.requests.is_empty() {
+        let _ = write!(text, ", emit({})", recipe.requests);
+    }
     Sample { text, tree }
+}
+
+/// A link's node, name and parent.
+struct Place {
+    node: usize,
+    name: String,
+    parent: Option<usize>,
+}
+
+/// A clause about links, and what it says in numbers.
+fn clause(
+    random: &mut Random,
+    places: &[Place],
+    coupling: Coupling,
+    between: &mut Vec<Between>,
+) -> String {
+    let copied = |&link: &usize| {
+        let siblings = places
+            .iter()
+            .filter(|own| own.node == places[link].node && own.parent == places[link].parent);
+        siblings.count() > 1
+    };
+    let copied: Vec<usize> = (0..places.len()).filter(copied).collect();
+    let of_siblings = !copied.is_empty() && random.below(2) == 0;
+    let has_spring = (of_siblings || coupling == Coupling::Any) && random.below(4) > 0;
+    let mut properties = Properties {
+        random,
+        text: String::new(),
+    };
+    let mut own = Between {
+        links: [0; 2],
+        friction: 0.0,
+        spring: 0.0,
+        rest: 0.0,
+        law: Law::default(),
+    };
+    if has_spring {
+        own.spring = properties.number("spring", 1e-2, 5.0);
+        if !of_siblings && properties.random.below(2) == 0 {
+            own.rest = properties.number("rest", -2.0, 2.0);
+        }
+    }
+    if !has_spring || properties.random.below(2) == 0 {
+        own.friction = properties.number("friction", 1e-4, 0.5);
+    }
+    if properties.random.below(2) == 0 {
+        own.law = properties.law("friction", true);
+    }
+    let text = properties.text.trim_end_matches(", ").to_owned();
+    if of_siblings {
+        let node = places[copied[random.below(copied.len())]].node;
+        let siblings = |a: usize, b: usize| {
+            [a, b].iter().all(|&link| places[link].node == node)
+                && places[a].parent == places[b].parent
+        };
+        for a in 0..places.len() {
+            for b in (a + 1..places.len()).filter(|&b| siblings(a, b)) {
+                between.push(Between {
+                    links: [a, b],
+                    ..own
+                });
+            }
+        }
+        return format!("siblings(link_{node}, {text})");
+    }
+    let a = random.below(places.len());
+    let b = (a + 1 + random.below(places.len() - 1)) % places.len();
+    between.push(Between {
+        links: [a, b],
+        ..own
+    });
+    format!("between({}, {}, {text})", places[a].name, places[b].name)
 }
 
 /// A decimal number, as text and as the nearest `f64`.
@@ -287,16 +400,32 @@ fn write_node(nodes: &[Node], index: usize, text: &mut String) {
     }
 }
 
-/// The copies of a node, each followed by all that hangs from it.
-fn write_links(nodes: &[Node], index: usize, parent: Option<usize>, links: &mut Vec<Link>) {
-    for _ in 0..nodes[index].copies {
+/// The copies of a node, each followed by all that hangs from it. `within` are the numbers of
+/// the copies that they hang in.
+fn write_links(
+    nodes: &[Node],
+    index: usize,
+    parent: Option<usize>,
+    within: &str,
+    (links, places): &mut (&mut Vec<Link>, &mut Vec<Place>),
+) {
+    for copy in 1..=nodes[index].copies {
         let own = links.len();
+        let suffix = match nodes[index].copies {
+            1 => within.to_owned(),
+            _ => format!("{within}_{copy}"),
+        };
         links.push(Link {
             parent,
             ..nodes[index].link.clone()
         });
+        places.push(Place {
+            node: index,
+            name: format!("link_{index}{suffix}"),
+            parent,
+        });
         for child in children(nodes, index) {
-            write_links(nodes, child, Some(own), links);
+            write_links(nodes, child, Some(own), &suffix, &mut (links, places));
         }
     }
 }

@@ -107,6 +107,44 @@ impl Link {
     }
 }
 
+/// A torsion spring and friction between any two links.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Between {
+    /// The links.
+    pub links: [usize; 2],
+    /// Viscous friction, N m s.
+    pub friction: f64,
+    /// Stiffness of the torsion spring, N m.
+    pub spring: f64,
+    /// Angle of the first link less the second one's at which the spring is at rest, rad.
+    pub rest: f64,
+    /// Friction beside viscous friction.
+    pub law: Law,
+}
+
+impl Between {
+    fn difference(&self, all: &[f64]) -> f64 {
+        let [a, b] = self.links;
+        all[a] - all[b]
+    }
+
+    /// Torque on the first link, N m, and the sum of its absolute terms.
+    fn torque(&self, theta: &[f64], omega: &[f64]) -> (f64, f64) {
+        let (angle, rate) = (self.difference(theta), self.difference(omega));
+        let strain = angle - self.rest;
+        let rounded = if self.rest == 0.0 { 0.0 } else { angle.abs() };
+        let terms = self.friction * rate.abs() + self.spring * (strain.abs() + rounded);
+        let (braking, braking_terms) = self.law.torque(rate, rate.abs());
+        let torque = self.friction * rate + self.spring * strain + braking;
+        (-torque, terms + braking_terms)
+    }
+
+    /// Energy of the spring, J.
+    fn energy(&self, theta: &[f64]) -> f64 {
+        0.5 * self.spring * (self.difference(theta) - self.rest).powi(2)
+    }
+}
+
 /// A tree of links under gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
@@ -114,6 +152,8 @@ pub struct Tree {
     pub gravity: f64,
     /// Links, parents before children.
     pub links: Vec<Link>,
+    /// Springs and friction between links.
+    pub between: Vec<Between>,
 }
 
 impl Tree {

@@ -1,6 +1,7 @@
 //! The mechanics: what is derived and emitted, against independent derivations,
 //! reference numbers and the paper's formulas.
 
+mod between;
 mod drive;
 mod exactness;
 mod fixtures;

@@ -198,6 +198,7 @@ fn generations_by_rule() {
     let third = |parent: usize| rod(Some(parent), 0.1, 0.32, 0.4);
     let tree = Tree {
         gravity: 9.8,
+        between: Vec::new(),
         links: vec![
             rod(None, 1.1, 0.7, 0.0),
             rod(Some(0), 0.4, 0.5, 0.6),

@@ -242,6 +242,7 @@ fn both_are_as_good_as_their_conditioning() {
         let tree = Tree {
             gravity: 9.80665,
             links,
+            between: Vec::new(),
         };
         for solve in both(&format!("gravity = 9.80665, {text}")) {
             let mut worst = Worst::default();

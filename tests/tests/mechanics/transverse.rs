@@ -24,6 +24,9 @@ macro_rules! crown {
                     ] * 2
                 ] * 2
             ],
+            siblings(arm, spring = 0.05, friction = 1e-3),
+            siblings(hand, spring = 2e-3, friction(coulomb = 1e-4, quadratic = 1e-5, width = 20)),
+            siblings(finger, spring = 1e-3, friction(viscous = 1e-5, quadratic = 1e-6, width = 20)),
             drive(torque = 0.05 * sin(3 * t), x = 0.01 * cos(5 * t)),
             $($entry($($inside)*)),*
         )]

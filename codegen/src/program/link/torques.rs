@@ -1,15 +1,15 @@
 //! Torques in the joints, against the ground and on the root.
 
 use super::reduced_units::Units;
-use crate::mechanics::TorqueSource;
+use crate::mechanics::{PairJoint, TorqueSource};
 use crate::program::ValueId;
 use crate::program::lower::{Environment, Lowering};
-use crate::scene::{FrictionPlace, Scene};
+use crate::scene::{LinkId, Scene};
 
 impl Lowering<'_> {
     /// Q of each link, in its unit of torque: what the caller hands over, −c (ω − ω_π),
-    /// other friction and −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, −k ω, and τ on the
-    /// root.
+    /// other friction and −κ (θ − θ_π − ρ) of its own joint less those of the joints on it, the
+    /// same between it and links that it does not hang from, −k ω, and τ on the root.
     pub(super) fn joint_torques(
         &mut self,
         scene: &Scene,
@@ -37,20 +37,20 @@ impl Lowering<'_> {
             torques[0] = self.builder.add(torques[0], torque);
         }
         for torque in &environment.frame.torques {
-            let TorqueSource::Link { link, .. } = torque.source else {
+            let TorqueSource::Link { link, against, .. } = torque.source else {
                 continue;
             };
             let braking = self.symbol(environment, torque.symbol);
             let unit = &units.links[scene.links[link.0].orbit.0];
             let own = self.builder.mul(unit.per_torque, braking);
             torques[link.0] = self.builder.sub(torques[link.0], own);
-            let parent = scene.links[link.0].parent;
-            if let Some(parent) = parent.filter(|_| torque.place == FrictionPlace::Joint) {
-                let unit = &units.links[scene.links[parent.0].orbit.0];
+            if let Some(other) = against {
+                let unit = &units.links[scene.links[other.0].orbit.0];
                 let reaction = self.builder.mul(unit.per_torque, braking);
-                torques[parent.0] = self.builder.add(torques[parent.0], reaction);
+                torques[other.0] = self.builder.add(torques[other.0], reaction);
             }
         }
+        self.pair_torques(scene, units, environment, &mut torques);
         let builder = &mut self.builder;
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
@@ -100,5 +100,40 @@ impl Lowering<'_> {
             }
         }
         torques
+    }
+
+    /// Adds −κ (θ_a − θ_b − ρ) − c (ω_a − ω_b) to the first link of each pair, and its opposite to
+    /// the second one.
+    fn pair_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        environment: &mut Environment<'_>,
+        torques: &mut [ValueId],
+    ) {
+        for PairJoint {
+            pair,
+            strain,
+            rate,
+            passive,
+        } in &self.mechanics.articulation.pairs
+        {
+            for (coefficient, difference) in [(&passive.spring, strain), (&passive.friction, rate)]
+            {
+                if coefficient.is_zero() {
+                    continue;
+                }
+                let coefficient = self.expr(environment, coefficient);
+                let difference = self.expr(environment, difference);
+                let builder = &mut self.builder;
+                let [own, other] = pair.links.map(|LinkId(link)| {
+                    let unit = &units.links[scene.links[link].orbit.0];
+                    let reduced = builder.mul(coefficient, unit.per_torque);
+                    (link, builder.mul(reduced, difference))
+                });
+                torques[own.0] = builder.sub(torques[own.0], own.1);
+                torques[other.0] = builder.add(torques[other.0], other.1);
+            }
+        }
     }
 }

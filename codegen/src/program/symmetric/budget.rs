@@ -245,6 +245,7 @@ impl SymmetricTree<'_> {
             let potential = self.sector_potential(values, pose, sector);
             energy = self.series.add(&energy, &potential);
         }
-        energy
+        let across = self.pair_energy_across(values, &pose.angles);
+        self.series.add(&energy, &across)
     }
 }

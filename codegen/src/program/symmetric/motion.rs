@@ -4,6 +4,7 @@
 use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
 use super::series::TruncatedSeries;
+use super::spring_dampers::SpringDamperValues;
 use crate::mechanics::OrbitCoupling;
 use crate::scene::PassiveTorques;
 
@@ -24,6 +25,7 @@ pub(in crate::program) struct OrbitValues {
 pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
     pub(in crate::program) couplings: Vec<OrbitCoupling<TruncatedSeries>>,
+    pub(in crate::program) spring_dampers: Vec<SpringDamperValues>,
 }
 
 /// One field for each orbit: a vector with one component for each link.
@@ -151,7 +153,8 @@ impl SymmetricTree<'_> {
         gradient
     }
 
-    /// Adds κ (θ − θ_parent − ρ) to each link, and its opposite to the parent.
+    /// Adds κ (θ − θ_parent − ρ) to each link, and its opposite to the parent; likewise between
+    /// other links.
     pub(super) fn add_springs(
         &mut self,
         sums: &mut Fields,
@@ -166,6 +169,7 @@ impl SymmetricTree<'_> {
                 self.add_joint(sums, spring, &strain);
             }
         }
+        self.add_pair_springs(sums, values, angles, None);
     }
 
     /// Adds c (ω − ω_parent) to each link, and its opposite to the parent.
@@ -255,6 +259,7 @@ impl SymmetricTree<'_> {
             self.accumulate(&mut losses, &drag);
         }
         self.add_braking(&mut losses, values, rates);
+        self.add_pair_friction(&mut losses, values, rates);
         self.all_hinted(&losses, "loss");
         losses.iter().map(|loss| self.neg(loss)).collect()
     }

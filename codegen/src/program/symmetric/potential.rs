@@ -65,7 +65,8 @@ impl SymmetricTree<'_> {
                 sum = self.series.add(&sum, &lateral);
             }
         }
-        sum
+        let between = self.pair_energy_of(values, &pose.angles, sector);
+        self.series.add(&sum, &between)
     }
 
     /// dV_s/dt at these angular velocities, of gravity alone.
@@ -171,6 +172,7 @@ impl SymmetricTree<'_> {
                 self.add_joint(&mut gradient, &constants.passive.spring, &strain);
             }
         }
+        self.add_pair_springs(&mut gradient, values, &pose.angles, Some(sector));
         gradient
     }
 

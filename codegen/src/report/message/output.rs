@@ -39,6 +39,13 @@ messages! {
              `angle = 1`, `amplitude = 4`",
         ),
     ),
+    /// Energies of sectors that a spring between links couples.
+    CoupledSectors { what: String } => (
+        format!("the spring of `{what}` couples the tree's sectors"),
+        "no sector has an energy by itself",
+        "write `siblings(NODE, spring = ...)` for springs between all copies of a node under \
+         one link, or watch an energy of your own by `observe(...)`",
+    ),
     /// A form of the budget beside `scales` that loops do not have.
     BesideScales => (
         "budgets by scale are those of Parseval's energies alone",

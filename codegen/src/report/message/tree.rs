@@ -177,19 +177,12 @@ messages! {
         "no link",
         "write the links whose motion is handed over, as in `prescribed(arm)`",
     ),
-    /// A spring or friction between links in code for one tree.
-    CompiledSpringDamper { word: String } => (
-        format!("compiled models have no `{word}(...)`"),
-        "for trees at run time",
-        "read the description while the program runs, by `branched_pendulum_trees::PendulumTree` \
-         or the program `branched-pendulum`, or add the torques by `emit(forces)` and \
-         `UnderTorques`: `docs/limits.md`",
-    ),
     /// A spring or friction between links beside copies in phase.
     SpringDamperInPhase { what: String } => (
         format!("`{what}` beside `in_phase(...)`"),
         "a link in phase stands for several",
-        "leave `in_phase(...)` out: copies that start in phase stay so",
+        "leave `in_phase(...)` out: copies that start in phase stay so; what acts between the \
+         copies of a node, `siblings(...)`, goes with it",
     ),
     /// Copies of a node beside links that do not move in their joints.
     SiblingsBesideLock { what: String } => (

@@ -279,7 +279,7 @@ fn clauses_that_say_nothing_are_refused() {
             "there are no copies",
         ),
         (
-            "siblings(b, spring = 1), in_phase(b)",
+            "between(a, b, spring = 1), in_phase(b)",
             "a link in phase stands for several",
         ),
     ] {

@@ -102,6 +102,31 @@ pub(super) const MISTAKES: &[Mistake] = &[
 )] struct Pendulum;",
     ),
     (
+        "coupled_sectors",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    between(a, b_1, friction = 1e-3), siblings(b, spring = 1), between(a, b_2, spring = 1),
+    emit(transfer(exact)))] struct Pendulum;",
+    ),
+    (
+        "coupled_by_a_rest_angle",
+        "#[branched_pendulum(gravity = 9.8,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
+    between(b_1, b_2, spring = 1, rest = 0.1), emit(budget(parseval)))] struct Pendulum;",
+    ),
+    (
+        "siblings_in_loops",
+        "#[branched_pendulum(gravity = 9.8, code = loops,
+    a: generations(count = 4, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
+    siblings(a_4, spring = 1))] struct Pendulum;",
+    ),
+    (
+        "siblings_by_scale",
+        "#[branched_pendulum(gravity = 9.8,
+    a: generations(count = 4, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
+    siblings(a_4, spring = 1), emit(budget(parseval, scales)))] struct Pendulum;",
+    ),
+    (
         "budget_small",
         "#[branched_pendulum(
     gravity = 9.8,
@@ -255,7 +280,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
         "spring_dampers_in_phase",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],
-    siblings(b, spring = 1), in_phase(b))] struct Pendulum;",
+    siblings(b, spring = 1), between(a, b, spring = 1), in_phase(b))] struct Pendulum;",
     ),
     (
         "siblings_beside_a_lock",

@@ -180,6 +180,34 @@ fn braked() {
     }
 }
 
+/// A leaf and its uncle, and two copies with a spring and friction between them.
+#[test]
+fn coupled() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         trunk: rod(mass = 1, length = 1) [ \
+             limb: rod(mass = 0.5, length = 0.5), \
+             twig: rod(mass = 0.2, length = 0.3) * 2 ], \
+         between(limb, twig_1, spring = 0.1, rest = 0.2, friction = c), \
+         siblings(twig, spring = stiffness, friction(coulomb = dry)), \
+         emit(energies, symmetric, forces))] struct Coupled;",
+    );
+    insta::assert_snapshot!("coupled_description", stages.description.to_string());
+    insta::assert_snapshot!("coupled_scene", stages.scene.to_string());
+    insta::assert_snapshot!("coupled_mechanics", stages.mechanics.to_string());
+    for name in [
+        "accelerations",
+        "potential_energy",
+        "symmetric_accelerations",
+        "friction_power",
+    ] {
+        insta::assert_snapshot!(
+            format!("coupled_code_{name}"),
+            function(&stages.tokens, name)
+        );
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {

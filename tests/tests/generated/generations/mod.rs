@@ -119,6 +119,7 @@ impl Rule {
         let mut tree = Tree {
             gravity: 9.80665,
             links: Vec::new(),
+            between: Vec::new(),
         };
         self.grow(&mut tree, None, 0);
         tree

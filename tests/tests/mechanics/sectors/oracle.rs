@@ -208,6 +208,9 @@ pub(crate) fn conservative(tree: &Tree) -> Tree {
         link.friction = 0.0;
         link.drag = 0.0;
     }
+    for own in &mut tree.between {
+        own.friction = 0.0;
+    }
     tree
 }
 

@@ -47,6 +47,7 @@ fn nested() -> Tree {
     let (first, second) = ([0.15, 0.0], [0.14, 0.02]);
     Tree {
         gravity: 9.80665,
+        between: Vec::new(),
         links: vec![
             Link {
                 drag: 1e-4,

@@ -37,6 +37,31 @@ impl Grammar<'_> {
         format!("locked({link}, {angle})")
     }
 
+    /// Springs and friction between two links, or between the copies of one.
+    pub(super) fn spring_damper(&mut self) -> String {
+        let (word, count) = match self.one_in(2) {
+            true => ("siblings", 1),
+            false => ("between", 2),
+        };
+        let mut parts: Vec<String> = (0..count).map(|_| self.link()).collect();
+        if count == 2 {
+            for link in &mut parts {
+                let copy = self.pick(&["", "", "_1", "_2", "_1_2"]);
+                link.push_str(&copy);
+            }
+        }
+        self.copies = 1;
+        for property in ["spring", "friction"] {
+            if self.one_in(2) || self.is_odd() {
+                parts.push(self.property(property));
+            }
+        }
+        if self.one_in(6) {
+            parts.push(self.property("rest"));
+        }
+        format!("{word}({})", parts.join(", "))
+    }
+
     /// The name of a link, or of none.
     fn link(&mut self) -> String {
         if self.links.is_empty() || self.is_odd() {

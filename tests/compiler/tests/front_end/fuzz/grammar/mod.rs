@@ -111,6 +111,9 @@ impl Grammar<'_> {
         if self.one_in(25) {
             entries.push(self.locked());
         }
+        if self.one_in(6) {
+            entries.push(self.spring_damper());
+        }
         if self.one_in(4) {
             entries.push(self.observe());
         }

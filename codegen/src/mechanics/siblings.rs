@@ -1,0 +1,108 @@
+//! Springs and friction between copies that move in phase, of which their small differences
+//! alone know.
+//!
+//! Let k copies have the angles θ + e_c δ with Σ e_c = 0 and Σ e_c² = k. The springs κ between
+//! every two of them have the energy ½ κ Σ (e_a − e_b)² δ² = ½ κ k² δ², and friction dissipates
+//! likewise: as a spring and friction k² as strong between the link that stands for the copies
+//! and its motion in phase, for each of their holders.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::differences::SmallMotion;
+use super::expression::Role;
+use super::frame::DerivedFrame;
+use super::hinge::HingeWords;
+use super::laws::{dissipated, stored};
+use super::letters;
+use super::meaning::JointDifference;
+use crate::scene::{FrictionPlace, LinkId, PassiveTorques};
+
+impl Derivation<'_> {
+    /// The frame with what acts between copies in phase. The symbols of their differences, zero
+    /// in phase, go to `small`.
+    pub(super) fn with_siblings(
+        &mut self,
+        frame: &DerivedFrame,
+        small: &mut SmallMotion,
+    ) -> DerivedFrame {
+        let scene = self.scene;
+        let (mut energies, mut losses) = (Vec::new(), Vec::new());
+        for sector in scene.transverse_sectors() {
+            let LinkId(link) = sector.first;
+            for index in scene.spring_dampers_in_phase(sector.first) {
+                let (words, passive) =
+                    (scene.words_of(index), &scene.spring_dampers[index].torques);
+                let count = i64::try_from(sector.copies).unwrap_or(i64::MAX);
+                let squared = Formula::integer(count).pow(2);
+                let differences = [
+                    (
+                        "copies",
+                        "χ",
+                        "\\chi",
+                        frame.coordinates[link],
+                        small.difference(link),
+                    ),
+                    (
+                        "copies_rate",
+                        "χ̇",
+                        "\\dot\\chi",
+                        frame.velocities[link],
+                        small.rate(link),
+                    ),
+                ];
+                // Of several springs between the same copies each has a number.
+                let numbers = words.constants.iter().skip(2);
+                let names: Vec<&String> = std::iter::once(&scene.links[link].name)
+                    .chain(numbers)
+                    .collect();
+                let [angle, rate] = differences.map(|(code, text, latex, own, change)| {
+                    let symbol = self.indexed_by(Role::Joint, [code, text, latex], &names);
+                    let difference = JointDifference::of_links(own, None, Formula::zero());
+                    self.joints.insert(symbol, difference);
+                    small.copies.insert(symbol, (link, change));
+                    Formula::symbol(symbol)
+                });
+                if !passive.spring.is_zero() {
+                    let meaning = format!("stiffness of the torsion spring {}", words.place);
+                    let value = self.quantity(&passive.spring);
+                    let constants = &words.constants;
+                    let stiffness = self.lettered(letters::SPRING, constants, &meaning, value);
+                    energies.push(stored(&(&squared * &stiffness), &angle));
+                }
+                let friction = self.friction_at_rest(&words, passive);
+                if !friction.is_zero() {
+                    losses.push(dissipated(&(&squared * &friction), &rate));
+                }
+            }
+        }
+        let sum = |terms: Vec<Formula>| terms.into_iter().sum::<Formula>();
+        let (energy, loss) = (sum(energies), sum(losses));
+        DerivedFrame {
+            coordinates: frame.coordinates.clone(),
+            velocities: frame.velocities.clone(),
+            momenta: frame.momenta.clone(),
+            mass: frame.mass.clone(),
+            potential: &frame.potential + &energy,
+            springs: &frame.springs + &energy,
+            dissipation: &frame.dissipation + &loss,
+            torques: frame.torques.clone(),
+            drive: frame.drive.clone(),
+        }
+    }
+
+    /// Slope c + C/ε + q ε of the torque of friction where nothing turns.
+    fn friction_at_rest(&mut self, words: &HingeWords, passive: &PassiveTorques) -> Formula {
+        let mut slope = Formula::zero();
+        if !passive.friction.is_zero() {
+            let meaning = format!("viscous friction {}", words.place);
+            let value = self.quantity(&passive.friction);
+            slope = self.lettered(letters::FRICTION, &words.constants, &meaning, value);
+        }
+        let law = passive.law(FrictionPlace::Joint);
+        if !law.is_none() {
+            let [coulomb, quadratic, width] = self.name_law(words, FrictionPlace::Joint, law);
+            slope = &slope + &(&(&coulomb / &width) + &(&quadratic * &width));
+        }
+        slope
+    }
+}

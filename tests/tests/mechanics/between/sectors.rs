@@ -1,0 +1,309 @@
+//! Symmetric coordinates, W and budgets of trees with springs and friction between links.
+
+use branched_pendulum::TransferForm;
+use branched_pendulum::prelude::*;
+use branched_pendulum::sectors::{Normalisation, Sectors};
+use branched_pendulum::system::Workspace;
+use branched_pendulum::transfer::{EnergyDefinition, Given, NonConservative, SectorBudget};
+use branched_pendulum_compiler_tests::random::Random;
+use branched_pendulum_tests::oracle::Tree;
+use branched_pendulum_tests::oracle::cartesian::Motion;
+use branched_pendulum_tests::oracle::generator::{Coupling, Recipe, coupled_sample};
+use branched_pendulum_trees::PendulumTree;
+
+use crate::support::{Worst, compile};
+
+/// The tree at run time without what it is not asked for.
+fn at_run_time(text: &str) -> PendulumTree {
+    let (text, _) = text.rsplit_once("emit(").expect("it asks for something");
+    PendulumTree::parse(text).expect("the compiler takes it")
+}
+
+fn has_copies(text: &str) -> bool {
+    text.contains("] * ") || text.contains(") * ")
+}
+
+/// Accelerations and energies of flat and nested trees, coupled in any way.
+#[test]
+fn symmetric_coordinates_describe_the_same_motion() {
+    let [mut accelerations, mut energies] = [(); 2].map(|()| Worst::default());
+    let (mut flat, mut nested) = (0, 0);
+    for seed in 0..80 {
+        let recipe = Recipe {
+            links: 3 + seed as usize % 6,
+            copies: [&[2][..], &[1, 2, 3]][seed as usize % 2],
+            nested: seed % 2 == 0,
+            requests: "energies, momenta, symmetric",
+        };
+        let sample = coupled_sample(&recipe, 5_000 + seed, Coupling::Any);
+        if !has_copies(&sample.text) {
+            continue;
+        }
+        let compiled = compile(&sample.text);
+        let is_nested = compiled.mechanics.sectors.is_some();
+        nested += usize::from(is_nested);
+        flat += usize::from(!is_nested);
+        let tree = at_run_time(&sample.text);
+        let n = tree.links();
+        let mut random = Random::new(seed);
+        for state in 0..20 {
+            let place = || format!("tree {seed}, state {state}");
+            let (q, v) = (random.around_zero(n, 2.0), random.around_zero(n, 3.0));
+            let [mut theta, mut omega] = [(); 2].map(|()| vec![0.0; n]);
+            for (own, absolute) in [(&q, &mut theta), (&v, &mut omega)] {
+                tree.absolute_from_symmetric(Normalisation::Plain, own, absolute);
+            }
+            let motion = Motion::new(&sample.tree, &theta, &omega);
+            let expected = motion.accelerations();
+            let sensitivity = motion.sensitivity(&expected).max();
+            let found = compiled.evaluate("symmetric_accelerations", &[&q, &v]);
+            let mut absolute = vec![0.0; n];
+            tree.absolute_from_symmetric(Normalisation::Plain, &found, &mut absolute);
+            for link in 0..n {
+                accelerations.note(absolute[link] - expected[link], sensitivity, place);
+            }
+            let p = compiled.evaluate("symmetric_momenta", &[&q, &v]);
+            let energy = compiled.evaluate("hamiltonian", &[&q, &p])[0];
+            let terms = motion.kinetic_terms + motion.potential_terms;
+            energies.note(energy - motion.kinetic - motion.potential, terms, place);
+        }
+    }
+    assert!(flat > 10 && nested > 10, "{flat} {nested}");
+    accelerations.assert_below(1e-11, "accelerations");
+    energies.assert_below(1e-12, "energies");
+}
+
+const DEFINITIONS: [(EnergyDefinition, &str); 4] = [
+    (EnergyDefinition::Rest, "budget_rest"),
+    (EnergyDefinition::Canonical, "budget_canonical"),
+    (EnergyDefinition::Parseval, "budget_parseval"),
+    (EnergyDefinition::Velocity, "budget_velocity"),
+];
+
+/// Σ κ |φ φ̇| over all springs: terms of the transfers that cancel in their sums.
+fn spring_flows(tree: &PendulumTree, bodies: &Tree, [q, v]: [&[f64]; 2]) -> f64 {
+    let [mut theta, mut omega] = [(); 2].map(|()| vec![0.0; q.len()]);
+    tree.absolute_from_symmetric(Normalisation::Plain, q, &mut theta);
+    tree.absolute_from_symmetric(Normalisation::Plain, v, &mut omega);
+    let flow = |spring: f64, a: usize, b: Option<usize>| {
+        let [angle, rate] = [&theta, &omega].map(|own| own[a] - b.map_or(0.0, |b| own[b]));
+        spring * (angle * rate).abs()
+    };
+    let links = bodies.links.iter().enumerate();
+    let joints = links.map(|(link, own)| flow(own.spring, link, own.parent));
+    let between = bodies.between.iter();
+    let between = between.map(|own| flow(own.spring, own.links[0], Some(own.links[1])));
+    joints.chain(between).sum()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |size: f64, x| size.max(x.abs()))
+}
+
+/// Energies of sectors, transfers and powers, with springs between all copies of nodes and
+/// friction between any links; in phase, all of every difference is exactly zero.
+#[test]
+fn budgets_are_those_of_trees_at_run_time() {
+    let [mut energies, mut flows, mut powers, mut orders] = [(); 4].map(|()| Worst::default());
+    let (mut trees, mut nested, mut with_springs) = (0, 0, 0);
+    for seed in 0..90 {
+        let recipe = Recipe {
+            links: 3 + seed as usize % 6,
+            copies: [&[2][..], &[1, 2, 3], &[2, 3]][seed as usize % 3],
+            nested: true,
+            requests: "budget(rest, canonical, parseval, velocity, matrix, amplitude = 2)",
+        };
+        let sample = coupled_sample(&recipe, 6_000 + seed, Coupling::Symmetric);
+        if !has_copies(&sample.text) {
+            continue;
+        }
+        let compiled = compile(&sample.text);
+        let whole = at_run_time(&sample.text);
+        let tree = whole.symmetric().expect("it has copies");
+        trees += 1;
+        with_springs += usize::from(sample.tree.between.iter().any(|own| own.spring > 0.0));
+        let sectors = tree.sectors();
+        nested += usize::from(
+            sectors
+                .iter()
+                .skip(1)
+                .any(|own| own.coordinates().len() > 1),
+        );
+        let (n, count) = (tree.links(), sectors.len());
+        let (mut random, mut workspace) = (Random::new(seed), Workspace::new());
+        let mut budget = SectorBudget::new();
+        for state in 0..3 {
+            let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 5.0));
+            let inputs: [&[f64]; 2] = [&theta, &omega];
+            let given = Given::Absolute {
+                theta: &theta,
+                omega: &omega,
+            };
+            let mut compared = Vec::new();
+            for (definition, entry) in DEFINITIONS {
+                let place = || format!("{entry}, state {state} of tree {seed}");
+                let derived = compiled.evaluate(entry, &inputs);
+                let acting = [NonConservative::Friction];
+                tree.budget(&mut workspace, definition, &acting, given, &mut budget);
+                let (own, rest) = derived.split_at(count);
+                let (transfers, braked) = rest.split_at(count);
+                for (found, own) in budget.energies.iter().zip(own) {
+                    energies.note(found - own, largest(&budget.energies), place);
+                }
+                compared.push((budget.transfers.clone(), transfers.to_vec()));
+                let size = largest(&budget.powers);
+                for (found, own) in budget.powers.iter().zip(braked) {
+                    powers.note(found - own, size, place);
+                }
+            }
+            let derived = compiled.evaluate("sector_transfer_matrix", &inputs);
+            let mut own = vec![0.0; count * count];
+            tree.transfer_matrix(&mut workspace, given, &mut own);
+            compared.push((own, derived));
+            let size = compared
+                .iter()
+                .fold(0.0, |size: f64, (own, _)| size.max(largest(own)));
+            for (own, derived) in &compared {
+                assert_eq!(own.len(), derived.len());
+                for (own, derived) in own.iter().zip(derived) {
+                    let place = || format!("state {state} of tree {seed}");
+                    flows.note(own - derived, size, place);
+                }
+            }
+            let (q, v) = (random.around_zero(n, 0.8), random.around_zero(n, 1.0));
+            let rates = Given::Rates {
+                coordinates: &q,
+                rates: &v,
+            };
+            let mut p = vec![0.0; n];
+            tree.momenta(&mut workspace, rates, &mut p);
+            let derived = compiled.evaluate("sector_transfers_amplitude_2", &[&q, &p]);
+            let given = Given::Momenta {
+                coordinates: &q,
+                momenta: &p,
+            };
+            let mut own = vec![Transfer::default(); count];
+            tree.transfers(&mut workspace, TransferForm::Amplitude(2), given, &mut own);
+            let own: Vec<f64> = own.iter().flat_map(|w| [w.kinetic, w.potential]).collect();
+            let size = largest(&own) + spring_flows(&whole, &sample.tree, [&q, &v]);
+            for (own, derived) in own.iter().zip(&derived) {
+                orders.note(own - derived, size, || {
+                    format!("state {state} of tree {seed}")
+                });
+            }
+        }
+    }
+    assert!(
+        trees > 60 && nested > 10 && with_springs > 20,
+        "{trees} {nested} {with_springs}"
+    );
+    energies.assert_below(1e-13, "energies");
+    flows.assert_below(1e-13, "transfers");
+    powers.assert_below(1e-12, "powers");
+    orders.assert_below(1e-13, "second order");
+}
+
+/// W and H_d of pairs and triples, every form, with a spring and every law of friction between
+/// the copies.
+#[test]
+fn transfers_into_leaves_are_those_of_trees_at_run_time() {
+    let forms = "transfer(angle = 1, amplitude = 2, amplitude = 4, exact)";
+    let [mut energies, mut worst, mut powers] = [(); 3].map(|()| Worst::default());
+    for copies in [2, 3] {
+        let text = format!(
+            "gravity = 9.80665,
+            parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+                child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, spring = 0.01) * {copies}
+            ],
+            siblings(child, spring = 0.02,
+                friction(viscous = 1e-3, coulomb = 2e-3, quadratic = 1e-4, width = 0.2)),
+            emit({forms})"
+        );
+        let compiled = compile(&text);
+        let tree = at_run_time(&text).symmetric().expect("it has copies");
+        let n = tree.links();
+        let mut random = Random::new(17);
+        for _ in 0..20 {
+            let (q, p) = (random.around_zero(n, 0.8), random.around_zero(n, 0.02));
+            let given = Given::Momenta {
+                coordinates: &q,
+                momenta: &p,
+            };
+            let workspace = &mut Workspace::new();
+            let mut split = vec![[0.0; 2]; tree.sectors().len()];
+            tree.energies(workspace, given, &mut split);
+            let mut braked = vec![0.0; tree.sectors().len()];
+            tree.powers(workspace, NonConservative::Friction, given, &mut braked);
+            for (sector, own) in tree.sectors().iter().enumerate().skip(1) {
+                let end = match copies {
+                    2 => String::new(),
+                    _ => format!("_{}", own.name()),
+                };
+                let place = || format!("{copies} copies{end}");
+                let [kinetic, potential] = split[sector];
+                let inputs: [&[f64]; 2] = [&q, &p];
+                let energy = compiled.evaluate(&format!("antiphase_energy{end}"), &inputs)[0];
+                energies.note(kinetic + potential - energy, energy, place);
+                let power =
+                    compiled.evaluate(&format!("antiphase_friction_power{end}"), &inputs)[0];
+                assert!(power < 0.0, "{power}");
+                powers.note(braked[sector] - power, power, place);
+                let mut compared = Vec::new();
+                for (form, stem) in [
+                    (TransferForm::Exact, "transfer_exact"),
+                    (TransferForm::Angle(1), "transfer_angle_1"),
+                    (TransferForm::Amplitude(2), "transfer_amplitude_2"),
+                    (TransferForm::Amplitude(4), "transfer_amplitude_4"),
+                ] {
+                    let derived = compiled.evaluate(&format!("{stem}{end}"), &inputs);
+                    let mut all = vec![Transfer::default(); tree.sectors().len()];
+                    tree.transfers(workspace, form, given, &mut all);
+                    let own = [all[sector].kinetic, all[sector].potential];
+                    compared.extend(own.into_iter().zip(derived));
+                }
+                let all: Vec<f64> = compared.iter().map(|(own, _)| *own).collect();
+                let size = largest(&all);
+                for (own, derived) in compared {
+                    worst.note(own - derived, size, place);
+                }
+            }
+        }
+    }
+    energies.assert_below(1e-13, "H_d");
+    powers.assert_below(1e-12, "powers");
+    worst.assert_below(1e-13, "transfers");
+}
+
+/// What acts between copies leaves a motion in phase as it is, to the bit, and what differs by
+/// nothing does not begin to.
+#[test]
+fn copies_in_phase_stay_so() {
+    let free = "gravity = 9.80665,
+        a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.2, length = 0.35) [
+            c: rod(mass = 0.1, length = 0.2) * 4] * 3]";
+    let acts = "spring = 0.3, friction(viscous = 0.01, coulomb = 0.1, quadratic = 0.01)";
+    let coupled = format!("{free}, siblings(b, {acts}), siblings(c, {acts}), emit(symmetric)");
+    let [free, coupled] = [format!("{free}, emit(symmetric)"), coupled].map(|text| compile(&text));
+    let n = free.scene.links.len();
+    let mut random = Random::new(3);
+    for _ in 0..20 {
+        let (mut q, mut v) = (random.around_zero(n, 2.0), random.around_zero(n, 3.0));
+        // Means, and the differences of `b` of number 2 with what hangs from it.
+        let in_phase = |index: usize| index >= 3;
+        for index in (0..n).filter(|&index| in_phase(index)) {
+            (q[index], v[index]) = (0.0, 0.0);
+        }
+        let [own, other] =
+            [&coupled, &free].map(|tree| tree.evaluate("symmetric_accelerations", &[&q, &v]));
+        assert!(own[3..].iter().all(|alpha| *alpha == 0.0), "{own:?}");
+        assert_eq!(own, other);
+        // One difference alone wakes none that the symmetry forbids.
+        let (last, rate) = (random.around_zero(1, 1.0)[0], random.around_zero(1, 1.0)[0]);
+        (q[n - 1], v[n - 1]) = (last, rate);
+        let own = coupled.evaluate("symmetric_accelerations", &[&q, &v]);
+        let other = free.evaluate("symmetric_accelerations", &[&q, &v]);
+        for (index, (own, other)) in own.iter().zip(other).enumerate() {
+            assert_eq!(*own == 0.0, other == 0.0, "{index}");
+        }
+    }
+}
