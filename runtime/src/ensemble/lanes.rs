@@ -186,6 +186,25 @@ impl Ensemble<'_> {
         self.ends(method, Cases::Pairs(releases), end, &[])
     }
 
+    /// Integrates systems that differ in their constants, each from its own start, to the time
+    /// `end`, or until one of the endings is met: as
+    /// [`integrate_in_lanes_until`](Self::integrate_in_lanes_until), for what
+    /// [`integrate_models_in_lanes`](Self::integrate_models_in_lanes) takes.
+    pub fn integrate_models_in_lanes_until<T, O, M>(
+        &self,
+        method: &M,
+        releases: &[(O, State<T>)],
+        end: T,
+        endings: &[Ending<'_, T>],
+    ) -> Vec<Result<Solution<T>, IntegrationError<T>>>
+    where
+        T: Lane,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
+    {
+        self.ends(method, Cases::Pairs(releases), end, endings)
+    }
+
     /// The states of a system at the given times, from every start, in lanes as
     /// [`integrate_in_lanes`](Self::integrate_in_lanes).
     ///

@@ -13,10 +13,6 @@ use crate::Failure;
 /// Colour of points without a flip, which the scale of times has not.
 const NO_FLIP: Color = Color::rgb(232, 232, 232);
 
-/// Points that one thread takes through its lanes: many times the lanes that a register has, so
-/// that few lanes wait for the last ones.
-const AT_ONCE: usize = 32;
-
 /// Part of the tolerance with which all is repeated.
 const FINER: f64 = 0.01;
 
@@ -74,12 +70,11 @@ fn upright(angle: f64) -> f64 {
 }
 
 impl Flips<'_> {
-    /// Returns the first flips from some starts of one tree; none where the motion could not be
+    /// Returns the first flips of trees from their starts; none where the motion could not be
     /// followed.
-    fn of_tree(
+    fn of_releases(
         &self,
-        tree: &PendulumTree,
-        starts: &[State<f64>],
+        releases: &[(AbsoluteAngles<&PendulumTree>, State<f64>)],
         tolerance: f64,
     ) -> Vec<Option<Option<(f64, usize)>>> {
         let functions: Vec<_> = self
@@ -92,11 +87,12 @@ impl Flips<'_> {
             .map(|function| Ending::new(Crossing::Either, function));
         let endings: Vec<Ending<'_, f64>> = endings.collect();
         let method = Dop853::new(Options::with_tolerance(tolerance));
-        // Threads take trees and starts together, one share after the other.
-        let alone = Ensemble::new().threads(std::num::NonZeroUsize::MIN);
-        let system = AbsoluteAngles(tree);
-        let ends =
-            alone.integrate_in_lanes_until(&method, &system, starts, self.duration, &endings);
+        let ends = Ensemble::new().integrate_models_in_lanes_until(
+            &method,
+            releases,
+            self.duration,
+            &endings,
+        );
         let flip = |end: Solution<f64>| {
             let State { time, values } = end.state;
             let nearness = |link: &usize| (0.5 * values[*link]).cos().abs();
@@ -106,49 +102,24 @@ impl Flips<'_> {
         };
         ends.into_iter().map(|end| end.ok().map(flip)).collect()
     }
-
-    /// Returns the flips at points of one tree.
-    fn at_points(&self, points: &[Point]) -> Result<Vec<Option<Flip>>, Failure> {
-        let Some(first) = points.first() else {
-            return Ok(Vec::new());
-        };
-        let tree = self.plane.tree_at(first)?;
-        let starts: Vec<State<f64>> = points
-            .iter()
-            .map(|point| self.plane.start_at(point))
-            .collect();
-        let [coarse, fine] = [self.tolerance, FINER * self.tolerance]
-            .map(|tolerance| self.of_tree(&tree, &starts, tolerance));
-        let both = coarse.into_iter().zip(fine);
-        Ok(both
-            .map(|(coarse, fine)| Some(Flip::of(coarse?, fine?)))
-            .collect())
-    }
 }
 
 impl Question for Flips<'_> {
     type Answer = Flip;
-    const BLOCK: usize = 64 * AT_ONCE;
+    const BLOCK: usize = 2048;
 
     fn at(&self, points: &[Point]) -> Result<Vec<Option<Flip>>, Failure> {
-        // Lanes of one register have the same tree.
-        let mut places: Vec<usize> = (0..points.len()).collect();
-        let parameters = |place: usize| self.plane.parameters_at(&points[place]);
-        let order = |a: &usize, b: &usize| parameters(*a).partial_cmp(&parameters(*b));
-        places.sort_by(|a, b| order(a, b).unwrap_or(std::cmp::Ordering::Equal));
-        let of_one_tree = places.chunk_by(|a, b| parameters(*a) == parameters(*b));
-        let shares: Vec<&[usize]> = of_one_tree.flat_map(|own| own.chunks(AT_ONCE)).collect();
-        let found = Ensemble::new().map(&shares, |_, share| {
-            let own: Vec<Point> = share.iter().map(|&place| points[place]).collect();
-            self.at_points(&own)
-        });
-        let mut flips = vec![None; points.len()];
-        for (share, found) in shares.iter().zip(found) {
-            for (&place, flip) in share.iter().zip(found?) {
-                flips[place] = flip;
-            }
-        }
-        Ok(flips)
+        let trees = self.plane.trees_at(points)?;
+        let releases = points.iter().zip(&trees);
+        let releases: Vec<_> = releases
+            .map(|(point, tree)| (AbsoluteAngles(&**tree), self.plane.start_at(point)))
+            .collect();
+        let [coarse, fine] = [self.tolerance, FINER * self.tolerance]
+            .map(|tolerance| self.of_releases(&releases, tolerance));
+        let both = coarse.into_iter().zip(fine);
+        Ok(both
+            .map(|(coarse, fine)| Some(Flip::of(coarse?, fine?)))
+            .collect())
     }
 
     fn columns(&self) -> Vec<Column> {

@@ -1,5 +1,9 @@
 //! The plane of a map: two quantities with the values that they take.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::rc::Rc;
+
 use branched_pendulum::system::State;
 use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
 use branched_pendulum_data::{Cell, Column};
@@ -133,14 +137,6 @@ impl<'a> MapPlane<'a> {
         self.axes.iter().all(|axis| axis.values.len() > 1)
     }
 
-    /// Returns the values at a point that belong to the tree: points with the same ones have one
-    /// tree.
-    pub(super) fn parameters_at(&self, point: &Point) -> Vec<f64> {
-        let both = self.quantities.iter().zip(point);
-        let parameters = both.filter(|(quantity, _)| matches!(quantity, Quantity::Parameter(_)));
-        parameters.map(|(_, &value)| value).collect()
-    }
-
     /// Returns the tree at a point.
     ///
     /// # Errors
@@ -154,6 +150,25 @@ impl<'a> MapPlane<'a> {
             }
         }
         Ok(tree)
+    }
+
+    /// Returns the trees at some points. Points with the same parameters share one.
+    ///
+    /// # Errors
+    /// As [`tree_at`](Self::tree_at).
+    pub(super) fn trees_at(&self, points: &[Point]) -> Result<Vec<Rc<PendulumTree>>, Failure> {
+        let mut known: HashMap<Vec<u64>, Rc<PendulumTree>> = HashMap::new();
+        let tree = |point: &Point| {
+            let both = self.quantities.iter().zip(point);
+            let parameters =
+                both.filter(|(quantity, _)| matches!(quantity, Quantity::Parameter(_)));
+            let parameters = parameters.map(|(_, value)| value.to_bits()).collect();
+            Ok(match known.entry(parameters) {
+                Entry::Occupied(own) => own.get().clone(),
+                Entry::Vacant(place) => place.insert(Rc::new(self.tree_at(point)?)).clone(),
+            })
+        };
+        points.iter().map(tree).collect()
     }
 
     /// Returns the start at a point.

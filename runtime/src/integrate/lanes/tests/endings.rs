@@ -112,3 +112,25 @@ fn a_function_that_is_not_a_number_ends_its_lane_alone() {
     let failed = failed.count();
     assert!(failed > 3 && failed < starts.len(), "{failed}");
 }
+
+#[test]
+fn systems_of_their_own_end_as_the_starts_of_one() {
+    let starts = releases::<f64>();
+    let method = Dop853::new(Options::with_tolerance(1e-9));
+    let over = |_: f64, state: &[f64]| (0.5 * state[0]).cos();
+    let endings = [Ending::new(Crossing::Either, &over)];
+    let all = Ensemble::new();
+    let one = all.integrate_in_lanes_until(&method, &lopsided(), &starts, END, &endings);
+    let own: Vec<_> = starts
+        .iter()
+        .map(|start| (lopsided(), start.clone()))
+        .collect();
+    let own = all.integrate_models_in_lanes_until(&method, &own, END, &endings);
+    let mut stopped = 0;
+    for (one, own) in one.iter().zip(&own) {
+        let [one, own] = [one, own].map(|end| end.as_ref().unwrap());
+        assert_eq!((&one.state, one.report.stop), (&own.state, own.report.stop));
+        stopped += u32::from(own.report.stop == StopReason::StoppedByEvent);
+    }
+    assert!(stopped > 3, "{stopped}");
+}

@@ -69,7 +69,7 @@ impl Equilibrium {
                 .subject
                 .tree
                 .conservative()
-                .map_err(|source| Failure::tree(&name, source))?,
+                .map_err(|source| Failure::tree(name, source))?,
             arguments,
             scales: driven.generations(),
         };

@@ -92,7 +92,7 @@ pub fn run(release: &Release, subject: &Subject, job: &Job) -> Result<(), Failur
     let (tree, name) = (&subject.tree, &subject.name);
     let symmetric = tree
         .symmetric()
-        .map_err(|source| Failure::tree(&name, source))?;
+        .map_err(|source| Failure::tree(name, source))?;
     let sectors = tree.sectors().len();
     let what = match () {
         () if sectors > MOST_SECTORS => Some(format!(
