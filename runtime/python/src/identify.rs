@@ -2,9 +2,9 @@
 
 use branched_pendulum_measure::identification::{
     AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, SearchFailure,
-    Shooting, Standing, TreeFamily, Unfound,
+    Shooting, Standing, Unfound,
 };
-use branched_pendulum_trees::ParameterUse;
+use branched_pendulum_trees::{ParameterUse, TreeDescription};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -25,7 +25,7 @@ const NUMBERS_OF_A_DATUM: usize = 100;
 
 /// What is looked for.
 struct Search {
-    task: Identification<TreeFamily>,
+    task: Identification<TreeDescription>,
     record: AngleRecord,
     /// The part that is fitted ends there, s.
     until: f64,
@@ -153,9 +153,9 @@ impl Tree {
         &self,
         unknown: GuessesOrNames,
         nonnegative: &[String],
-    ) -> PyResult<Identification<TreeFamily>> {
+    ) -> PyResult<Identification<TreeDescription>> {
         let tree = self.tree();
-        let family = TreeFamily::new(tree.description().clone());
+        let family = tree.description().clone();
         let missing = |name: &str| {
             let names = family.parameters().join(", ");
             PyKeyError::new_err(format!("there is no parameter `{name}`: there are {names}"))

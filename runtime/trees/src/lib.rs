@@ -21,6 +21,8 @@ mod drive;
 mod energies;
 mod equations;
 mod error;
+#[cfg(feature = "identification")]
+mod family;
 mod forms;
 mod model;
 mod numbers;

@@ -64,8 +64,6 @@ mod search;
 mod sensitivity;
 mod start;
 mod task;
-#[cfg(feature = "trees")]
-mod tree_family;
 
 pub use convergence::{Convergence, SearchFailure, Unfound};
 pub use error::IdentificationError;
@@ -78,5 +76,3 @@ pub use ratios::{DIVIDED, TIMES};
 pub use record::AngleRecord;
 pub use release::Unrest;
 pub use resolve::OFFSET_OF;
-#[cfg(feature = "trees")]
-pub use tree_family::TreeFamily;

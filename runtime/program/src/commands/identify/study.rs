@@ -4,10 +4,10 @@ use branched_pendulum::Energy;
 use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum_measure::identification::{
-    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, TreeFamily,
-    Unfound,
+    AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, Unfound,
 };
 use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, bands};
+use branched_pendulum_trees::TreeDescription;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
@@ -146,7 +146,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn identification(&self, law: Law) -> Identification<TreeFamily> {
+    fn identification(&self, law: Law) -> Identification<TreeDescription> {
         let task = Identification::new(self.unknowns.family()).with_offsets();
         let parameters = &self.unknowns.parameters;
         parameters.iter().fold(task, |task, own| {

@@ -1,7 +1,6 @@
 //! What is known of the parameters of a tree, and the tree as a family of models.
 
-use branched_pendulum_measure::identification::TreeFamily;
-use branched_pendulum_trees::{ParameterUse, TreeError};
+use branched_pendulum_trees::{ParameterUse, TreeDescription, TreeError};
 
 use super::arguments::{Arguments, Law};
 use crate::Failure;
@@ -152,8 +151,8 @@ impl Unknowns {
     }
 
     /// The family of the trees.
-    pub fn family(&self) -> TreeFamily {
-        TreeFamily::new(self.described.description.clone())
+    pub fn family(&self) -> TreeDescription {
+        self.described.description.clone()
     }
 
     /// The tree with values of all parameters.
@@ -262,7 +261,6 @@ mod tests {
     use branched_pendulum::prelude::AbsoluteAngles;
     use branched_pendulum::scalar::Dual;
     use branched_pendulum::system::Ode;
-    use branched_pendulum_measure::identification::Family;
 
     use super::super::arguments::{Arguments, Law};
     use super::{Knowledge, Unknowns};
