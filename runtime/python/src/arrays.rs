@@ -109,6 +109,12 @@ impl<'py> Numbers<'py> {
         self.0.as_any().clone()
     }
 
+    /// One number without axes: 0.
+    pub(crate) fn zero(py: Python<'py>) -> PyResult<Self> {
+        let zero = vec![0.0].into_pyarray(py).reshape(Vec::<usize>::new())?;
+        Ok(Self(zero.readonly()))
+    }
+
     /// The same numbers with an axis of one at the end.
     pub(crate) fn with_axis(&self, py: Python<'py>) -> PyResult<Self> {
         let shape = [self.shape(), &[1]].concat();
@@ -220,13 +226,8 @@ pub(crate) fn matrix<'py>(
     values.into_pyarray(py).reshape([rows, columns])
 }
 
-/// The axes of states before that of their components.
-pub(crate) fn axes_of_states(states: &Numbers<'_>, dimension: usize) -> PyResult<Vec<usize>> {
-    axes("y", states, dimension)
-}
-
 /// The axes of an array before the last one, which is as long as is wanted.
-fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
+pub(crate) fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
     match numbers.shape() {
         [axes @ .., last] if *last == wanted => Ok(axes.to_vec()),
         shape => Err(PyValueError::new_err(format!(
