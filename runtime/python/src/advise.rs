@@ -8,7 +8,7 @@ use branched_pendulum_advice::{
     Advice, AdviceError, Criterion, Measured, SettingRange, TimeLimit, TreeOutput, TreeScene,
     UnknownOutput,
 };
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -28,6 +28,11 @@ const COPIES: usize = 12;
 /// Times of samples after the first time, which is that of the starts.
 fn samples(t: &Times<'_>) -> PyResult<(f64, Vec<f64>)> {
     let times = t.numbers.list("t")?;
+    if let Some(time) = times.iter().find(|time| !time.is_finite()) {
+        return Err(PyValueError::new_err(format!(
+            "t must be finite, got {time}"
+        )));
+    }
     match times[..] {
         [begin, end] if t.is_span => {
             let sample = |index| begin + (end - begin) * f64::from(index) / f64::from(SAMPLES);
@@ -39,6 +44,21 @@ fn samples(t: &Times<'_>) -> PyResult<(f64, Vec<f64>)> {
             times.len()
         ))),
     }
+}
+
+/// An output and the largest error that it may have.
+fn wanted((name, most): (String, Bound<'_, PyAny>)) -> PyResult<(TreeOutput, f64)> {
+    let output = name.parse();
+    let output = output.map_err(|error: UnknownOutput| PyKeyError::new_err(error.to_string()))?;
+    let most = most.extract::<Number>().map_err(|error| {
+        let reason = error.value(most.py());
+        PyTypeError::new_err(format!("right[{name:?}]: {reason}"))
+    })?;
+    if !(most.0.is_finite() && most.0 > 0.0) {
+        let text = format!("right[{name:?}] must be above 0, got {}", most.0);
+        return Err(PyValueError::new_err(text));
+    }
+    Ok((output, most.0))
 }
 
 fn limit(step: Option<f64>, sample: Option<f64>) -> PyResult<Option<TimeLimit>> {
@@ -277,7 +297,7 @@ impl Tree {
         py: Python<'py>,
         starts: Numbers<'py>,
         t: Times<'py>,
-        right: Option<BTreeMap<String, Number>>,
+        right: Option<BTreeMap<String, Bound<'py, PyAny>>>,
         step_limit: Option<f64>,
         sample_limit: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
@@ -286,6 +306,11 @@ impl Tree {
         axes("starts", &starts, dimension)?;
         let (begin, times) = samples(&t)?;
         let numbers = starts.to_vec();
+        if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+            return Err(PyValueError::new_err(format!(
+                "starts must be finite, got {number}"
+            )));
+        }
         let rows = numbers.chunks_exact(dimension.max(1));
         let starts: Vec<State<f64>> = rows.map(|row| State::new(begin, row.to_vec())).collect();
         need(
@@ -294,19 +319,7 @@ impl Tree {
         )?;
         let right = match right {
             None => vec![(TreeOutput::Angles, 1e-6)],
-            Some(right) => {
-                let one = |(name, most): (String, Number)| {
-                    let output = name.parse();
-                    let output = output
-                        .map_err(|error: UnknownOutput| PyKeyError::new_err(error.to_string()))?;
-                    if !(most.0.is_finite() && most.0 > 0.0) {
-                        let text = format!("right[{name:?}] must be above 0, got {}", most.0);
-                        return Err(PyValueError::new_err(text));
-                    }
-                    Ok((output, most.0))
-                };
-                right.into_iter().map(one).collect::<PyResult<_>>()?
-            }
+            Some(right) => right.into_iter().map(wanted).collect::<PyResult<_>>()?,
         };
         let scene = TreeScene {
             starts,

@@ -30,6 +30,14 @@ def _same(one: Any, other: Any) -> bool:
     return bool(one == other)
 
 
+def _with_error(value: float, error: float) -> str:
+    """Two digits of the error, and those of the value that it leaves."""
+    if not 0 < error < np.inf:
+        return f"{value:.4g}" if error == 0 else f"{value:.4g} ± ?"
+    decimals = max(0, 1 - int(np.floor(np.log10(error))))
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}"
+
+
 class Result:
     """Arrays and numbers under names: equal where all of them are."""
 
@@ -291,7 +299,7 @@ class ScaleBudget(Result):
         Raises
         ------
         ValueError
-            The states are not those of motions, there are too few, or they have not settled.
+            The states are not those of motions, or there are too few to find the transient.
 
         Examples
         --------
@@ -324,29 +332,34 @@ class ScaleBudget(Result):
             count = energies.shape[-1]
             raise ValueError(f"discard must be from 0 to {count - 1}, got {discard}")
 
-        def means(values: _Array) -> tuple[_Array, _Array]:
+        notes: list[str] = []
+
+        def mean(name: str, own: _Array) -> tuple[float, float]:
+            own = own[:, discard:]
             # What is nothing at all times has no spread to judge.
-            found = [
-                _native.average(own[:, discard:]) if own.any() else {"mean": 0.0, "error": 0.0}
-                for own in values
-            ]
-            return (
-                np.array([own["mean"] for own in found]),
-                np.array([own["error"] for own in found]),
-            )
+            if not own.any():
+                return 0.0, 0.0
+            try:
+                found = _native.average(own)
+            except ValueError as error:
+                notes.append(f"no error of {name}: {error}")
+                return float(own.mean()), float("nan")
+            return found["mean"], found["error"]
 
-        def of_all(values: _Array) -> tuple[float, float]:
-            mean, error = means(values.sum(axis=0, keepdims=True))
-            return float(mean[0]), float(error[0])
+        def means(name: str, values: _Array) -> tuple[_Array, _Array]:
+            found = [mean(f"{name}[{scale}]", own) for scale, own in enumerate(values)]
+            return np.array([own[0] for own in found]), np.array([own[1] for own in found])
 
-        own, own_errors = means(energies)
+        own, own_errors = means("energies", energies)
         given, losses = series(self.drive + self.outside), series(self.losses)
         flux = series(self.flux)
         # Nothing passes into all scales from others.
         flux[0] = 0.0
-        flux_means, flux_errors = means(flux)
-        lost, lost_errors = means(np.flip(np.cumsum(np.flip(losses - given, 0), axis=0), 0))
-        (entered, entered_error), (taken, taken_error) = of_all(given), of_all(losses)
+        flux_means, flux_errors = means("flux", flux)
+        behind = np.flip(np.cumsum(np.flip(losses - given, 0), axis=0), 0)
+        lost, lost_errors = means("lost", behind)
+        entered, entered_error = mean("input", given.sum(axis=0))
+        taken, taken_error = mean("losses", losses.sum(axis=0))
         return ScaleAverages(
             energies=own,
             energy_errors=own_errors,
@@ -360,6 +373,7 @@ class ScaleBudget(Result):
             losses_error=taken_error,
             freedoms=self.freedoms,
             discarded=discard,
+            notes=notes,
         )
 
     def __repr__(self) -> str:
@@ -389,6 +403,8 @@ class ScaleAverages(Result):
         Degrees of freedom of each scale.
     discarded : int
         Number of first samples that are left out.
+    notes : list of str
+        Why errors are NaN, where they are: samples that are correlated for too long.
     """
 
     energies: _Array
@@ -403,23 +419,23 @@ class ScaleAverages(Result):
     losses_error: float
     freedoms: NDArray[np.int64]
     discarded: int
+    notes: list[str]
 
     def __str__(self) -> str:
-        lines = ["scale  freedoms  energy (mJ)         flux into it (mW)   lost from it on (mW)"]
+        lines = ["scale  freedoms  energy (mJ)         flux into it (mW)   lost there on (mW)"]
         pairs = [
             (self.energies, self.energy_errors),
             (self.flux, self.flux_errors),
             (self.lost, self.lost_errors),
         ]
         for scale, freedoms in enumerate(self.freedoms):
-            cells = [f"{1e3 * mean[scale]:.4g} ± {1e3 * own[scale]:.1g}" for mean, own in pairs]
+            cells = [_with_error(1e3 * mean[scale], 1e3 * error[scale]) for mean, error in pairs]
             lines.append(f"{scale:<5}  {freedoms:<8}  {cells[0]:<18}  {cells[1]:<18}  {cells[2]}")
-        lines.append(
-            f"input {1e3 * self.input:.4g} ± {1e3 * self.input_error:.1g} mW, losses "
-            f"{1e3 * self.losses:.4g} ± {1e3 * self.losses_error:.1g} mW; "
-            f"the first {self.discarded} samples are left out"
-        )
-        return "\n".join(lines)
+        entered = _with_error(1e3 * self.input, 1e3 * self.input_error)
+        taken = _with_error(1e3 * self.losses, 1e3 * self.losses_error)
+        lines.append(f"input {entered} mW, losses {taken} mW")
+        lines.append(f"the first {self.discarded} samples are left out")
+        return "\n".join([*lines, *self.notes])
 
     def __repr__(self) -> str:
         return f"ScaleAverages of {len(self.energies)} scales"
