@@ -196,8 +196,9 @@ impl Advice {
     }
 }
 
-/// A number, as one writes it.
+/// A number of four digits at most, as one writes it.
 fn plain(value: f64) -> String {
+    let value = format!("{value:.3e}").parse().unwrap_or(value);
     if (1e-3..1e6).contains(&value) {
         value.to_string()
     } else {

@@ -33,6 +33,11 @@ fn samples(t: &Times<'_>) -> PyResult<(f64, Vec<f64>)> {
             "t must be finite, got {time}"
         )));
     }
+    let mut steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut same = steps.clone();
+    if !(steps.all(|step| step >= 0.0) || same.all(|step| step <= 0.0)) {
+        return Err(PyValueError::new_err("t must ascend or descend"));
+    }
     match times[..] {
         [begin, end] if t.is_span => {
             let sample = |index| begin + (end - begin) * f64::from(index) / f64::from(SAMPLES);

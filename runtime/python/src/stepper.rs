@@ -51,7 +51,7 @@ impl Acting {
         }
         let numbers = torques.extract::<Numbers<'_>>().map_err(|error| {
             let reason = error.value(torques.py());
-            let text = format!("torques must be a function f(t, y) or an array: {reason}");
+            let text = format!("torques: {reason}; it must be a function f(t, y) or an array");
             PyTypeError::new_err(text)
         })?;
         Ok(Self::of(Source::Constant(numbers.row("torques", links)?)))

@@ -87,7 +87,7 @@ REFUSED = [
     (([0.1] * 5, (0, 1)), {}, ValueError, r"starts must have 6 numbers .* got \(5,\)"),
     ((START, [0.0]), {}, ValueError, "t must have the time of the starts and at least one more, got 1"),
     ((START, [0, np.inf]), {}, ValueError, "t must be finite, got inf"),
-    ((START, [0, 1, 0.5]), {}, ValueError, "advice needs times that run one way"),
+    ((START, [0, 1, 0.5]), {}, ValueError, "t must ascend or descend"),
     ((np.nan * np.ones(6), (0, 1)), {}, ValueError, "starts must be finite, got NaN"),
     ((np.zeros((0, 6)), (0, 1)), {}, ValueError, "advice needs a start"),
     ((START, (0, 1), {}), {}, ValueError, "advice needs an output"),

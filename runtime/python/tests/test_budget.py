@@ -76,9 +76,10 @@ def test_means_along_driven_motions(driven):
     np.testing.assert_allclose(found.flux[1:], budget.flux[:, 1000:].mean(axis=(0, 1))[1:], rtol=1e-9)
     assert found.flux[0] == found.flux_errors[0] == 0 and (found.energy_errors > 0).all()
     assert not found.notes and found.freedoms.tolist() == [4, 3, 4, 4]
-    # The spread of the means of single motions is another route to the errors.
+    # The spread of the means of single motions is another route to the errors: samples swing, and
+    # the sum of their correlations ends before these are negative.
     spread = kept.mean(axis=1).std(axis=0, ddof=1) / np.sqrt(len(y))
-    np.testing.assert_allclose(found.energy_errors, spread, rtol=0.7)
+    assert (0.7 * spread < found.energy_errors).all() and (found.energy_errors < 3 * spread).all()
     # In the steady state what passes by is lost behind, and what enters is lost.
     assert (found.flux > 10 * found.flux_errors)[1:].all()
     bars = np.hypot(found.flux_errors, found.lost_errors)
