@@ -137,7 +137,10 @@ impl Advice {
             a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
         };
         let best = |candidate: usize| {
-            let own = self.runs.iter().filter(move |run| run.candidate == candidate);
+            let own = self
+                .runs
+                .iter()
+                .filter(move |run| run.candidate == candidate);
             own.min_by(order)
         };
         let mut ranked: Vec<&Measured> = (0..self.names.len()).filter_map(best).collect();

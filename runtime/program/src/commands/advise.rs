@@ -63,7 +63,9 @@ fn outputs(text: &str) -> Result<Vec<(TreeOutput, f64)>, String> {
         let (name, tolerance) = part
             .split_once(':')
             .ok_or_else(|| format!("`{part}` is no output and its largest error: `angles:1e-6`"))?;
-        let output = name.parse().map_err(|error: UnknownOutput| error.to_string())?;
+        let output = name
+            .parse()
+            .map_err(|error: UnknownOutput| error.to_string())?;
         Ok::<_, String>((output, number(1e-14..=1e3, "")(tolerance)?))
     };
     text.split(',').map(one).collect()
