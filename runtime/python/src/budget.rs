@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyEllipsis, PySlice};
 
-use crate::arrays::{Numbers, Together};
+use crate::arrays::{Numbers, ONE_EACH, Together};
 use crate::results::result;
 
 /// Tables of a budget with a number for each scale.
@@ -57,8 +57,7 @@ pub(crate) fn scale_budget<'py>(
         );
         return Err(PyValueError::new_err(text));
     }
-    let times = times.with_axis(py)?;
-    let mut given = vec![("y", states, 2 * links), ("t", &times, 1)];
+    let mut given = vec![("y", states, 2 * links), ("t", times, ONE_EACH)];
     given.extend(torques.map(|torques| ("torques", torques, links)));
     let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
     let width = scales * (TABLES.len() + scales);

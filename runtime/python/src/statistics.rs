@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use crate::arrays::Numbers;
 
 fn refused(error: StatisticsError) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    PyValueError::new_err(format!("x: {error}"))
 }
 
 /// Returns the mean of samples of a steady motion, whose neighbours are correlated.

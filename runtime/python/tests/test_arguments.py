@@ -155,7 +155,7 @@ def test_shapes_are_named(tree, model, motion):
         ("settling must be at least 0, got -1", lambda tree: tree.lyapunov(START, settling=-1)),
         ("intervals must be at least 1, got 0", lambda tree: tree.lyapunov(START, intervals=0)),
         ("pair must be two names of links, got 3", lambda tree: tree.growth([[0] * 6], ["a", "b", "c"], [1])),
-        (r"y has shape \(3, 2\), t has shape \(2, 1\): these do not go together", lambda tree: bp.Tree("gravity = 1, a: rod(mass = 1, length = 1)").budget(np.zeros((3, 2)), [1, 2])),
+        (r"y has shape \(3, 2\), t has shape \(2,\): these do not go together", lambda tree: bp.Tree("gravity = 1, a: rod(mass = 1, length = 1)").budget(np.zeros((3, 2)), [1, 2])),
         ("t has 2 times for 3 values in x", lambda tree: analysis.running_integral([0, 1], [1, 2, 3])),
         (r"theta must have a row for each time.*\(10, 3\), that of t is \(11,\)", lambda tree: tree.smooth(T, np.zeros((10, 3)))),
         ("window must be at least 0, got -1", lambda tree: analysis.spectrum(T, 10, window=-1)),

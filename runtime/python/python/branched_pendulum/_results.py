@@ -342,7 +342,7 @@ class ScaleBudget(Result):
             try:
                 found = _native.average(own)
             except ValueError as error:
-                notes.append(f"no error of {name}: {error}")
+                notes.append(f"no error of {name}: {str(error).removeprefix('x: ')}")
                 return float(own.mean()), float("nan")
             return found["mean"], found["error"]
 
