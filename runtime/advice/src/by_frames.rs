@@ -6,6 +6,7 @@ use std::error::Error;
 use crate::candidate::{Candidate, CandidateName, SettingRange, Visit};
 use crate::candidates::Candidates;
 use crate::form::ModelForm;
+use branched_pendulum::interruption;
 use branched_pendulum::scalar::Real;
 use branched_pendulum::system::State;
 
@@ -84,6 +85,7 @@ impl<T: Real, F: FnMut(&mut [T])> Candidate for ByFrames<'_, T, F> {
                 if (due - due.round()).abs() > AWAY || due.round() < done {
                     return Err(format!("no frame ends at t = {time} s").into());
                 }
+                interruption::look();
                 while done < due.round() {
                     step(&mut state);
                     done += 1.0;

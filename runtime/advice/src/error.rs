@@ -14,4 +14,8 @@ pub enum AdviceError {
     /// There is no reference: the equations were not integrated to the end.
     #[error("there is no reference to measure errors against")]
     Reference(#[source] Box<dyn StdError + Send + Sync>),
+    /// The tree has not what is asked of it.
+    #[cfg(feature = "trees")]
+    #[error("the tree has not what is asked of it")]
+    Tree(#[from] branched_pendulum_trees::TreeError),
 }

@@ -8,6 +8,7 @@
 use std::error::Error;
 use std::fmt;
 
+use branched_pendulum::interruption;
 use branched_pendulum::scalar::Real;
 use branched_pendulum::system::{Ode, Workspace};
 
@@ -115,6 +116,7 @@ impl<'a, T: Real, O: Ode<T> + ?Sized> ExtrapolatedStep<'a, T, O> {
             .rates_with(&mut self.workspace, from, state, &mut self.start_rates);
         let mut error = f64::INFINITY;
         for row in 0..ROWS {
+            interruption::look();
             self.midpoint(from, length, state, parts(row));
             // Neville's scheme in h², over the row before.
             error = 0.0;

@@ -66,6 +66,8 @@ mod integrated;
 mod paths;
 mod report;
 mod search;
+#[cfg(feature = "trees")]
+mod tree;
 mod truth;
 mod wanted;
 
@@ -77,4 +79,6 @@ pub use comparison::{Criterion, Worst};
 pub use error::AdviceError;
 pub use form::ModelForm;
 pub use report::{Advice, Followed};
+#[cfg(feature = "trees")]
+pub use tree::{TreeOutput, TreeScene, UnknownOutput};
 pub use wanted::Wanted;

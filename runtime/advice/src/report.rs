@@ -118,13 +118,49 @@ impl Advice {
         self.run(self.choice.closest)
     }
 
+    /// Of each candidate one run: first those that are right and within the limit, the cheapest
+    /// first; then of the others the one that is least wrong, or right and too slow, the least
+    /// wrong first.
+    pub fn ranked(&self) -> impl Iterator<Item = &Measured> {
+        let is_taken = |run: &Measured| {
+            let is_within = |limit: TimeLimit| limit.allows(run, self.samples);
+            run.is_right() && self.limit.is_none_or(is_within)
+        };
+        // Of right runs the time counts, of wrong ones the error.
+        let key = |run: &Measured| match (is_taken(run), run.is_right()) {
+            (true, _) => (0, run.seconds),
+            (false, true) => (1, run.seconds),
+            (false, false) => (2, run.ratio()),
+        };
+        let order = |a: &&Measured, b: &&Measured| {
+            let (a, b) = (key(a), key(b));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        };
+        let best = |candidate: usize| {
+            let own = self
+                .runs
+                .iter()
+                .filter(move |run| run.candidate == candidate);
+            own.min_by(order)
+        };
+        let mut ranked: Vec<&Measured> = (0..self.names.len()).filter_map(best).collect();
+        ranked.sort_by(order);
+        ranked.into_iter()
+    }
+
     fn run(&self, index: Option<usize>) -> Option<&Measured> {
         self.runs.get(index?)
     }
 
+    /// Returns where the setting of a run may lie.
+    pub fn range(&self, run: &Measured) -> SettingRange {
+        let range = self.ranges.get(run.candidate);
+        range.copied().unwrap_or(SettingRange::Fixed)
+    }
+
     /// Name and setting of a run, as one says them.
     pub fn describe(&self, run: &Measured) -> String {
-        let setting = self.ranges[run.candidate].describe(run.setting);
+        let setting = self.range(run).describe(run.setting);
         format!("{}, {setting}", self.names[run.candidate])
     }
 
@@ -163,8 +199,9 @@ impl Advice {
     }
 }
 
-/// A number, as one writes it.
+/// A number of four digits at most, as one writes it.
 fn plain(value: f64) -> String {
+    let value = format!("{value:.3e}").parse().unwrap_or(value);
     if (1e-3..1e6).contains(&value) {
         value.to_string()
     } else {

@@ -109,11 +109,10 @@ impl<'py> Numbers<'py> {
         self.0.as_any().clone()
     }
 
-    /// The same numbers with an axis of one at the end.
-    pub(crate) fn with_axis(&self, py: Python<'py>) -> PyResult<Self> {
-        let shape = [self.shape(), &[1]].concat();
-        let column = self.to_vec().into_pyarray(py).reshape(shape)?;
-        Ok(Self(column.readonly()))
+    /// One number without axes: 0.
+    pub(crate) fn zero(py: Python<'py>) -> PyResult<Self> {
+        let zero = vec![0.0].into_pyarray(py).reshape(Vec::<usize>::new())?;
+        Ok(Self(zero.readonly()))
     }
 
     /// All numbers, the last axis running first.
@@ -220,13 +219,8 @@ pub(crate) fn matrix<'py>(
     values.into_pyarray(py).reshape([rows, columns])
 }
 
-/// The axes of states before that of their components.
-pub(crate) fn axes_of_states(states: &Numbers<'_>, dimension: usize) -> PyResult<Vec<usize>> {
-    axes("y", states, dimension)
-}
-
 /// The axes of an array before the last one, which is as long as is wanted.
-fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
+pub(crate) fn axes(name: &str, numbers: &Numbers<'_>, wanted: usize) -> PyResult<Vec<usize>> {
     match numbers.shape() {
         [axes @ .., last] if *last == wanted => Ok(axes.to_vec()),
         shape => Err(PyValueError::new_err(format!(
@@ -245,6 +239,9 @@ pub(crate) struct Together {
     arguments: Vec<(Vec<f64>, usize)>,
 }
 
+/// Length of the last axis of an argument that has one number for each state, and no axis for it.
+pub(crate) const ONE_EACH: usize = 0;
+
 /// An argument with its name and the length of its last axis.
 pub(crate) type Argument<'a, 'py> = (&'a str, &'a Numbers<'py>, usize);
 
@@ -252,7 +249,10 @@ impl Together {
     pub(crate) fn of(arguments: &[Argument<'_, '_>]) -> PyResult<Self> {
         let mut shape: Vec<usize> = Vec::new();
         for (name, numbers, wanted) in arguments {
-            let own = axes(name, numbers, *wanted)?;
+            let own = match *wanted {
+                ONE_EACH => numbers.shape().to_vec(),
+                wanted => axes(name, numbers, wanted)?,
+            };
             shape = common(&shape, &own).ok_or_else(|| {
                 let shapes = arguments.iter();
                 let shapes = shapes.map(|(name, numbers, _)| {
@@ -263,12 +263,16 @@ impl Together {
             })?;
         }
         let spread = arguments.iter().map(|(name, numbers, wanted)| {
-            let whole = [&shape[..], &[*wanted]].concat();
+            let last: &[usize] = match *wanted {
+                ONE_EACH => &[],
+                _ => &[*wanted],
+            };
+            let whole = [&shape[..], last].concat();
             let view = numbers.0.as_array();
             let view = view.broadcast(whole).ok_or_else(|| {
                 PyValueError::new_err(format!("{name} does not go with the other arguments"))
             })?;
-            Ok((view.iter().copied().collect(), *wanted))
+            Ok((view.iter().copied().collect(), (*wanted).max(1)))
         });
         let arguments = spread.collect::<PyResult<_>>()?;
         Ok(Self { shape, arguments })

@@ -1,23 +1,49 @@
 //! Energies by scale: `Tree.budget`.
 
 use branched_pendulum::Model;
-use branched_pendulum::interruption;
+use branched_pendulum::ScaleBudget;
+use branched_pendulum::sectors::degrees_of_freedom;
+use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::MOST_GENERATIONS;
 use branched_pendulum_trees::PendulumTree;
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::{PyEllipsis, PySlice};
 
-use crate::arrays::{Numbers, axes_of_states};
-use crate::interrupts::detached;
-use crate::memory::{bytes, need};
-use crate::results;
+use crate::arrays::{Numbers, ONE_EACH, Together};
+use crate::results::result;
 
-/// Budgets of states at times, one for all or one for each.
+/// Tables of a budget with a number for each scale.
+const TABLES: [&str; 5] = ["energies", "friction", "drag", "drive", "outside"];
+
+/// Writes a budget: the tables, then transfers from each scale.
+fn write(budget: &ScaleBudget<f64>, out: &mut [f64]) {
+    let scales = budget.scales();
+    let of: [fn(&ScaleBudget<f64>, usize) -> f64; TABLES.len()] = [
+        ScaleBudget::energy,
+        ScaleBudget::friction_power,
+        ScaleBudget::drag_power,
+        ScaleBudget::drive_power,
+        ScaleBudget::outside_power,
+    ];
+    let tables = of
+        .iter()
+        .flat_map(|of| (0..scales).map(|scale| of(budget, scale)));
+    let pairs = (0..scales).flat_map(|from| (0..scales).map(move |to| (from, to)));
+    let transfers = pairs.map(|(from, to)| budget.transfer(from, to));
+    for (place, value) in out.iter_mut().zip(tables.chain(transfers)) {
+        *place = value;
+    }
+}
+
+/// Budgets of states at times and under torques, whose axes go together by NumPy's rules.
 pub(crate) fn scale_budget<'py>(
     py: Python<'py>,
     tree: &PendulumTree,
     states: &Numbers<'py>,
-    times: &[f64],
+    times: &Numbers<'py>,
+    torques: Option<&Numbers<'py>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let links = tree.links();
     let Some(copies) = tree.copies() else {
@@ -31,46 +57,39 @@ pub(crate) fn scale_budget<'py>(
         );
         return Err(PyValueError::new_err(text));
     }
-    let shape = axes_of_states(states, 2 * links)?;
-    let numbers = states.to_vec();
-    let count = numbers.len() / (2 * links).max(1);
-    if times.len() != 1 && times.len() != count {
-        let text = format!("t has {} times for {count} states in y", times.len());
-        return Err(PyValueError::new_err(text));
-    }
-    need("energies by scale", bytes(&[count, scales, scales], 2))?;
-    let budgets = detached(py, || {
-        let states = numbers
-            .chunks_exact((2 * links).max(1))
-            .zip(times.iter().cycle());
-        let budgets = states.map(|(state, &time)| {
-            interruption::look();
-            let (theta, omega) = state.split_at(links);
-            tree.budget_by_scale(time, [theta, omega, &[]])
-        });
-        budgets.collect::<Option<Vec<_>>>().unwrap_or_default()
+    let mut given = vec![("y", states, 2 * links), ("t", times, ONE_EACH)];
+    given.extend(torques.map(|torques| ("torques", torques, links)));
+    let (mut workspace, mut budget) = (Workspace::new(), ScaleBudget::new());
+    let width = scales * (TABLES.len() + scales);
+    let all = Together::of(&given)?.each(py, &[width], |given, out| {
+        let (theta, omega) = given[0].split_at(links);
+        let torques = given.get(2).copied().unwrap_or_default();
+        let given_time = given[1].first().copied().unwrap_or(f64::NAN);
+        tree.budget_by_scale_into(
+            &mut workspace,
+            given_time,
+            [theta, omega, torques],
+            &mut budget,
+        );
+        write(&budget, out);
     })?;
-    let array = |values: Vec<f64>, axes: usize| {
-        let shape = [&shape[..], &vec![scales; axes]].concat();
-        results::array(py, values, &shape)
+    let part = |begin: usize, end: usize| {
+        let (begin, end) = (begin * scales, end * scales);
+        let columns = PySlice::new(py, begin as isize, end as isize, 1);
+        all.get_item((PyEllipsis::get(py), columns))?
+            .call_method0("copy")
     };
-    type Budget = branched_pendulum::ScaleBudget<f64>;
-    let each = |of: fn(&Budget, usize) -> f64| {
-        let rows = budgets
-            .iter()
-            .flat_map(|budget| (0..scales).map(move |s| of(budget, s)));
-        array(rows.collect(), 1)
-    };
-    let transfers = budgets.iter().flat_map(|budget| {
-        let pairs = (0..scales).flat_map(|from| (0..scales).map(move |to| (from, to)));
-        pairs.map(|(from, to)| budget.transfer(from, to))
-    });
-    let fields = [
-        ("energies", each(Budget::energy)?),
-        ("transfers", array(transfers.collect(), 2)?),
-        ("friction", each(Budget::friction_power)?),
-        ("drag", each(Budget::drag_power)?),
-        ("drive", each(Budget::drive_power)?),
-    ];
-    results::result(py, "ScaleBudget", &fields)
+    let mut fields = Vec::with_capacity(TABLES.len() + 2);
+    for (number, name) in TABLES.into_iter().enumerate() {
+        fields.push((name, part(number, number + 1)?));
+    }
+    let transfers = part(TABLES.len(), TABLES.len() + scales)?;
+    let axes: Vec<usize> = transfers.getattr("shape")?.extract()?;
+    let states = axes.get(..axes.len().saturating_sub(1)).unwrap_or_default();
+    let shape = [states, &[scales, scales]].concat();
+    fields.push(("transfers", transfers.call_method1("reshape", (shape,))?));
+    let freedoms = (0..scales).map(|scale| degrees_of_freedom(copies, scale) as i64);
+    let freedoms = freedoms.collect::<Vec<_>>().into_pyarray(py);
+    fields.push(("freedoms", freedoms.reshape([scales])?.into_any()));
+    result(py, "ScaleBudget", &fields)
 }

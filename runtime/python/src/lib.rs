@@ -1,5 +1,6 @@
 //! Pendulum trees for Python: the module `branched_pendulum._native`.
 
+mod advise;
 mod arrays;
 mod branched_double;
 mod budget;
@@ -24,6 +25,8 @@ mod sectors;
 mod smooth;
 mod smoothing;
 mod spectrum;
+mod statistics;
+mod stepper;
 mod stepping;
 mod tree;
 
@@ -87,8 +90,11 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<recording::Recording>()?;
     module.add_class::<smoothing::SmoothedMotion>()?;
     module.add_class::<spectrum::Lines>()?;
+    module.add_class::<stepper::PyStepper>()?;
     module.add_function(wrap_pyfunction!(recording::read, module)?)?;
     module.add_function(wrap_pyfunction!(examples::example_texts, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::average, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::transient, module)?)?;
     module.add_function(wrap_pyfunction!(smooth::smooth, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum::spectrum, module)?)?;
     module.add_function(wrap_pyfunction!(spectrum::lines, module)?)?;

@@ -178,13 +178,17 @@ impl Tree {
     /// ----------
     /// y : array, shape (..., 2 n)
     ///     States of a tree whose links of one generation are alike.
-    /// t : float or array
-    ///     Times (s) of the drive, one for all states or one for each.
+    /// t : float or array, shape (...)
+    ///     Times (s) of the drive, whose axes go with those of the states: of states
+    ///     `tree.ensemble(starts, t)` the times `t`.
+    /// torques : array, shape (..., n)
+    ///     Torques (N m) from outside on each link.
     ///
     /// Returns
     /// -------
     /// ScaleBudget
-    ///     Arrays with the axes of the states, then those of scales.
+    ///     Arrays with the axes of the states, then those of scales; `budget.flux` and
+    ///     `budget.losses` follow from them, and means along motions from `budget.averages()`.
     ///
     /// Examples
     /// --------
@@ -194,15 +198,16 @@ impl Tree {
     /// >>> budget = tree.budget(y)
     /// >>> bool(np.isclose(budget.energies.sum(), tree.energy(y)))
     /// True
-    #[pyo3(signature = (y, t = None))]
+    #[pyo3(signature = (y, t = None, torques = None))]
     fn budget<'py>(
         &self,
         py: Python<'py>,
         y: Numbers<'py>,
         t: Option<Numbers<'py>>,
+        torques: Option<Numbers<'py>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let times = t.map_or(vec![0.0], |times| times.to_vec());
-        scale_budget(py, self.tree(), &y, &times)
+        let times = t.map_or_else(|| Numbers::zero(py), Ok)?;
+        scale_budget(py, self.tree(), &y, &times, torques.as_ref())
     }
 
     /// Returns the generalized momenta.

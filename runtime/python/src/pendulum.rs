@@ -10,7 +10,7 @@ use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, Times, Together, by_state, whole};
+use crate::arrays::{Numbers, ONE_EACH, Times, Together, by_state, whole};
 use crate::failures::Failures;
 use crate::interrupts::detached;
 use crate::memory::room;
@@ -90,8 +90,7 @@ impl Pendulum {
             let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(*time, given[0], out);
             return together.each(py, &[dimension], rates);
         }
-        let times = t.with_axis(py)?;
-        let together = Together::of(&[("t", &times, 1), ("y", &y, dimension)])?;
+        let together = Together::of(&[("t", &t, ONE_EACH), ("y", &y, dimension)])?;
         let rates = |given: &[&[f64]], out: &mut [f64]| motions.rates(given[0][0], given[1], out);
         together.each(py, &[dimension], rates)
     }

@@ -10,7 +10,7 @@ use branched_pendulum::transfer::{
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::{Argument, Numbers, Together};
+use crate::arrays::{Argument, Numbers, ONE_EACH, Together};
 use crate::results;
 use crate::tree::Tree;
 
@@ -313,9 +313,8 @@ impl Tree {
         };
         let (tree, pendulum) = (self.symmetric(py)?, self.tree());
         let count = tree.sectors().len();
-        let times = t.map(|times| times.with_axis(py)).transpose()?;
         let mut arguments: Vec<Argument<'_, '_>> = vec![("y", &y, 2 * tree.links())];
-        arguments.extend(times.as_ref().map(|times| ("t", times, 1)));
+        arguments.extend(t.as_ref().map(|times| ("t", times, ONE_EACH)));
         let together = Together::of(&arguments)?;
         let (mut workspace, mut budget) = (Workspace::new(), SectorBudget::new());
         let all = together.each(py, &[3, count], |values, out| {

@@ -7,8 +7,8 @@ import branched_pendulum as bp
 import numpy as np
 import pytest
 
-OWNERS = [bp.Pendulum, bp.Tree, bp.models.BranchedDouble, bp.Solution, bp.analysis.SmoothedMotion,
-          bp.analysis.Lines, bp.analysis, bp.data]
+OWNERS = [bp.Pendulum, bp.Tree, bp.models.BranchedDouble, bp.Solution, bp.Stepper, bp.Advice, bp.ScaleBudget,
+          bp.analysis.SmoothedMotion, bp.analysis.Lines, bp.analysis, bp.data]
 
 
 def functions():

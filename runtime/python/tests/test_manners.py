@@ -34,6 +34,10 @@ LONG = {
     "one motion of an ensemble": "tree.ensemble([y, 0 * y], [0, 1e7], max_steps=10**12)",
     "lyapunov": "tree.lyapunov(y, intervals=10**8)",
     "growth": "tree.growth(np.tile(y * [1, 0, 0, 0, 0, 0], (200, 1)), ('child_1', 'child_2'), [2e4])",
+    "advice": "tree.advise(y, np.linspace(0, 1e5, 2001))",
+    "a budget": "big.budget(np.ones((1000, 2 * len(big))))",
+    "a stepper": "tree.stepper(y, max_steps=10**12).advance(1e7)",
+    "a stepper under torques": "tree.stepper(y, torques=lambda t, y: -1e-3 * y[3:], max_steps=10**12).advance(1e7)",
     "smooth": "tree.smooth(np.arange(0, 900, 1 / 240), noisy[:216000], method='equations')",
     "draws": "tree.smooth(T, np.zeros((200, 3)) + T[:, None]).draws(3 * 10**5)",
     "lines": "bp.analysis.lines(noisy.ravel(), 240., most=60, smallest=1e-12)",
@@ -55,6 +59,8 @@ def test_signals_end_native_calls(name):
         y, T = np.array([2.0, 0.02, -0.01, 0, 0.1, 0]), np.arange(200) / 100
         noisy = np.random.default_rng(1).normal(0, 0.1, (400000, 3))
         sent = []
+        # Where tests go in the background, shells have it ignored.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
         def send():
             sent.append(time.perf_counter())
@@ -87,6 +93,8 @@ HUGE = {
         "modes": "large().modes()",
     "equilibrium": "large().equilibrium()",
     "draws": "tree.smooth(np.arange(1000) / 100, np.zeros((1000, 3))).draws(10**9)",
+    "advice": "tree.advise(np.zeros((10**4, 6)), np.linspace(0, 1, 10**5))",
+    "a budget": "tree.budget(np.broadcast_to(0.0, (10**9, 6)))",
     "growth": "tree.growth(np.zeros((1, 6)), ('child_1', 'child_2'), [1e9])",
     "energies": "tree.energy(np.broadcast_to(0.0, (10**9, 6)))",
 }

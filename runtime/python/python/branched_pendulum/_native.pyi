@@ -10,7 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
 from ._drawing import Picture
-from ._results import Growth, Identification, ScaleBudget, SectorBudget, Solution
+from ._results import (
+    Advice,
+    Growth,
+    Identification,
+    Report,
+    ScaleBudget,
+    SectorBudget,
+    Solution,
+)
 
 __all__ = [
     "BranchedDouble",
@@ -24,14 +32,17 @@ __all__ = [
     "Recording",
     "RequestError",
     "SmoothedMotion",
+    "Stepper",
     "Tree",
     "__version__",
+    "average",
     "example_texts",
     "lines",
     "read",
     "running_integral",
     "smooth",
     "spectrum",
+    "transient",
 ]
 
 __version__: str
@@ -92,6 +103,7 @@ _TreeForm = Literal[
     "amplitude order 15",
 ]
 _Event = Callable[[float, _Array], float]
+_Torques = Callable[[float, _Array], ArrayLike]
 
 class DescriptionError(ValueError):
     mistakes: list[tuple[int, int, str]]
@@ -183,6 +195,22 @@ class Pendulum:
     ) -> SmoothedMotion: ...
 
 @final
+class Stepper:
+    @property
+    def t(self) -> float: ...
+    @property
+    def y(self) -> _Array: ...
+    @property
+    def report(self) -> Report: ...
+    @property
+    def torques(self) -> Any: ...
+    @torques.setter
+    def torques(self, value: _Torques | ArrayLike | None, /) -> None: ...
+    def set_state(self, t: float, y: ArrayLike) -> None: ...
+    def step(self, until: float | None = None) -> bool: ...
+    def advance(self, duration: float) -> _Array: ...
+
+@final
 class Tree(Pendulum):
     def __new__(cls, text: str, /, **parameters: float) -> Tree: ...
     def changed(self, **parameters: float) -> Tree: ...
@@ -204,7 +232,9 @@ class Tree(Pendulum):
     def kinetic_energy(self, theta: ArrayLike, omega: ArrayLike) -> _Values: ...
     def potential_energy(self, theta: ArrayLike) -> _Values: ...
     def friction_power(self, y: ArrayLike) -> _Values: ...
-    def budget(self, y: ArrayLike, t: ArrayLike | None = None) -> ScaleBudget: ...
+    def budget(
+        self, y: ArrayLike, t: ArrayLike | None = None, torques: ArrayLike | None = None
+    ) -> ScaleBudget: ...
     def momenta(self, theta: ArrayLike, omega: ArrayLike) -> _Array: ...
     def mass_matrix(self, theta: ArrayLike) -> _Array: ...
     def stiffness_matrix(self, theta: ArrayLike) -> _Array: ...
@@ -232,6 +262,15 @@ class Tree(Pendulum):
     def observables(self) -> list[str]: ...
     def observable(self, name: str, y: ArrayLike) -> _Values: ...
     def observable_rate(self, name: str, y: ArrayLike, t: float = 0.0) -> _Array: ...
+    def advise(
+        self,
+        starts: ArrayLike,
+        t: ArrayLike,
+        right: Mapping[Literal["angles", "energy", "pixels", "transfer"], float] | None = None,
+        *,
+        step_limit: float | None = None,
+        sample_limit: float | None = None,
+    ) -> Advice: ...
     def identify(
         self,
         t: ArrayLike,
@@ -243,11 +282,27 @@ class Tree(Pendulum):
         nonnegative: Sequence[str] = ...,
         window: float = 1.0,
     ) -> Identification: ...
+    def stepper(
+        self,
+        y0: ArrayLike,
+        t: float = 0.0,
+        *,
+        torques: _Torques | ArrayLike | None = None,
+        method: Literal[
+            "dop853", "dopri5", "verner98", "rk4", "gauss2", "gauss4", "gauss6", "gauss8", "animation"
+        ] = "dop853",
+        rtol: float = 1e-9,
+        atol: ArrayLike | None = None,
+        step: float | None = None,
+        first_step: float | None = None,
+        max_step: float | None = None,
+        max_steps: int = 1_000_000,
+    ) -> Stepper: ...
     def draw(self, theta: ArrayLike | None = None) -> Picture: ...
 
 @final
 class BranchedDouble(Pendulum):
-    FORMS: ClassVar[list[str]]
+    FORMS: ClassVar[list[_Form]]
     def __new__(cls) -> BranchedDouble: ...
     def canonical_variables(self, y: ArrayLike) -> _Array: ...
     def antiphase_energy(self, y: ArrayLike) -> _Values: ...
@@ -369,6 +424,8 @@ def spectrum(
     window: int = 1,
     remove_mean: bool = True,
 ) -> tuple[_Array, _Array]: ...
+def average(x: ArrayLike) -> dict[str, Any]: ...
+def transient(x: ArrayLike) -> int: ...
 def running_integral(t: ArrayLike, x: ArrayLike) -> _Array: ...
 
 def example_texts() -> list[tuple[str, str]]: ...

@@ -1,0 +1,267 @@
+//! Advice for trees that a program reads: their outputs, and the models that they have.
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::fmt;
+use std::str::FromStr;
+
+use branched_pendulum::Transfer;
+use branched_pendulum::approximate::{Approximation, Linear};
+use branched_pendulum::sectors::Sectors;
+use branched_pendulum::system::{AbsoluteAngles, Model, State, Workspace};
+use branched_pendulum::transfer::{Given, SymmetricTree};
+use branched_pendulum_trees::PendulumTree;
+
+use crate::advisor::Advisor;
+use crate::candidates::Candidates;
+use crate::choice::TimeLimit;
+use crate::error::AdviceError;
+use crate::form::ModelForm;
+use crate::report::Advice;
+use crate::wanted::Wanted;
+
+/// An output of a tree that must be right.
+///
+/// Written and parsed as `angles`, `energy`, `pixels` and `transfer`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum TreeOutput {
+    /// All angles, rad.
+    Angles,
+    /// The energy, J.
+    Energy,
+    /// The ends of all links on a screen of 1000 pixels a metre.
+    Pixels,
+    /// W into the first difference between copies, W.
+    Transfer,
+}
+
+impl TreeOutput {
+    /// All outputs.
+    pub const ALL: &[Self] = &[Self::Angles, Self::Energy, Self::Pixels, Self::Transfer];
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Angles => "angles",
+            Self::Energy => "energy",
+            Self::Pixels => "pixels",
+            Self::Transfer => "transfer",
+        }
+    }
+}
+
+impl fmt::Display for TreeOutput {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.word())
+    }
+}
+
+impl FromStr for TreeOutput {
+    type Err = UnknownOutput;
+
+    fn from_str(name: &str) -> Result<Self, UnknownOutput> {
+        let found = Self::ALL.iter().find(|output| output.word() == name);
+        found.copied().ok_or_else(|| UnknownOutput {
+            name: name.to_owned(),
+        })
+    }
+}
+
+/// A name that no output has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownOutput {
+    /// The name given.
+    pub name: String,
+}
+
+impl fmt::Display for UnknownOutput {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words: Vec<&str> = TreeOutput::ALL.iter().map(|output| output.word()).collect();
+        let words = words.join(", ");
+        write!(f, "there is no output `{}` (outputs: {words})", self.name)
+    }
+}
+
+impl Error for UnknownOutput {}
+
+/// Motions of a tree that a program reads, and what must be right of them.
+///
+/// The candidates are the equations of motion by every method, in lanes where there are several
+/// starts, and the linear model about the place of rest nearest to the first start, where there
+/// is one and the times are ends of equal frames.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::system::State;
+/// use branched_pendulum_advice::{TreeOutput, TreeScene};
+/// use branched_pendulum_trees::PendulumTree;
+///
+/// let tree = PendulumTree::parse("gravity = 9.81, rod: rod(mass = 0.2, length = 0.3)")?;
+/// let scene = TreeScene {
+///     starts: vec![State::at_rest(0.0, &[1e-4])],
+///     times: (1..=10).map(|frame| f64::from(frame) / 60.0).collect(),
+///     right: vec![(TreeOutput::Angles, 1e-8)],
+///     limit: None,
+/// };
+/// let advice = scene.advise(&tree)?;
+/// let names = advice.ranked().map(|run| advice.names[run.candidate].model.as_str());
+/// assert!(names.collect::<Vec<_>>().contains(&"linear"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct TreeScene {
+    /// States at the beginning, all at one time.
+    pub starts: Vec<State<f64>>,
+    /// Times of the samples, s.
+    pub times: Vec<f64>,
+    /// Outputs with their largest errors, each in its unit.
+    pub right: Vec<(TreeOutput, f64)>,
+    /// Time that the choice may take.
+    pub limit: Option<TimeLimit>,
+}
+
+/// Pixels a metre.
+const PIXELS: f64 = 1000.0;
+
+/// Largest drift of the energy beyond the horizon of chaos, J.
+const DRIFT: f64 = 1e-6;
+
+/// The part of a frame by which frames may differ.
+const AWAY: f64 = 1e-6;
+
+impl TreeScene {
+    /// Measures all candidates and chooses among them, as [`Advisor::advise`].
+    ///
+    /// # Errors
+    ///
+    /// [`AdviceError`]; [`AdviceError::Tree`] for the transfer of a tree without copies.
+    pub fn advise(&self, tree: &PendulumTree) -> Result<Advice, AdviceError> {
+        let wants = |wanted| self.right.iter().any(|(output, _)| *output == wanted);
+        let symmetric = match wants(TreeOutput::Transfer) {
+            true => Some(tree.symmetric()?),
+            false => None,
+        };
+        let system = AbsoluteAngles(tree);
+        let mut advisor = Advisor::new(&system).at(self.times.clone());
+        for start in &self.starts {
+            advisor = advisor.start(start.clone());
+        }
+        if is_conservative(tree) {
+            advisor = advisor.conserved(Wanted::energy(tree, DRIFT));
+        }
+        for &(output, tolerance) in &self.right {
+            advisor = advisor.wanted(match (output, &symmetric) {
+                (TreeOutput::Energy, _) => Wanted::energy(tree, tolerance),
+                (TreeOutput::Pixels, _) => Wanted::pixels(tree, PIXELS, tolerance),
+                (TreeOutput::Transfer, Some(symmetric)) => transfer(symmetric, tolerance),
+                (TreeOutput::Angles | TreeOutput::Transfer, _) => Wanted::angles(tolerance),
+            });
+        }
+        if let Some(limit) = self.limit {
+            advisor = advisor.within(limit);
+        }
+        let mut advice = advisor.advise(&self.candidates(tree))?;
+        // A tree that is read has no attribute.
+        advice.to_write.retain(|line| !line.starts_with("#["));
+        Ok(advice)
+    }
+
+    /// The tree as it is, and its linear model about its rest where it has one.
+    fn candidates<'a>(&self, tree: &'a PendulumTree) -> Candidates<'a> {
+        let full = ModelForm::new("full");
+        let mut candidates = Candidates::new();
+        if let Some(frame) = self.frame()
+            && let Some(first) = self.starts.first()
+        {
+            let theta = first.values.get(..tree.links()).unwrap_or_default();
+            let rest = tree.equilibrium(theta);
+            // What has no linear model is not asked for one.
+            if let Some(linear) = rest.ok().and_then(|rest| Linear::about(tree, &rest).ok())
+                && let (Ok(mut double), Ok(mut single)) =
+                    (linear.frames::<f64>(frame), linear.frames::<f32>(frame))
+            {
+                let form = ModelForm::new("linear");
+                candidates = candidates
+                    .frames(&form, "f64", frame, move |state: &mut [f64]| {
+                        double.step(state)
+                    })
+                    .frames(&form, "f32", frame, move |state: &mut [f32]| {
+                        single.step(state)
+                    });
+            }
+        }
+        candidates = candidates.series(&full, AbsoluteAngles(tree));
+        match self.starts.len() {
+            1 => candidates,
+            _ => candidates.lanes(&full, AbsoluteAngles(tree)),
+        }
+    }
+
+    /// Length of the frames at whose ends all times are, s; none of times that are spaced
+    /// otherwise.
+    fn frame(&self) -> Option<f64> {
+        let begin = self.starts.first()?.time;
+        let frame = self.times.first()? - begin;
+        let is_end = |(time, number): (&f64, u32)| {
+            let frames = (time - begin) / frame;
+            (frames - f64::from(number)).abs() <= AWAY
+        };
+        let are_ends = frame > 0.0 && self.times.iter().zip(1..).all(is_end);
+        let began = self.starts.iter().all(|start| start.time == begin);
+        (are_ends && began).then_some(frame)
+    }
+}
+
+/// Returns whether nothing gives a tree energy or takes it.
+fn is_conservative(tree: &PendulumTree) -> bool {
+    // Rates of which no two are equal: friction in every pivot takes power from them.
+    let rates: Vec<f64> = (1..=tree.links()).map(|link| link as f64).collect();
+    tree.drive(0.0).is_none() && tree.friction_power(&rates) == 0.0
+}
+
+fn transfer(symmetric: &SymmetricTree<f64>, tolerance: f64) -> Wanted<'_> {
+    let memory = RefCell::new((
+        Workspace::new(),
+        vec![Transfer::default(); symmetric.sectors().len()],
+    ));
+    Wanted::new("transfer", "W", tolerance, move |_, state, out| {
+        let (workspace, transfers) = &mut *memory.borrow_mut();
+        let (theta, omega) = state.split_at(state.len() / 2);
+        let given = Given::Absolute { theta, omega };
+        symmetric.exact_transfers(workspace, given, transfers);
+        out.extend(transfers.get(1).map(|transfer| transfer.total()));
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TreeOutput, TreeScene};
+    use branched_pendulum::system::State;
+
+    #[test]
+    fn names_of_outputs_are_read_back() {
+        for &output in TreeOutput::ALL {
+            assert_eq!(output.to_string().parse(), Ok(output));
+        }
+        let refused = "angle".parse::<TreeOutput>().unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            "there is no output `angle` (outputs: angles, energy, pixels, transfer)"
+        );
+    }
+
+    #[test]
+    fn frames_are_those_at_whose_ends_all_times_are() {
+        let scene = |times: &[f64]| TreeScene {
+            starts: vec![State::at_rest(1.0, &[0.1])],
+            times: times.to_vec(),
+            right: Vec::new(),
+            limit: None,
+        };
+        assert_eq!(scene(&[1.5, 2.0, 2.5]).frame(), Some(0.5));
+        assert_eq!(scene(&[1.5, 2.0, 2.6]).frame(), None);
+        assert_eq!(scene(&[0.5, 0.0]).frame(), None);
+        assert_eq!(scene(&[]).frame(), None);
+    }
+}
