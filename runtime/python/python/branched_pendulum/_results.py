@@ -423,7 +423,7 @@ class ScaleAverages(Result):
     notes: list[str]
 
     def __str__(self) -> str:
-        lines = ["scale  freedoms  energy (mJ)         flux into it (mW)   lost there on (mW)"]
+        lines = ["scale  freedoms  energy (mJ)         flux into it (mW)   losses − input from there on (mW)"]
         pairs = [
             (self.energies, self.energy_errors),
             (self.flux, self.flux_errors),
