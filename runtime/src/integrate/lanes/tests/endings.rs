@@ -117,8 +117,10 @@ fn a_function_that_is_not_a_number_ends_its_lane_alone() {
 fn systems_of_their_own_end_as_the_starts_of_one() {
     let starts = releases::<f64>();
     let method = Dop853::new(Options::with_tolerance(1e-9));
-    let over = |_: f64, state: &[f64]| (0.5 * state[0]).cos();
-    let endings = [Ending::new(Crossing::Either, &over)];
+    let functions = [0, 1].map(beyond_the_top);
+    let endings = functions
+        .each_ref()
+        .map(|function| Ending::new(Crossing::Rising, function));
     let all = Ensemble::new();
     let one = all.integrate_in_lanes_until(&method, &lopsided(), &starts, END, &endings);
     let own: Vec<_> = starts
