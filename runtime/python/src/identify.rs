@@ -1,8 +1,8 @@
 //! Parameters of a tree from its measured motion: `Tree.identify`.
 
 use branched_pendulum_measure::identification::{
-    AngleErrors, AngleRecord, Family, Fit, Identification, IdentificationError, SearchFailure,
-    Shooting, Standing, Unfound,
+    AngleErrors, AngleRecord, Fit, Identification, IdentificationError, SearchFailure, Shooting,
+    Standing, Unfound,
 };
 use branched_pendulum_trees::{ParameterUse, TreeDescription};
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -157,7 +157,7 @@ impl Tree {
         let tree = self.tree();
         let family = tree.description().clone();
         let missing = |name: &str| {
-            let names = family.parameters().join(", ");
+            let names = family.parameters().collect::<Vec<_>>().join(", ");
             PyKeyError::new_err(format!("there is no parameter `{name}`: there are {names}"))
         };
         let guesses: Vec<(String, f64)> = match unknown {
@@ -179,12 +179,12 @@ impl Tree {
             let guess = guesses.iter().find(|(own, _)| *own == name);
             task = match guess {
                 Some((_, 0.0)) => {
-                    let uses = tree.description().uses_of(&name);
+                    let uses = tree.description().uses_of(name);
                     let quadratic = uses.contains(&ParameterUse::QuadraticFriction);
-                    task.unknown_from_zero(&name, FRICTION[usize::from(quadratic)])
+                    task.unknown_from_zero(name, FRICTION[usize::from(quadratic)])
                 }
-                Some((_, guess)) => task.unknown(&name, *guess),
-                None => task.known(&name, tree.value(&name).unwrap_or(f64::NAN)),
+                Some((_, guess)) => task.unknown(name, *guess),
+                None => task.known(name, tree.value(name).unwrap_or(f64::NAN)),
             };
         }
         Ok(nonnegative
