@@ -19,6 +19,7 @@ tests=(
     tree::scales::shape::tests::parts_stand_one_behind_the_other
     tree::strips::tests::no_run_goes_beyond_what_is_asked_for
     tree::tests::dense::parents_behind_their_links_are_no_parents
+    tree::tests::energies::energies_have_the_same_bits_in_registers_and_one_by_one
     tree::tests::energies::powers_of_one_link_are_those_of_its_torques
     tree::tests::energies::rows_that_are_lacking_give_nan
     tree::tests::without_torques_from_outside_they_are_zero
