@@ -53,7 +53,7 @@ EXPRESSIONS = [
     ("inertia about the centre of mass missing", f"{C}/mechanics/lagrangian.rs",
      "sums.add(index, index, inertia);", "sums.add(index, index, Formula::zero());",
      MECHANICS, BOTH_SOLVES),
-    ("friction against the ground instead of the parent", f"{C}/mechanics/hinge.rs",
+    ("friction against the ground instead of the parent", f"{C}/mechanics/force_elements.rs",
      "self.joint_rate(link, velocities)", "Formula::symbol(velocities[link])",
      MECHANICS, CARTESIAN),
     ("sign of rest angles", f"{C}/program/lower.rs",

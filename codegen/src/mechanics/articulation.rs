@@ -5,7 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
-use super::link_pairs::PairJoint;
+use super::link_pairs::PairElement;
 use crate::scene::{LinkId, PassiveTorques};
 
 /// Constants of the links of one orbit, zero where the scene has no such thing: expressions
@@ -44,7 +44,7 @@ pub struct Articulation {
     /// all of its orbit.
     pub joints: Vec<Joint>,
     /// Springs and friction between links that are not parent and child, two by two.
-    pub pairs: Vec<PairJoint>,
+    pub pairs: Vec<PairElement>,
 }
 
 impl Derivation<'_> {

@@ -4,8 +4,8 @@
 use super::algebra::Formula;
 use super::derivation::{Derivation, Index};
 use super::expression::{Expr, Role, SymbolId, Symbols};
+use super::force_elements::{ElementLinks, ElementWords};
 use super::frame::DerivedFrame;
-use super::hinge::{HingePart, HingeWords};
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
 use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
@@ -65,28 +65,30 @@ impl Derivation<'_> {
     pub(super) fn braking_torques(&mut self, velocities: &[SymbolId]) -> Vec<DerivedTorque> {
         let mut torques = Vec::new();
         let scene = self.scene;
-        for hinge in scene.hinges() {
+        for element in scene.force_elements() {
             for place in FrictionPlace::ALL {
-                let law = hinge.passive.law(place);
+                let law = element.passive.law(place);
                 if law.is_none() {
                     continue;
                 }
-                self.name_law(&hinge.words, place, law);
-                let source = match (place, hinge.part) {
-                    (FrictionPlace::Joint, part @ HingePart::Pivot(link)) => DerivedSource::Link {
-                        link: LinkId(link),
-                        rate: self.hinge_rate(part, velocities),
-                    },
-                    (FrictionPlace::Ground, HingePart::Pivot(link)) => DerivedSource::Link {
+                self.name_law(&element.words, place, law);
+                let source = match (place, element.part) {
+                    (FrictionPlace::Joint, part @ ElementLinks::Pivot(link)) => {
+                        DerivedSource::Link {
+                            link: LinkId(link),
+                            rate: self.element_rate(part, velocities),
+                        }
+                    }
+                    (FrictionPlace::Ground, ElementLinks::Pivot(link)) => DerivedSource::Link {
                         link: LinkId(link),
                         rate: Formula::symbol(velocities[link]),
                     },
-                    (_, part @ HingePart::Pair(number, _)) => DerivedSource::Pair {
+                    (_, part @ ElementLinks::Pair(number, _)) => DerivedSource::Pair {
                         number,
-                        rate: self.hinge_rate(part, velocities),
+                        rate: self.element_rate(part, velocities),
                     },
                 };
-                let names = self.hinge_names(hinge.part);
+                let names = self.element_names(element.part);
                 torques.push(self.torque_called(&names, place, source));
             }
         }
@@ -122,23 +124,23 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names C, q and ε of a hinge, and returns them.
+    /// Names C, q and ε of a force element, and returns them.
     pub(super) fn name_law(
         &mut self,
-        hinge: &HingeWords,
+        element: &ElementWords,
         place: FrictionPlace,
         law: &FrictionLaw,
     ) -> [Formula; 3] {
-        let index = Index::of(&hinge.constants);
+        let index = Index::of(&element.constants);
         let (mark, latex_mark) = (place.mark(), place.latex_mark());
         let (words, what) = match place {
             FrictionPlace::Joint => (
                 ["coulomb", "quadratic_friction", "friction_width"],
-                format!("friction {}", hinge.place),
+                format!("friction {}", element.place),
             ),
             FrictionPlace::Ground => (
                 ["coulomb_drag", "quadratic_drag", "drag_width"],
-                format!("drag {} against the ground", hinge.owner),
+                format!("drag {} against the ground", element.owner),
             ),
         };
         let letters = [

@@ -4,8 +4,8 @@
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Role, SymbolId};
+use super::force_elements::ElementLinks;
 use super::frame::{DerivedFrame, MassMatrix};
-use super::hinge::{Hinge, HingePart, HingeWords};
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::DerivedTorque;
@@ -216,26 +216,19 @@ impl Derivation<'_> {
     /// term.
     fn dissipation(&mut self, velocities: &[SymbolId]) -> Vec<Formula> {
         let (scene, mut terms) = (self.scene, Vec::new());
-        for hinge in scene.hinges() {
-            let Hinge {
-                part,
-                words,
-                passive,
-            } = &hinge;
-            let HingeWords {
-                constants, place, ..
-            } = words;
+        for element in scene.force_elements() {
+            let (words, passive) = (&element.words, element.passive);
             if !passive.friction.is_zero() {
-                let meaning = format!("viscous friction {place}");
-                let relative = self.hinge_rate(*part, velocities);
+                let meaning = format!("viscous friction {}", words.place);
+                let relative = self.element_rate(element.part, velocities);
                 let value = self.quantity(&passive.friction);
-                let c = self.lettered(letters::FRICTION, constants, &meaning, value);
+                let c = self.lettered(letters::FRICTION, &words.constants, &meaning, value);
                 terms.push(dissipated(&c, &relative));
             }
-            if let (HingePart::Pivot(index), false) = (*part, passive.drag.is_zero()) {
+            if let (ElementLinks::Pivot(index), false) = (element.part, passive.drag.is_zero()) {
                 let meaning = format!("viscous drag {} against the ground", words.owner);
                 let value = self.quantity(&passive.drag);
-                let k = self.lettered(letters::DRAG, constants, &meaning, value);
+                let k = self.lettered(letters::DRAG, &words.constants, &meaning, value);
                 terms.push(dissipated(&k, &Formula::symbol(velocities[index])));
             }
         }
@@ -246,27 +239,21 @@ impl Derivation<'_> {
     /// ½ Σ κ (θ_a − θ_b − ρ)².
     fn springs(&mut self, angles: &[SymbolId]) -> Formula {
         let (scene, mut terms) = (self.scene, Vec::new());
-        for hinge in scene.hinges() {
-            let Hinge {
-                part,
-                words,
-                passive,
-            } = &hinge;
-            let HingeWords {
-                constants,
-                owner,
-                place,
-            } = words;
+        for element in scene.force_elements() {
+            let (words, passive) = (&element.words, element.passive);
             if passive.spring.is_zero() {
                 continue;
             }
-            let meaning = format!("angle at which the torsion spring {owner} is at rest");
+            let meaning = format!(
+                "angle at which the torsion spring {} is at rest",
+                words.owner
+            );
             let value = self.quantity(&passive.rest);
-            let rest = self.lettered(letters::REST, constants, &meaning, value);
-            let strain = self.hinge_angle(*part, angles, rest);
-            let meaning = format!("stiffness of the torsion spring {place}");
+            let rest = self.lettered(letters::REST, &words.constants, &meaning, value);
+            let strain = self.element_angle(element.part, angles, rest);
+            let meaning = format!("stiffness of the torsion spring {}", words.place);
             let value = self.quantity(&passive.spring);
-            let stiffness = self.lettered(letters::SPRING, constants, &meaning, value);
+            let stiffness = self.lettered(letters::SPRING, &words.constants, &meaning, value);
             terms.push(stored(&stiffness, &strain));
         }
         terms.into_iter().sum::<Formula>()

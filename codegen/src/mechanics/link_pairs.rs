@@ -10,7 +10,7 @@ use crate::scene::{Coordinate, LinkId, LinkPair, PassiveTorques};
 /// A spring and friction between two links as the articulated recursion and the arithmetic on
 /// means and differences take them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PairJoint<V = Expr> {
+pub struct PairElement<V = Expr> {
     /// The links.
     pub pair: LinkPair,
     /// θ_a − θ_b − ρ, zero without a spring.
@@ -96,14 +96,14 @@ impl Derivation<'_> {
     }
 
     /// All pairs as plain data.
-    pub(super) fn plain_pairs(&self) -> Vec<PairJoint> {
+    pub(super) fn plain_pairs(&self) -> Vec<PairElement> {
         let difference = |own: &Option<Formula>| {
             own.as_ref()
                 .map_or_else(Expr::zero, |formula| self.expr(formula))
         };
         let pairs = self.pairs.iter().map(|own| {
             let names = self.scene.spring_damper_names(own.pair.spring_damper);
-            PairJoint {
+            PairElement {
                 pair: own.pair,
                 strain: difference(&own.angle),
                 rate: difference(&own.rate),

@@ -10,8 +10,8 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::differences::SmallMotion;
 use super::expression::Role;
+use super::force_elements::ElementWords;
 use super::frame::DerivedFrame;
-use super::hinge::HingeWords;
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::JointDifference;
@@ -91,7 +91,7 @@ impl Derivation<'_> {
     }
 
     /// Slope c + C/ε + q ε of the torque of friction where nothing turns.
-    fn friction_at_rest(&mut self, words: &HingeWords, passive: &PassiveTorques) -> Formula {
+    fn friction_at_rest(&mut self, words: &ElementWords, passive: &PassiveTorques) -> Formula {
         let mut slope = Formula::zero();
         if !passive.friction.is_zero() {
             let meaning = format!("viscous friction {}", words.place);

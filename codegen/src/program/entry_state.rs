@@ -8,7 +8,7 @@ use super::symmetric::{
 };
 use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics, PairJoint};
+use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics, PairElement};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.
@@ -78,7 +78,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
         })
         .collect();
     let pairs = &mechanics.articulation.pairs;
-    let passive = |own: &PairJoint| own.passive.map(&mut series);
+    let passive = |own: &PairElement| own.passive.map(&mut series);
     let spring_dampers = SpringDamperValues::of(pairs, &mechanics.coordinates, passive);
     ConstantValues {
         orbits,

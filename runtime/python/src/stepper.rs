@@ -20,7 +20,7 @@ use crate::tree::Tree;
 
 /// Where torques come from.
 enum Source {
-    /// They stay as they are, N m.
+    /// Torques that stay as they are, N m.
     Constant(Vec<f64>),
     /// A function `f(t, y)` of Python.
     Function(Py<PyAny>),

@@ -1,7 +1,7 @@
 //! Torques in the joints, against the ground and on the root.
 
 use super::reduced_units::Units;
-use crate::mechanics::{PairJoint, TorqueSource};
+use crate::mechanics::{PairElement, TorqueSource};
 use crate::program::ValueId;
 use crate::program::lower::{Environment, Lowering};
 use crate::scene::{LinkId, Scene};
@@ -111,7 +111,7 @@ impl Lowering<'_> {
         environment: &mut Environment<'_>,
         torques: &mut [ValueId],
     ) {
-        for PairJoint {
+        for PairElement {
             pair,
             strain,
             rate,

@@ -6,7 +6,7 @@
 
 use super::series::TruncatedSeries;
 use super::tree::SectorId;
-use crate::mechanics::PairJoint;
+use crate::mechanics::PairElement;
 use crate::scene::{Coordinate, PassiveTorques};
 use std::collections::BTreeMap;
 
@@ -26,9 +26,9 @@ pub(in crate::program) struct SpringDamperValues {
 impl SpringDamperValues {
     /// All of the pairs' spring-dampers; `passive` says what the constants of a pair are.
     pub(in crate::program) fn of(
-        pairs: &[PairJoint],
+        pairs: &[PairElement],
         coordinates: &[Coordinate],
-        mut passive: impl FnMut(&PairJoint) -> PassiveTorques<TruncatedSeries>,
+        mut passive: impl FnMut(&PairElement) -> PassiveTorques<TruncatedSeries>,
     ) -> Vec<Self> {
         let mut found: Vec<Self> = Vec::new();
         for same in pairs.chunk_by(|a, b| a.pair.spring_damper == b.pair.spring_damper) {

@@ -8,16 +8,16 @@ use super::joint::JointQuantity;
 use super::meaning::PairDifferences;
 use crate::scene::{LinkId, LinkPair, PassiveTorques, Scene};
 
-/// Two links, or the root and the ground, with a spring and friction between them.
-pub(super) struct Hinge<'s> {
-    pub(super) part: HingePart,
-    pub(super) words: HingeWords,
+/// A force element: a spring and friction between two links, or between the root and the ground.
+pub(super) struct ForceElement<'s> {
+    pub(super) part: ElementLinks,
+    pub(super) words: ElementWords,
     /// Spring and friction; drag of the link of a pivot besides.
     pub(super) passive: &'s PassiveTorques,
 }
 
-/// The hinge in constants and in words.
-pub(super) struct HingeWords {
+/// A force element in constants and in words.
+pub(super) struct ElementWords {
     /// Names of the constants.
     pub(super) constants: Vec<String>,
     /// What the spring is one of.
@@ -26,9 +26,9 @@ pub(super) struct HingeWords {
     pub(super) place: String,
 }
 
-/// The links of a hinge.
+/// The links of a force element.
 #[derive(Clone, Copy)]
-pub(super) enum HingePart {
+pub(super) enum ElementLinks {
     /// A link and what it hangs from.
     Pivot(usize),
     /// Two links, by the number of their pair.
@@ -37,12 +37,12 @@ pub(super) enum HingePart {
 
 impl Scene {
     /// The pivots of all links, and the pairs of links with something between them.
-    pub(super) fn hinges(&self) -> Vec<Hinge<'_>> {
+    pub(super) fn force_elements(&self) -> Vec<ForceElement<'_>> {
         let pivots = self.links.iter().enumerate().map(|(index, link)| {
             let orbit = &self.orbits[link.orbit.0].name;
-            Hinge {
-                part: HingePart::Pivot(index),
-                words: HingeWords {
+            ForceElement {
+                part: ElementLinks::Pivot(index),
+                words: ElementWords {
                     constants: vec![orbit.clone()],
                     owner: format!("of `{orbit}`"),
                     place: format!("in the pivot of `{orbit}`"),
@@ -51,8 +51,8 @@ impl Scene {
             }
         });
         let pairs = self.link_pairs().into_iter().enumerate();
-        let pairs = pairs.map(|(number, pair)| Hinge {
-            part: HingePart::Pair(number, pair),
+        let pairs = pairs.map(|(number, pair)| ForceElement {
+            part: ElementLinks::Pair(number, pair),
             words: self.words_of(pair.spring_damper),
             passive: &self.spring_dampers[pair.spring_damper].torques,
         });
@@ -60,9 +60,9 @@ impl Scene {
     }
 
     /// A spring-damper in constants and in words.
-    pub(super) fn words_of(&self, spring_damper: usize) -> HingeWords {
+    pub(super) fn words_of(&self, spring_damper: usize) -> ElementWords {
         let what = format!("of `{}`", self.spring_dampers[spring_damper].what);
-        HingeWords {
+        ElementWords {
             constants: self.spring_damper_names(spring_damper),
             owner: what.clone(),
             place: what,
@@ -71,17 +71,17 @@ impl Scene {
 }
 
 impl Derivation<'_> {
-    /// The difference of the angles of a hinge in the symbols of all links, less the angle at
+    /// The difference of the angles of an element in the symbols of all links, less the angle at
     /// which its spring is at rest.
-    pub(super) fn hinge_angle(
+    pub(super) fn element_angle(
         &mut self,
-        part: HingePart,
+        part: ElementLinks,
         angles: &[SymbolId],
         rest: Formula,
     ) -> Formula {
         match part {
-            HingePart::Pivot(link) => self.joint_of(JointQuantity::Angle, link, angles, rest),
-            HingePart::Pair(number, pair) => {
+            ElementLinks::Pivot(link) => self.joint_of(JointQuantity::Angle, link, angles, rest),
+            ElementLinks::Pair(number, pair) => {
                 let angle = self.pair_difference(JointQuantity::PairAngle, pair, angles, rest);
                 self.pairs[number].angle = Some(angle.clone());
                 angle
@@ -90,10 +90,10 @@ impl Derivation<'_> {
     }
 
     /// The difference of the rates.
-    pub(super) fn hinge_rate(&mut self, part: HingePart, velocities: &[SymbolId]) -> Formula {
+    pub(super) fn element_rate(&mut self, part: ElementLinks, velocities: &[SymbolId]) -> Formula {
         match part {
-            HingePart::Pivot(link) => self.joint_rate(link, velocities),
-            HingePart::Pair(number, pair) => {
+            ElementLinks::Pivot(link) => self.joint_rate(link, velocities),
+            ElementLinks::Pair(number, pair) => {
                 let none = Formula::zero();
                 let rate = self.pair_difference(JointQuantity::PairRate, pair, velocities, none);
                 self.pairs[number].rate = Some(rate.clone());
@@ -102,11 +102,11 @@ impl Derivation<'_> {
         }
     }
 
-    /// Names of the links, which tell the hinge from others of the same constants.
-    pub(super) fn hinge_names(&self, part: HingePart) -> Vec<String> {
+    /// Names of the links, which tell the element from others of the same constants.
+    pub(super) fn element_names(&self, part: ElementLinks) -> Vec<String> {
         match part {
-            HingePart::Pivot(link) => vec![self.scene.links[link].name.clone()],
-            HingePart::Pair(_, pair) => self.pair_names(pair),
+            ElementLinks::Pivot(link) => vec![self.scene.links[link].name.clone()],
+            ElementLinks::Pair(_, pair) => self.pair_names(pair),
         }
     }
 
