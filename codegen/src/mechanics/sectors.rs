@@ -55,6 +55,8 @@ pub struct OrbitMechanics {
     /// The sectors: the in-phase one, then the differences, outer branchings
     /// first.
     pub sectors: Vec<SectorVariables>,
+    /// True if springs between links couple sectors.
+    pub springs_couple: bool,
 }
 
 impl OrbitMechanics {
@@ -108,6 +110,7 @@ impl Derivation<'_> {
             }
         }
         OrbitMechanics {
+            springs_couple: scene.coupling_spring(coordinates).is_some(),
             orbits,
             couplings,
             sectors: sectors(coordinates),

@@ -79,7 +79,12 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
         .collect();
     let pairs = &mechanics.articulation.pairs;
     let passive = |own: &PairElement| own.passive.map(&mut series);
-    let spring_dampers = SpringDamperValues::of(pairs, &mechanics.coordinates, passive);
+    let spring_dampers = SpringDamperValues::of(
+        pairs,
+        &mechanics.coordinates,
+        sectors.springs_couple,
+        passive,
+    );
     ConstantValues {
         orbits,
         couplings,

@@ -170,10 +170,11 @@ impl Scene {
         self.link_pairs().into_iter().any(couples)
     }
 
-    /// The first spring-damper whose spring couples symmetric coordinates, or is at rest where
-    /// copies differ: sectors have no energies by themselves then. None where all springs
-    /// together leave each coordinate to itself.
-    pub(super) fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
+    /// The first spring-damper whose spring couples sectors, or is at rest where copies differ:
+    /// sectors have no energies by themselves then. None where all springs together leave each
+    /// sector to itself.
+    pub fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
+        let sector = |index: usize| coordinates[index].kind.orbit_and_difference().1;
         let mut all: BTreeMap<[usize; 2], Vec<Quantity>> = BTreeMap::new();
         let mut first: BTreeMap<[usize; 2], usize> = BTreeMap::new();
         for pair in self.link_pairs() {
@@ -181,12 +182,14 @@ impl Scene {
             if torques.spring.is_zero() {
                 continue;
             }
-            if !torques.rest.is_zero() {
+            let weights = pair.weights(coordinates);
+            if !torques.rest.is_zero() && weights.iter().any(|&(index, _)| sector(index).is_some())
+            {
                 return Some(pair.spring_damper);
             }
-            let weights = pair.weights(coordinates);
             for (place, &(i, own)) in weights.iter().enumerate() {
-                for &(j, other) in &weights[place + 1..] {
+                let others = weights[place + 1..].iter();
+                for &(j, other) in others.filter(|&&(j, _)| sector(j) != sector(i)) {
                     let share = [Quantity::integer(own * other), torques.spring.clone()];
                     all.entry([i, j])
                         .or_default()

@@ -4,6 +4,7 @@ use super::constants::MassConstants;
 use super::memory::FreeMemory;
 use super::pattern::{Entries, Pattern};
 use super::shape::BlockShape;
+use super::springs::SectorSprings;
 use crate::scalar::{Scalar, at};
 
 impl BlockShape {
@@ -65,7 +66,7 @@ impl BlockShape {
     pub(super) fn write_fall<T: Scalar>(
         &self,
         constants: &MassConstants<T>,
-        stiffness: &[T],
+        springs: &SectorSprings<T>,
         parents: &[Option<usize>],
         theta: &[T],
         [sines, cosines]: [&[T]; 2],
@@ -100,15 +101,6 @@ impl BlockShape {
                     slopes[link] = slopes[link] + own * (lateral * cosines[link]);
                 }
             }
-            if let Some(&stiffness) = stiffness.get(self.first + index) {
-                let strain = column.sum(|link| theta[link]);
-                let torque = stiffness * share * strain;
-                energy = energy + half * torque * strain;
-                for (link, own) in column.iter() {
-                    let own: T = own;
-                    slopes[link] = slopes[link] + own * torque;
-                }
-            }
             let Some(&spring) = constants.spring.get(first) else {
                 continue;
             };
@@ -132,6 +124,6 @@ impl BlockShape {
                 }
             }
         }
-        energy
+        energy + springs.add_fall(self, theta, slopes)
     }
 }

@@ -21,6 +21,7 @@ mod parseval;
 mod pattern;
 mod sector;
 mod shape;
+mod springs;
 mod states;
 
 pub use budget::{EnergyDefinition, SectorBudget};
@@ -33,7 +34,8 @@ use alloc::vec::Vec;
 
 use constants::{MassConstants, moments, rounded};
 use forces::Passive;
-use shape::{SymmetricShape, stiffness};
+use shape::SymmetricShape;
+use springs::SectorSprings;
 
 use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
@@ -105,9 +107,8 @@ pub struct SymmetricTree<T> {
     bodies: Vec<RigidLink<T>>,
     passive: Passive<T>,
     spring_dampers: SpringDampers<T>,
-    /// What springs between links add to the stiffness of each symmetric coordinate by itself;
-    /// empty without any.
-    stiffness: Vec<T>,
+    /// The springs among them.
+    springs: SectorSprings<T>,
 }
 
 /// The tree of equal copies beside one whose copies differ.
@@ -226,15 +227,16 @@ impl<T: Scalar> SymmetricTree<T> {
             bodies: links.iter().map(|link| link.cast(rounded)).collect(),
             passive,
             spring_dampers: SpringDampers::default(),
-            stiffness: Vec::new(),
+            springs: SectorSprings::default(),
         })
     }
 
     /// Returns the tree with springs and friction between links that are not parent and child.
     ///
     /// None for those of another number of links, and for springs that couple sectors, which have
-    /// no energies by themselves then: all copies of a node under one link have to have the same
-    /// spring between each two of them, at rest where they do not differ.
+    /// no energies by themselves then. Springs between links of one sector couple none, and the same
+    /// spring between every two copies of a node under one link does not either. A spring that is
+    /// not at rest where its links have one angle has to be between means alone.
     #[must_use]
     pub fn with_spring_dampers(mut self, spring_dampers: SpringDampers<Double>) -> Option<Self> {
         if spring_dampers.is_empty() {
@@ -243,14 +245,7 @@ impl<T: Scalar> SymmetricTree<T> {
         if spring_dampers.links() != self.links() {
             return None;
         }
-        self.stiffness = match spring_dampers
-            .list()
-            .iter()
-            .any(|own| own.spring.high() != 0.0)
-        {
-            true => stiffness(&self.shape, &spring_dampers)?,
-            false => Vec::new(),
-        };
+        self.springs = SectorSprings::of(&self.shape, &spring_dampers)?;
         self.spring_dampers = spring_dampers.cast(rounded);
         Some(self)
     }
@@ -277,7 +272,7 @@ impl<T: Scalar> SymmetricTree<T> {
             bodies: self.bodies.iter().map(|body| body.cast(&convert)).collect(),
             passive: self.passive.cast(&convert),
             spring_dampers: self.spring_dampers.cast(&convert),
-            stiffness: self.stiffness.iter().copied().map(&convert).collect(),
+            springs: self.springs.cast(&convert),
         }
     }
 

@@ -170,7 +170,7 @@ impl<T: Scalar> SymmetricTree<T> {
                 slopes[parent] = slopes[parent] - torque;
             }
         }
-        if !self.stiffness.is_empty() {
+        if !self.springs.is_empty() {
             self.spring_dampers.add_spring_slopes(motion.theta, slopes);
         }
     }
@@ -223,7 +223,7 @@ impl<T: Scalar> SymmetricTree<T> {
                 energy = energy + half * spring * strain * strain;
             }
         }
-        match self.stiffness.is_empty() {
+        match self.springs.is_empty() {
             true => energy,
             false => energy + self.spring_dampers.energy(motion.theta),
         }

@@ -2,11 +2,9 @@
 
 use alloc::vec::Vec;
 
-use super::constants::rounded;
 use super::pattern::Pattern;
-use crate::scalar::{Double, Scalar};
+use crate::scalar::Scalar;
 use crate::sectors::{Sector, SectorCoordinate};
-use crate::spring_dampers::SpringDampers;
 
 /// What a tree's sectors are, whatever its constants.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,59 +141,6 @@ fn balanced(weights: &[(usize, f64)]) -> Vec<(usize, f64)> {
         Some(own)
     };
     core::iter::from_fn(next).collect()
-}
-
-/// The stiffness that springs between links give each symmetric coordinate by itself: Σ κ
-/// (w_a − w_b)²/Σ w² with the links' weights. None where they couple coordinates, or are at rest
-/// where copies differ.
-pub(super) fn stiffness<T: Scalar>(
-    shape: &SymmetricShape,
-    spring_dampers: &SpringDampers<Double>,
-) -> Option<Vec<T>> {
-    let zero = Double::from_f64(0.0);
-    let springs = || {
-        spring_dampers
-            .list()
-            .iter()
-            .filter(|own| own.spring != zero)
-    };
-    if springs().any(|own| own.rest != zero) {
-        return None;
-    }
-    let mut found = Vec::with_capacity(shape.links());
-    let [mut weights, mut slopes] = [(); 2].map(|()| alloc::vec![zero; shape.links()]);
-    for column in shape.blocks.iter().flat_map(|block| &block.columns) {
-        weights.fill(zero);
-        slopes.fill(zero);
-        for (link, weight) in column.iter() {
-            *weights.get_mut(link)? = weight;
-        }
-        for own in springs() {
-            let [a, b] = own.links;
-            let torque = own.spring * (*weights.get(a)? - *weights.get(b)?);
-            let torques = [(a, torque), (b, -torque)];
-            for (link, torque) in torques {
-                let slope = slopes.get_mut(link)?;
-                *slope += torque;
-            }
-        }
-        let pairs = weights.iter().zip(&slopes);
-        let norm = Double::from_f64(column.norm);
-        let own = pairs.fold(zero, |sum, (&weight, &slope)| sum + weight * slope) / norm;
-        // Torques of one coordinate on the others.
-        let beyond = |(&weight, &slope): (&Double, &Double)| {
-            (slope - own * weight).high().abs() > 1e-12 * own.high().abs()
-        };
-        let is_mixed = match own == zero {
-            true => slopes.iter().any(|slope| *slope != zero),
-            false => weights.iter().zip(&slopes).any(beyond),
-        };
-        if is_mixed {
-            return None;
-        }
-        found.push(rounded(own));
-    }
-    Some(found)
 }
 
 impl BlockShape {

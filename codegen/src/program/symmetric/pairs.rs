@@ -136,7 +136,7 @@ impl SymmetricTree<'_> {
     ) {
         for own in &values.spring_dampers {
             let passive = &own.passive;
-            for (number, sum) in &own.strains {
+            for (number, sum) in &own.slips {
                 if passive.friction.is_zero() {
                     continue;
                 }

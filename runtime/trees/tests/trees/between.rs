@@ -225,6 +225,52 @@ fn transfers_know_springs_between_siblings() {
     assert!(PendulumTree::parse(&damped).unwrap().symmetric().is_ok());
 }
 
+/// Springs between links of one sector, and equal ones in all copies, couple no sectors: the
+/// energies of the sectors change by W.
+#[test]
+fn springs_within_sectors_have_energies_there() {
+    let links = "gravity = 9.81, a: rod(mass = 0.4, length = 0.5) [
+        b: rod(mass = 0.3, length = 0.4) [c: rod(mass = 0.2, length = 0.3) [
+            d: rod(mass = 0.1, length = 0.2)]] * 2]";
+    let equal = "between(b_1, d_1, spring = 0.7), between(b_2, d_2, spring = 0.7)";
+    let unequal = equal.replace("d_2, spring = 0.7", "d_2, spring = 0.6");
+    let at_rest_apart = equal.replace("d_2, spring = 0.7", "d_2, spring = 0.7, rest = 0.1");
+    for clauses in [&unequal, &at_rest_apart] {
+        let tree = PendulumTree::parse(&format!("{links}, {clauses}")).unwrap();
+        assert_eq!(
+            tree.symmetric().unwrap_err(),
+            TreeError::CoupledSectors,
+            "{clauses}"
+        );
+    }
+    let tree = PendulumTree::parse(&format!("{links}, {equal}")).unwrap();
+    let symmetric = tree.symmetric().unwrap();
+    let n = tree.links();
+    let start = State::at_rest(0.0, &[0.9, 0.7, 0.5, 0.3, 0.6, 0.4, -0.2]);
+    let method = Dop853::new(Options::with_tolerance(1e-13));
+    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
+    let system = AbsoluteAngles(&tree);
+    let mut workspace = Workspace::new();
+    let mut at = |time: f64| {
+        let state = method.integrate(&system, &start, time, go_on).unwrap();
+        let (theta, omega) = state.state.values.split_at(n);
+        let given = Given::Absolute { theta, omega };
+        let mut energies = vec![[0.0; 2]; symmetric.sectors().len()];
+        symmetric.energies(&mut workspace, given, &mut energies);
+        let mut w = vec![Transfer::default(); energies.len()];
+        symmetric.transfers(&mut workspace, TransferForm::Exact, given, &mut w);
+        (energies[1].iter().sum::<f64>(), w[1].total())
+    };
+    // The central difference of fourth order.
+    let h = 2e-4;
+    for time in [0.3, 0.6, 0.9] {
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|step| at(time + step * h).0);
+        let rate = (8.0 * (c - b) - (d - a)) / (12.0 * h);
+        let (_, w) = at(time);
+        assert!(w.abs() > 1e-3 && (rate - w).abs() < 1e-7, "{rate} {w}");
+    }
+}
+
 /// A damper on one of two copies, which does nothing at rest, takes them out of phase.
 #[test]
 fn copies_that_one_damper_brakes_do_not_move_alike() {

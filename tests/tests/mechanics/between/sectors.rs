@@ -4,14 +4,16 @@ use branched_pendulum::TransferForm;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
-use branched_pendulum::transfer::{EnergyDefinition, Given, NonConservative, SectorBudget};
+use branched_pendulum::transfer::{
+    EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
+};
 use branched_pendulum_compiler_tests::random::Random;
 use branched_pendulum_tests::oracle::Tree;
 use branched_pendulum_tests::oracle::cartesian::Motion;
 use branched_pendulum_tests::oracle::generator::{Coupling, Recipe, coupled_sample};
 use branched_pendulum_trees::PendulumTree;
 
-use crate::support::{Worst, compile};
+use crate::support::{Compiled, Worst, compile};
 
 /// The tree at run time without what it is not asked for.
 fn at_run_time(text: &str) -> PendulumTree {
@@ -100,11 +102,71 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, x| size.max(x.abs()))
 }
 
+/// Deviations of compiled budgets from those of trees at run time.
+#[derive(Default)]
+struct Budgets {
+    energies: Worst,
+    transfers: Worst,
+    powers: Worst,
+}
+
+impl Budgets {
+    /// Compares all definitions of the energy, and the transfer matrix.
+    fn compare(
+        &mut self,
+        compiled: &Compiled,
+        tree: &SymmetricTree<f64>,
+        [theta, omega]: [&[f64]; 2],
+        place: &str,
+    ) {
+        let (given, count) = (Given::Absolute { theta, omega }, tree.sectors().len());
+        let (mut workspace, mut budget) = (Workspace::new(), SectorBudget::new());
+        let mut compared = Vec::new();
+        for (definition, entry) in DEFINITIONS {
+            let place = || format!("{entry}, {place}");
+            let derived = compiled.evaluate(entry, &[theta, omega]);
+            let acting = [NonConservative::Friction];
+            tree.budget(&mut workspace, definition, &acting, given, &mut budget);
+            let (own, rest) = derived.split_at(count);
+            let (transfers, braked) = rest.split_at(count);
+            for (found, own) in budget.energies.iter().zip(own) {
+                let size = largest(&budget.energies);
+                self.energies.note(found - own, size, place);
+            }
+            compared.push((budget.transfers.clone(), transfers.to_vec()));
+            let size = largest(&budget.powers);
+            for (found, own) in budget.powers.iter().zip(braked) {
+                self.powers.note(found - own, size, place);
+            }
+        }
+        let derived = compiled.evaluate("sector_transfer_matrix", &[theta, omega]);
+        let mut own = vec![0.0; count * count];
+        tree.transfer_matrix(&mut workspace, given, &mut own);
+        compared.push((own, derived));
+        let size = compared
+            .iter()
+            .fold(0.0, |size: f64, (own, _)| size.max(largest(own)));
+        for (own, derived) in &compared {
+            assert_eq!(own.len(), derived.len());
+            for (own, derived) in own.iter().zip(derived) {
+                self.transfers
+                    .note(own - derived, size, || place.to_owned());
+            }
+        }
+    }
+
+    fn assert_alike(&self) {
+        self.energies.assert_below(1e-13, "energies");
+        self.transfers.assert_below(1e-13, "transfers");
+        self.powers.assert_below(1e-12, "powers");
+    }
+}
+
 /// Energies of sectors, transfers and powers, with springs between all copies of nodes and
 /// friction between any links; in phase, all of every difference is exactly zero.
 #[test]
 fn budgets_are_those_of_trees_at_run_time() {
-    let [mut energies, mut flows, mut powers, mut orders] = [(); 4].map(|()| Worst::default());
+    let (mut budgets, mut orders) = (Budgets::default(), Worst::default());
     let (mut trees, mut nested, mut with_springs) = (0, 0, 0);
     for seed in 0..90 {
         let recipe = Recipe {
@@ -131,45 +193,10 @@ fn budgets_are_those_of_trees_at_run_time() {
         );
         let (n, count) = (tree.links(), sectors.len());
         let (mut random, mut workspace) = (Random::new(seed), Workspace::new());
-        let mut budget = SectorBudget::new();
         for state in 0..3 {
             let (theta, omega) = (random.around_zero(n, 3.0), random.around_zero(n, 5.0));
-            let inputs: [&[f64]; 2] = [&theta, &omega];
-            let given = Given::Absolute {
-                theta: &theta,
-                omega: &omega,
-            };
-            let mut compared = Vec::new();
-            for (definition, entry) in DEFINITIONS {
-                let place = || format!("{entry}, state {state} of tree {seed}");
-                let derived = compiled.evaluate(entry, &inputs);
-                let acting = [NonConservative::Friction];
-                tree.budget(&mut workspace, definition, &acting, given, &mut budget);
-                let (own, rest) = derived.split_at(count);
-                let (transfers, braked) = rest.split_at(count);
-                for (found, own) in budget.energies.iter().zip(own) {
-                    energies.note(found - own, largest(&budget.energies), place);
-                }
-                compared.push((budget.transfers.clone(), transfers.to_vec()));
-                let size = largest(&budget.powers);
-                for (found, own) in budget.powers.iter().zip(braked) {
-                    powers.note(found - own, size, place);
-                }
-            }
-            let derived = compiled.evaluate("sector_transfer_matrix", &inputs);
-            let mut own = vec![0.0; count * count];
-            tree.transfer_matrix(&mut workspace, given, &mut own);
-            compared.push((own, derived));
-            let size = compared
-                .iter()
-                .fold(0.0, |size: f64, (own, _)| size.max(largest(own)));
-            for (own, derived) in &compared {
-                assert_eq!(own.len(), derived.len());
-                for (own, derived) in own.iter().zip(derived) {
-                    let place = || format!("state {state} of tree {seed}");
-                    flows.note(own - derived, size, place);
-                }
-            }
+            let place = format!("state {state} of tree {seed}");
+            budgets.compare(&compiled, &tree, [&theta, &omega], &place);
             let (q, v) = (random.around_zero(n, 0.8), random.around_zero(n, 1.0));
             let rates = Given::Rates {
                 coordinates: &q,
@@ -197,10 +224,65 @@ fn budgets_are_those_of_trees_at_run_time() {
         trees > 60 && nested > 10 && with_springs > 20,
         "{trees} {nested} {with_springs}"
     );
-    energies.assert_below(1e-13, "energies");
-    flows.assert_below(1e-13, "transfers");
-    powers.assert_below(1e-12, "powers");
+    budgets.assert_alike();
     orders.assert_below(1e-13, "second order");
+}
+
+/// Springs between links of one sector, and springs that leave the sectors uncoupled together.
+const WITHIN_SECTORS: [&str; 4] = [
+    "a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.3, length = 0.4) [
+        c: rod(mass = 0.2, length = 0.3) [d: rod(mass = 0.1, length = 0.2) * 2]]],
+        between(a, c, spring = 0.7, rest = 0.3, friction = 1e-3)",
+    "a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.3, length = 0.4) [
+        c: rod(mass = 0.2, length = 0.3) [d: rod(mass = 0.1, length = 0.2)]] * 2],
+        between(b_1, d_1, spring = 0.7), between(b_2, d_2, spring = 0.7),
+        between(c_1, c_2, friction = 1e-3)",
+    "a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.3, length = 0.4) * 3],
+        between(b_1, b_2, spring = 0.7), between(b_2, b_3, spring = 0.7),
+        between(b_3, b_1, spring = 0.7)",
+    "a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.3, length = 0.4) [
+        c: rod(mass = 0.2, length = 0.3) * 2] * 2],
+        between(b_1, c_1_1, spring = 0.7), between(b_1, c_1_2, spring = 0.7),
+        between(b_2, c_2_1, spring = 0.7), between(b_2, c_2_2, spring = 0.7),
+        between(c_1_1, c_2_1, spring = 0.2), between(c_1_2, c_2_2, spring = 0.2),
+        between(c_1_1, c_2_2, spring = 0.2), between(c_1_2, c_2_1, spring = 0.2)",
+];
+
+/// The energies of the sectors have all of the springs' energy, and the transfers are those of
+/// trees at run time.
+#[test]
+fn springs_within_sectors_are_theirs() {
+    let (mut budgets, mut energies) = (Budgets::default(), Worst::default());
+    for text in WITHIN_SECTORS {
+        let (links, _) = text
+            .split_once(",\n        between")
+            .expect("it has springs");
+        let requests = "emit(budget(rest, canonical, parseval, velocity, matrix))";
+        let [coupled, free] = [text, links].map(|own| format!("gravity = 9.81, {own}, {requests}"));
+        let [with, without] = [&coupled, &free].map(|text| compile(text));
+        let [whole, bare] = [&coupled, &free].map(|text| at_run_time(text));
+        let tree = whole.symmetric().expect("no spring couples its sectors");
+        let (n, count) = (tree.links(), tree.sectors().len());
+        let mut random = Random::new(7);
+        for state in 0..5 {
+            let (theta, omega) = (random.around_zero(n, 2.0), random.around_zero(n, 3.0));
+            let place = format!("state {state} of {text}");
+            budgets.compare(&with, &tree, [&theta, &omega], &place);
+            let stored = whole.potential_energy_of(&theta) - bare.potential_energy_of(&theta);
+            for (_, entry) in DEFINITIONS {
+                let [own, bare] =
+                    [&with, &without].map(|own| own.evaluate(entry, &[&theta, &omega]));
+                let sum = |values: &[f64]| values[..count].iter().sum::<f64>();
+                energies.note(
+                    sum(&own) - sum(&bare) - stored,
+                    largest(&own[..count]),
+                    || format!("{entry}, {place}"),
+                );
+            }
+        }
+    }
+    budgets.assert_alike();
+    energies.assert_below(1e-13, "energies of the springs");
 }
 
 /// W and H_d of pairs and triples, every form, with a spring and every law of friction between
