@@ -4,7 +4,8 @@
 //! the length ℓ_s, has the speed u_s = √(E_s/M_s) and the time ℓ_s/u_s. If it hands on its energy in
 //! that time, the flux is Π = E_s u_s/ℓ_s, and so E_s = M_s^{1/3} (Π ℓ_s)^{2/3}: Kolmogorov's
 //! two-thirds law for a tree. That is a hypothesis. The compensated spectrum is the energy over
-//! this one, level where the law holds.
+//! this one, level where the law holds. Beside it stands the flatness of W, which grows from scale
+//! to scale where a cascade is intermittent.
 
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,8 @@ struct ScaleOfRun {
     flux: f64,
     /// Energy in equilibrium at the same energy of all, J.
     equilibrium: Option<f64>,
+    /// Flatness of the density of W into the scale and all younger ones.
+    flatness: Option<Estimate>,
 }
 
 /// A finished run.
@@ -85,6 +88,8 @@ impl FinishedRun {
             // The run did not ask for it.
             Err(_) => Vec::new(),
         };
+        let [flatness, flatness_error] =
+            [column("flatness of W")?, column("error of flatness of W")?];
         let row = |place: usize| {
             let at = |list: &[Option<f64>]| list.get(place).copied().flatten();
             Some(ScaleOfRun {
@@ -97,6 +102,9 @@ impl FinishedRun {
                 },
                 flux: at(&flux)?,
                 equilibrium: at(&equilibrium),
+                flatness: at(&flatness)
+                    .zip(at(&flatness_error))
+                    .map(|(value, error)| Estimate { value, error }),
             })
         };
         let name = folder.file_name().unwrap_or(folder.as_os_str());
@@ -187,7 +195,8 @@ fn exponent(rows: &[ScaleOfRun]) -> Option<Estimate> {
 fn report(spectra: &[FinishedRun]) -> String {
     let mut text = format!(
         "| run | flux constant within {:.0} % over scales | flux there and below, parts of the input | \
-         exponent of Π ℓ | E_s/E_s in equilibrium there |\n|---|---|---|---|---|\n",
+         exponent of Π ℓ | E_s/E_s in equilibrium there | flatness of W there |\n\
+         |---|---|---|---|---|---|\n",
         100.0 * LEVEL
     );
     for spectrum in spectra {
@@ -197,9 +206,8 @@ fn report(spectra: &[FinishedRun]) -> String {
             _ => "none".to_owned(),
         };
         let input = spectrum.input();
-        let listed = |value: &dyn Fn(&ScaleOfRun) -> Option<f64>| {
-            let values = inner.iter().filter_map(value);
-            let values: Vec<String> = values.map(|value| format!("{value:.3}")).collect();
+        let listed = |value: &dyn Fn(&ScaleOfRun) -> Option<String>| {
+            let values: Vec<String> = inner.iter().filter_map(value).collect();
             values.join(", ")
         };
         let exponent = match exponent(inner) {
@@ -207,10 +215,13 @@ fn report(spectra: &[FinishedRun]) -> String {
             None => "–".to_owned(),
         };
         text += &format!(
-            "| {} | {range} | {} | {exponent} | {} |\n",
+            "| {} | {range} | {} | {exponent} | {} | {} |\n",
             spectrum.name,
-            listed(&|row| Some(row.flux / input)),
-            listed(&|row| Some(row.energy.value / row.equilibrium?)),
+            listed(&|row| Some(format!("{:.3}", row.flux / input))),
+            listed(&|row| Some(format!("{:.3}", row.energy.value / row.equilibrium?))),
+            listed(&|row| row
+                .flatness
+                .map(|own| format!("{:.1} ± {:.1}", own.value, own.error))),
         )
         .replace("| -", "| −");
     }
@@ -224,6 +235,8 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
     let most = spectra.iter().map(|own| own.rows.len()).max().unwrap_or(1);
     let mut beside = Panel::new(Axis::log("E / E in equilibrium"));
     beside = beside.line("equilibrium", &[0.0, most as f64 - 1.0], &[1.0; 2]);
+    let mut wild = Panel::new(Axis::log("flatness of W"));
+    wild = wild.line("normal", &[1.0, most as f64 - 1.0], &[3.0; 2]);
     for spectrum in spectra {
         let line =
             |panel: Panel, rows: &[ScaleOfRun], value: &dyn Fn(&ScaleOfRun) -> Option<f64>| {
@@ -245,15 +258,17 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
         beside = line(beside, &spectrum.rows, &|row| {
             Some(row.energy.value / row.equilibrium?)
         });
+        wild = line(wild, differences, &|row| Some(row.flatness?.value));
     }
     let title = "Cascades: the two-thirds law would be level on the left";
     let scale = "generation in which the branches differ";
     Chart::new(title, Axis::linear(scale))
-        .columns(3)
-        .size(1500.0, 520.0)
+        .columns(2)
+        .size(1100.0, 900.0)
         .panel(compensated)
         .panel(flux)
         .panel(beside)
+        .panel(wild)
 }
 
 #[cfg(test)]
@@ -272,6 +287,7 @@ mod tests {
             },
             flux,
             equilibrium: None,
+            flatness: None,
         }
     }
 

@@ -16,15 +16,28 @@ const SIDE: usize = 320;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Density {
     counts: Vec<u32>,
-    /// Sums of the power, its square and its cube.
-    sums: [f64; 3],
+    /// Sums of the power and of its powers up to the fourth.
+    sums: [f64; 4],
+}
+
+/// What a density is like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moments {
+    /// W̄ = ⟨W⟩.
+    pub mean: f64,
+    /// Standard deviation σ.
+    pub deviation: f64,
+    /// ⟨(W − W̄)³⟩/σ³, zero of what is as often above its mean as below.
+    pub skewness: f64,
+    /// ⟨(W − W̄)⁴⟩/σ⁴, three of a normal distribution and more where bursts are rare and strong.
+    pub flatness: f64,
 }
 
 impl Default for Density {
     fn default() -> Self {
         Self {
             counts: vec![0; 2 * SIDE + 1],
-            sums: [0.0; 3],
+            sums: [0.0; 4],
         }
     }
 }
@@ -57,19 +70,28 @@ impl Density {
         self.counts.iter().map(|count| f64::from(*count)).sum()
     }
 
-    /// Mean, standard deviation and skewness ⟨(W − W̄)³⟩/σ³.
-    pub fn moments(&self) -> [f64; 3] {
+    /// Returns what the density is like.
+    pub fn moments(&self) -> Moments {
         let number = self.samples();
-        let [first, second, third] = self.sums.map(|sum| sum / number);
-        let variance = second - first * first;
-        let cube = third - 3.0 * first * second + 2.0 * first.powi(3);
-        [first, variance.sqrt(), cube / variance.powf(1.5)]
+        let [mean, second, third, fourth] = self.sums.map(|sum| sum / number);
+        let variance = second - mean * mean;
+        let cube = third - 3.0 * mean * second + 2.0 * mean.powi(3);
+        let square = mean * mean;
+        let fourth = fourth - 4.0 * mean * third + 6.0 * square * second - 3.0 * square * square;
+        Moments {
+            mean,
+            deviation: variance.sqrt(),
+            skewness: cube / variance.powf(1.5),
+            flatness: fourth / (variance * variance),
+        }
     }
 
     /// The density of (W − W̄)/σ, at the middles of the bins that are not empty. Bins
     /// narrower than `width` are joined.
     pub fn standardised(&self, width: f64) -> Vec<(f64, f64)> {
-        let [mean, deviation, _] = self.moments();
+        let Moments {
+            mean, deviation, ..
+        } = self.moments();
         let edge = |place: f64| LEAST * ((place - SIDE as f64) / BINS).sinh();
         let mut points = Vec::new();
         let (mut low, mut sum) = (edge(-0.5), 0.0);
@@ -91,21 +113,26 @@ impl Density {
 
 #[cfg(test)]
 mod tests {
-    use super::Density;
+    use super::{Density, Moments};
 
     #[test]
     fn moments_and_density_are_those_of_the_samples() {
         let mut halves = [Density::default(), Density::default()];
-        // Exponentially distributed: mean, deviation 1, skewness 2.
+        // Exponentially distributed: mean and deviation 1, skewness 2, flatness 9.
         for i in 0..100_000 {
             let share = (f64::from(i) + 0.5) / 1e5;
             halves[i as usize % 2].count(-(share.ln()));
         }
         let [mut all, other] = halves;
         all.add(&other);
-        let [mean, deviation, skewness] = all.moments();
+        let Moments {
+            mean,
+            deviation,
+            skewness,
+            flatness,
+        } = all.moments();
         assert!((mean - 1.0).abs() < 1e-4 && (deviation - 1.0).abs() < 1e-3);
-        assert!((skewness - 2.0).abs() < 0.02);
+        assert!((skewness - 2.0).abs() < 0.02 && (flatness - 9.0).abs() < 0.1);
         for (place, density) in all.standardised(0.1) {
             if (-0.8..3.0).contains(&place) {
                 assert!(

@@ -4,7 +4,7 @@ use branched_pendulum::analysis::statistics::{
     Average, Drift, Estimate, StatisticsError, jackknife, transient,
 };
 
-use super::density::Density;
+use super::density::{Density, Moments};
 use super::motion::{Followed, QUANTITIES};
 use super::tree::DrivenTree;
 
@@ -59,8 +59,10 @@ pub struct Flux {
     pub dissipated: Average,
     /// The first less the second: the rate of the energy there, which has no mean.
     pub gap: Average,
-    /// Skewness of its density.
+    /// Skewness of the density of W.
     pub skewness: Option<Estimate>,
+    /// Flatness of the density of W.
+    pub flatness: Option<Estimate>,
 }
 
 /// A line through logarithms.
@@ -157,7 +159,8 @@ impl Findings {
                 transferred: Average::of(&series.sums(given))?,
                 dissipated: Average::of(&series.sums(lost))?,
                 gap: Average::of(&series.sums(|row| given(row) - lost(row)))?,
-                skewness: skewness(starts, scale - 1),
+                skewness: shape(starts, scale - 1, |moments| moments.skewness),
+                flatness: shape(starts, scale - 1, |moments| moments.flatness),
             })
         });
         Self {
@@ -253,7 +256,8 @@ impl Series<'_> {
     }
 }
 
-fn skewness(starts: &[Followed], flux: usize) -> Option<Estimate> {
+/// A moment of the density of a flux; none of a single start.
+fn shape(starts: &[Followed], flux: usize, of: impl Fn(Moments) -> f64) -> Option<Estimate> {
     let estimate = jackknife(starts.len(), |left_out| {
         let mut all = Density::default();
         for (index, start) in starts.iter().enumerate() {
@@ -263,7 +267,7 @@ fn skewness(starts: &[Followed], flux: usize) -> Option<Estimate> {
                 all.add(own);
             }
         }
-        all.moments()[2]
+        of(all.moments())
     });
     estimate.ok()
 }

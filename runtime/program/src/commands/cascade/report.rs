@@ -99,7 +99,7 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
                 text += &format!(" asleep ({energy:.0e}) | | | |\n");
             }
             Scale::Unsettled(error) => {
-                text += " – | | | |\n";
+                text += " – | | | | |\n";
                 missing.add(format!("scale {scale}"), error);
             }
         }
@@ -189,8 +189,9 @@ fn balance(arguments: &Arguments, findings: &Findings) -> String {
     };
     let mut text = format!(
         "Motor: {} mW; friction: {} mW; the one less the other {} mW: {}.\n\n\
-         | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W |\n\
-         |---|---:|---:|---:|---:|\n",
+         | into scale | from W (mW) | dissipated there and below (mW) | difference (mW) | skewness of W | \
+         flatness of W |\n\
+         |---|---:|---:|---:|---:|---:|\n",
         watts("the motor", &findings.input),
         watts("friction", &findings.dissipation),
         watts("the balance", &findings.loss),
@@ -208,19 +209,16 @@ fn balance(arguments: &Arguments, findings: &Findings) -> String {
         match flux {
             Ok(flux) => {
                 text += &format!(
-                    " {} | {} | {} | {} |\n",
+                    " {} | {} | {} | {} | {} |\n",
                     milli(&flux.transferred),
                     milli(&flux.dissipated),
                     milli(&flux.gap),
-                    flux.skewness.map_or(String::new(), |skewness| format!(
-                        "{:.2} ± {:.2}",
-                        skewness.value, skewness.error
-                    )
-                    .replace('-', "−"))
+                    moment(flux.skewness),
+                    moment(flux.flatness),
                 )
             }
             Err(error) => {
-                text += " – | | | |\n";
+                text += " – | | | | |\n";
                 missing.add(format!("the flux into scale {}", index + 1), error);
             }
         }
@@ -253,6 +251,12 @@ impl Missing {
         }
         text
     }
+}
+
+/// A moment of a density with its error.
+fn moment(own: Option<Estimate>) -> String {
+    let text = own.map(|own| format!("{:.2} ± {:.2}", own.value, own.error));
+    text.unwrap_or_default().replace('-', "−")
 }
 
 /// A power in mW with its error.
@@ -318,6 +322,8 @@ pub fn write_scales(
         ("flux by dissipation", "W"),
         ("error of flux by dissipation", "W"),
         ("mass", "kg"),
+        ("flatness of W", ""),
+        ("error of flatness of W", ""),
     ];
     let mut columns = columns.map(|(name, unit)| Column::new(name, unit)).to_vec();
     if equilibrium.is_some() {
@@ -346,6 +352,8 @@ pub fn write_scales(
             row.push(driven.degrees_of_freedom(scale) as f64);
             row.extend([energy, given, lost].concat());
             row.push(driven.masses.get(scale).copied().unwrap_or(f64::NAN));
+            let flatness = flux.and_then(|flux| flux.as_ref().ok()?.flatness);
+            row.extend(flatness.map_or(none, |own| [own.value, own.error]));
             if let Some(equilibrium) = equilibrium {
                 let [thermal, ..] = &equilibrium.scales;
                 let own = thermal.get(scale);
