@@ -77,7 +77,7 @@ impl BlockShape {
             slopes[link] = zero;
         }
         let mut energy = zero;
-        for (index, column) in self.columns.iter().enumerate() {
+        for column in &self.columns {
             let Some(&(first, _)) = column.weights.first() else {
                 continue;
             };

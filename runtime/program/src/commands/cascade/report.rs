@@ -1,6 +1,6 @@
 //! Words and tables.
 
-use branched_pendulum::analysis::statistics::{Average, StatisticsError};
+use branched_pendulum::analysis::statistics::{Average, Estimate, StatisticsError};
 use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
