@@ -8,15 +8,17 @@ use branched_pendulum::system::{LinkPoint, Positions, UnderTorques};
 #[branched_pendulum(
     gravity = -9.80665,
     mast: rod(mass = 0.3, length = 0.4) [
-        left: rod(mass = 0.05, length = 0.2, spring = 0.2, rest = 0.5, friction = 1e-4),
-        right: rod(mass = 0.05, length = 0.2, spring = 0.2, rest = -0.5, friction = 1e-4),
+        left: rod(mass = 0.05, length = 0.2, spring = 0.2, rest = 0.5),
+        right: rod(mass = 0.05, length = 0.2, spring = 0.2, rest = -0.5),
     ],
     emit(energies, positions, forces),
 )]
 struct Y;
 
 /// The links, in the order of the description.
-const [MAST, LEFT, RIGHT]: [usize; 3] = [0, 1, 2];
+const MAST: usize = 0;
+const LEFT: usize = 1;
+const RIGHT: usize = 2;
 /// Where the guys are tied to the ground, m.
 const PEGS: [[f64; 2]; 2] = [[-0.4, 0.0], [0.4, 0.0]];
 /// Length of a guy that does not pull, m.
@@ -47,11 +49,11 @@ fn along([a, b]: [[f64; 2]; 2], law: Law) -> (f64, [f64; 2]) {
     (energy, [push * x / distance, push * y / distance])
 }
 
-/// The energy of guys and magnets, and the forces on the ends of the links.
-fn between(ends: &[[f64; 2]; 3]) -> (f64, [[f64; 2]; 3]) {
+/// The energy of magnets and of guys to these pegs, and the forces on the ends of the links.
+fn between(ends: &[[f64; 2]; 3], pegs: &[[f64; 2]]) -> (f64, [[f64; 2]; 3]) {
     let (mut sum, mut forces) = (0.0, [[0.0; 2]; 3]);
-    for peg in PEGS {
-        let (energy, force) = along([ends[MAST], peg], guy);
+    for peg in pegs {
+        let (energy, force) = along([ends[MAST], *peg], guy);
         sum += energy;
         forces[MAST] = [0, 1].map(|axis| forces[MAST][axis] + force[axis]);
     }
@@ -63,28 +65,35 @@ fn between(ends: &[[f64; 2]; 3]) -> (f64, [[f64; 2]; 3]) {
 
 fn main() -> Result<(), IntegrationError<f64>> {
     let tree = Y::new();
-    let held = UnderTorques::new(&tree, |_: f64, theta: &[f64], _: &[f64], torques: &mut [f64]| {
-        let mut ends = [[0.0; 2]; 3];
-        tree.points_into(LinkPoint::End, theta, &mut ends);
-        let (_, forces) = between(&ends);
-        tree.point_torques_into(LinkPoint::End, theta, &forces, torques);
-    });
     let start = State::at_rest(0.0, &[0.1, 0.4, -0.6]);
     let method = Dop853::new(Options::with_tolerance(1e-10));
-    let times: Vec<f64> = (0..=10).map(|step| 0.5 * f64::from(step)).collect();
-    println!("time (s)  mast (°)  magnets apart (m)  energy (J)");
-    method.sample(&held, &start, &times, |time, state| {
-        let (theta, omega) = ([state[0], state[1], state[2]], [state[3], state[4], state[5]]);
-        let ends = tree.ends(&theta);
-        let [x, y] = [0, 1].map(|axis| ends[LEFT][axis] - ends[RIGHT][axis]);
-        let energy = tree.kinetic_energy(&theta, &omega) + tree.potential_energy(&theta);
-        let (stored, _) = between(&ends);
-        println!(
-            "{time:8.1}  {:8.3}  {:17.4}  {:10.6}",
-            theta[MAST].to_degrees(),
-            x.hypot(y),
-            energy + stored
-        );
-    })?;
+    let times: Vec<f64> = (0..=10).map(|step| 0.1 * f64::from(step)).collect();
+    for (title, pegs) in [("with guys", &PEGS[..]), ("without", &[])] {
+        let forces = |_: f64, theta: &[f64], _: &[f64], torques: &mut [f64]| {
+            let mut ends = [[0.0; 2]; 3];
+            tree.points_into(LinkPoint::End, theta, &mut ends);
+            let (_, forces) = between(&ends, pegs);
+            tree.point_torques_into(LinkPoint::End, theta, &forces, torques);
+        };
+        println!("{title:>9}: mast (°)  magnets apart (m)  energy (J)");
+        method.sample(
+            &UnderTorques::new(&tree, forces),
+            &start,
+            &times,
+            |time, state| {
+                let [theta, omega] = [0, 3].map(|first| [0, 1, 2].map(|link| state[first + link]));
+                let ends = tree.ends(&theta);
+                let [x, y] = [0, 1].map(|axis| ends[LEFT][axis] - ends[RIGHT][axis]);
+                let energy = tree.kinetic_energy(&theta, &omega) + tree.potential_energy(&theta);
+                let (stored, _) = between(&ends, pegs);
+                println!(
+                    "{time:7.1} s: {:8.3}  {:17.4}  {:10.7}",
+                    theta[MAST].to_degrees(),
+                    x.hypot(y),
+                    energy + stored
+                );
+            },
+        )?;
+    }
     Ok(())
 }

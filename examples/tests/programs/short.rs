@@ -159,6 +159,27 @@ fn branches_damp_the_trunk_best_at_twice_its_frequency() {
     assert!((best[2] - 2.0).abs() < 0.1 && best[6] > 50.0, "{text}");
 }
 
+#[test]
+fn guys_hold_the_mast_and_keep_the_energy() {
+    let text = printed(env!("CARGO_BIN_EXE_guys-and-magnets"));
+    let rows: Vec<&str> = text.lines().filter(|line| line.contains(" s: ")).collect();
+    let (held, free) = rows.split_at(rows.len() / 2);
+    let mast = |line: &str| -> f64 {
+        let mut words = line.split_whitespace();
+        words.nth(2).unwrap().parse().unwrap()
+    };
+    assert_eq!((held.len(), free.len()), (11, 11), "{text}");
+    assert!(held.iter().all(|line| mast(line).abs() < 10.0), "{text}");
+    assert!(mast(free[10]).abs() > 90.0, "{text}");
+    for rows in [held, free] {
+        assert!(
+            rows.iter()
+                .all(|line| (last(line) - last(rows[0])).abs() < 1e-6),
+            "{text}"
+        );
+    }
+}
+
 /// E(10 s) by the friction's power along another method's motion of the same rod.
 #[test]
 fn a_committed_expansion_is_the_scene() {
