@@ -17,7 +17,8 @@ type StateMap<'a> = Rc<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 pub struct ModelForm<'a> {
     pub(crate) name: String,
     pub(crate) system: String,
-    pub(crate) entries: Vec<String>,
+    /// Entries of the attribute; none of a model that has no attribute.
+    entries: Option<Vec<String>>,
     pub(crate) methods: Vec<Method>,
     enter: Option<StateMap<'a>>,
     leave: Option<StateMap<'a>>,
@@ -30,7 +31,7 @@ impl<'a> ModelForm<'a> {
         Self {
             name: name.into(),
             system: String::from("AbsoluteAngles(&model)"),
-            entries: Vec::new(),
+            entries: Some(Vec::new()),
             methods: vec![
                 Method::Dop853,
                 Method::Verner98,
@@ -47,10 +48,20 @@ impl<'a> ModelForm<'a> {
         }
     }
 
+    /// Makes it a model that is read at run time. Such a model has no attribute, and no entries
+    /// are written there.
+    #[must_use]
+    pub fn read_at_run_time(mut self) -> Self {
+        self.entries = None;
+        self
+    }
+
     /// Adds an entry of the attribute that this model has and others have not.
     #[must_use]
     pub fn entry(mut self, entry: impl Into<String>) -> Self {
-        self.entries.push(entry.into());
+        if let Some(entries) = &mut self.entries {
+            entries.push(entry.into());
+        }
         self
     }
 
@@ -185,7 +196,7 @@ impl ModelForm<'_> {
 
     /// The attribute, if anything is to be written there.
     pub(crate) fn attribute(&self) -> Option<String> {
-        let entries = self.entries.join(", ");
+        let entries = self.entries.as_ref()?.join(", ");
         (!entries.is_empty()).then(|| format!("#[branched_pendulum(…, {entries})]"))
     }
 }

@@ -161,15 +161,12 @@ impl TreeScene {
         if let Some(limit) = self.limit {
             advisor = advisor.within(limit);
         }
-        let mut advice = advisor.advise(&self.candidates(tree))?;
-        // A tree that is read has no attribute.
-        advice.to_write.retain(|line| !line.starts_with("#["));
-        Ok(advice)
+        advisor.advise(&self.candidates(tree))
     }
 
     /// The tree as it is, and its linear model about its rest where it has one.
     fn candidates<'a>(&self, tree: &'a PendulumTree) -> Candidates<'a> {
-        let full = ModelForm::new("full");
+        let full = ModelForm::new("full").read_at_run_time();
         let mut candidates = Candidates::new();
         if let Some(frame) = self.frame()
             && let Some(first) = self.starts.first()
@@ -181,7 +178,7 @@ impl TreeScene {
                 && let (Ok(mut double), Ok(mut single)) =
                     (linear.frames::<f64>(frame), linear.frames::<f32>(frame))
             {
-                let form = ModelForm::new("linear");
+                let form = ModelForm::new("linear").read_at_run_time();
                 candidates = candidates
                     .frames(&form, "f64", frame, move |state: &mut [f64]| {
                         double.step(state)
