@@ -1,0 +1,30 @@
+"""What functions of the package return: arrays under names."""
+
+from .. import _native
+from ._advice import Advice, MeasuredRun
+from ._budgets import ScaleAverages, ScaleBudget, SectorBudget
+from ._common import Result
+from ._growth import Growth, ReleaseMap
+from ._identification import Estimate, Identification
+from ._motion import Report, Solution
+
+__all__ = [
+    "Advice",
+    "Estimate",
+    "Growth",
+    "Identification",
+    "MeasuredRun",
+    "ReleaseMap",
+    "Report",
+    "Result",
+    "ScaleAverages",
+    "ScaleBudget",
+    "SectorBudget",
+    "Solution",
+    "make_tree",
+]
+
+
+def make_tree(text: str, parameters: dict[str, float]) -> _native.Tree:
+    """Return the tree of a text: what pickles of trees are made of."""
+    return _native.Tree(text, **parameters)
