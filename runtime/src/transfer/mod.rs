@@ -243,11 +243,8 @@ impl<T: Scalar> SymmetricTree<T> {
         if spring_dampers.links() != self.links() {
             return None;
         }
-        self.stiffness = match spring_dampers
-            .list()
-            .iter()
-            .any(|own| own.spring.high() != 0.0)
-        {
+        let has_springs = spring_dampers.iter().any(|own| own.spring.high() != 0.0);
+        self.stiffness = match has_springs {
             true => stiffness(&self.shape, &spring_dampers)?,
             false => Vec::new(),
         };

@@ -153,12 +153,7 @@ pub(super) fn stiffness<T: Scalar>(
     spring_dampers: &SpringDampers<Double>,
 ) -> Option<Vec<T>> {
     let zero = Double::from_f64(0.0);
-    let springs = || {
-        spring_dampers
-            .list()
-            .iter()
-            .filter(|own| own.spring != zero)
-    };
+    let springs = || spring_dampers.iter().filter(|own| own.spring != zero);
     if springs().any(|own| own.rest != zero) {
         return None;
     }
