@@ -7,6 +7,7 @@
 use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
+use crate::simd::Simd;
 
 /// A torsion spring and friction between two links, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,35 +37,61 @@ impl<T: Scalar> SpringDamper<T> {
         }
     }
 
-    /// Energy of the spring at angles of all links.
+    /// Energy of the spring at a difference of the angles.
     #[inline(always)]
-    fn energy(&self, theta: &[T]) -> T {
-        let strain = self.strain(theta);
+    fn energy(&self, difference: T) -> T {
+        let strain = difference - self.rest;
         T::from_f64(0.5) * self.spring * strain * strain
     }
 
-    /// Strain of the spring.
+    /// Torque of the spring that opposes it.
     #[inline(always)]
-    fn strain(&self, theta: &[T]) -> T {
-        self.difference(theta) - self.rest
+    fn pull(&self, difference: T) -> T {
+        self.spring * (difference - self.rest)
     }
 
+    /// Torque of friction that opposes a difference of the rates.
     #[inline(always)]
-    fn difference(&self, values: &[T]) -> T {
-        let [a, b] = self.links;
-        values[a] - values[b]
-    }
-
-    /// Torque of friction that opposes the difference of the rates.
-    #[inline(always)]
-    fn braking(&self, omega: &[T]) -> T {
-        let rate = self.difference(omega);
+    fn braking(&self, rate: T) -> T {
         let viscous = self.friction * rate;
         let Some([coulomb, quadratic, width]) = self.law else {
             return viscous;
         };
         let speed = (rate * rate + width * width).sqrt();
         viscous + (coulomb / speed + quadratic * speed) * rate
+    }
+}
+
+/// Spring-dampers of the same constants side by side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Run<T> {
+    first: SpringDamper<T>,
+    count: usize,
+}
+
+impl<T: Scalar> Run<T> {
+    /// Returns true if all links are among so many, and none is on both sides or there twice.
+    fn fits(&self, links: usize) -> bool {
+        let [a, b] = self.first.links;
+        let ends = a.max(b).checked_add(self.count);
+        a.abs_diff(b) >= self.count && ends.is_some_and(|end| end <= links)
+    }
+
+    /// Each by itself.
+    fn each(self) -> impl Iterator<Item = SpringDamper<T>> {
+        let [a, b] = self.first.links;
+        (0..self.count).map(move |place| SpringDamper {
+            links: [a + place, b + place],
+            ..self.first
+        })
+    }
+
+    /// The differences of numbers of the links; none of too few numbers.
+    #[inline(always)]
+    fn differences(&self, numbers: &[T]) -> impl Iterator<Item = T> {
+        let own = |first: usize| numbers.get(first..first + self.count).unwrap_or_default();
+        let [a, b] = self.first.links.map(own);
+        a.iter().zip(b).map(|(&a, &b)| a - b)
     }
 }
 
@@ -91,7 +118,7 @@ impl<T: Scalar> SpringDamper<T> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDampers<T> {
     links: usize,
-    list: Vec<SpringDamper<T>>,
+    runs: Vec<Run<T>>,
 }
 
 /// None between no links.
@@ -99,26 +126,59 @@ impl<T> Default for SpringDampers<T> {
     fn default() -> Self {
         Self {
             links: 0,
-            list: Vec::new(),
+            runs: Vec::new(),
         }
     }
 }
 
 impl<T: Scalar> SpringDampers<T> {
-    /// Returns those of a tree of so many links; none for one between links that there are not.
+    /// Returns those of a tree of so many links; none for one between links that there are not,
+    /// and for one between a link and itself.
     #[must_use]
     pub fn new(links: usize, list: Vec<SpringDamper<T>>) -> Option<Self> {
-        let mut all = list.iter().flat_map(|own| own.links);
-        all.all(|link| link < links).then_some(Self { links, list })
+        Self::of_runs(links, list.into_iter().map(|own| (own, 1)))
+    }
+
+    /// Returns those of a tree of so many links where spring-dampers of the same constants stand
+    /// side by side: of each run the first one and their number, each acting between the links
+    /// behind those of the one before. Memory is that of the runs. None for links that there are
+    /// not, and where a link is in a run twice.
+    ///
+    /// # Examples
+    ///
+    /// Two parents with two children each, which are links 2 to 5: first the first children, then
+    /// the second ones.
+    ///
+    /// ```
+    /// use branched_pendulum::spring_dampers::{SpringDamper, SpringDampers};
+    ///
+    /// let first = SpringDamper { links: [2, 4], spring: 0.0, rest: 0.0, friction: 0.1, law: None };
+    /// let siblings = SpringDampers::of_runs(6, [(first, 2)]).unwrap();
+    /// let pairs: Vec<[usize; 2]> = siblings.iter().map(|own| own.links).collect();
+    /// assert_eq!(pairs, [[2, 4], [3, 5]]);
+    /// ```
+    #[must_use]
+    pub fn of_runs(
+        links: usize,
+        runs: impl IntoIterator<Item = (SpringDamper<T>, usize)>,
+    ) -> Option<Self> {
+        let runs = runs.into_iter().map(|(first, count)| Run { first, count });
+        let runs: Vec<Run<T>> = runs.collect();
+        let fit = runs.iter().all(|run| run.fits(links));
+        fit.then_some(Self { links, runs })
     }
 
     /// Returns them on other scalars: `convert` should change the type of their constants and
     /// not their value.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SpringDampers<S> {
+        let runs = self.runs.iter().map(|run| Run {
+            first: run.first.map(&convert),
+            count: run.count,
+        });
         SpringDampers {
             links: self.links,
-            list: self.list.iter().map(|own| own.map(&convert)).collect(),
+            runs: runs.collect(),
         }
     }
 
@@ -126,7 +186,7 @@ impl<T: Scalar> SpringDampers<T> {
     #[must_use]
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
+        self.runs.is_empty()
     }
 
     /// Number of links of the tree.
@@ -136,69 +196,138 @@ impl<T: Scalar> SpringDampers<T> {
     }
 
     /// Returns them one by one.
-    #[must_use]
-    pub fn list(&self) -> &[SpringDamper<T>] {
-        &self.list
+    pub fn iter(&self) -> impl Iterator<Item = SpringDamper<T>> {
+        self.runs.iter().flat_map(|run| run.each())
+    }
+
+    /// Returns the first of each run.
+    pub(crate) fn first_of_runs(&self) -> impl Iterator<Item = &SpringDamper<T>> {
+        self.runs.iter().map(|run| &run.first)
+    }
+
+    /// Writes to `torques` all torques (N m) on the links at their angles (rad) and angular
+    /// velocities (rad/s): those from `outside`, where there are any, and those between links. NaN
+    /// for slices of another length than there are links.
+    #[inline(always)]
+    pub fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
+        match outside {
+            Some(outside) if outside.len() != torques.len() => {
+                torques.fill(T::from_f64(f64::NAN));
+            }
+            Some(outside) => torques.copy_from_slice(outside),
+            None => torques.fill(T::from_f64(0.0)),
+        }
+        self.add_torques(given, torques);
     }
 
     /// Adds the torques (N m) on all links at their angles (rad) and angular velocities (rad/s).
     /// NaN for slices of another length than there are links.
     #[inline(always)]
     pub fn add_torques(&self, [theta, omega]: [&[T]; 2], torques: &mut [T]) {
-        self.add(theta, torques, |own| -(own.spring * own.strain(theta)));
+        self.add(theta, torques, |own, difference| -own.pull(difference));
         self.add_friction(omega, torques);
     }
 
     /// Adds the derivatives (N m) of the springs' energy by the angles; NaN likewise.
     #[inline(always)]
     pub fn add_spring_slopes(&self, theta: &[T], slopes: &mut [T]) {
-        self.add(theta, slopes, |own| own.spring * own.strain(theta));
+        self.add(theta, slopes, |own, difference| own.pull(difference));
     }
 
     /// Adds the torques of friction; NaN likewise.
     #[inline(always)]
     pub fn add_friction(&self, omega: &[T], torques: &mut [T]) {
-        self.add(omega, torques, |own| -own.braking(omega));
+        self.add(omega, torques, |own, rate| -own.braking(rate));
     }
 
     #[inline(always)]
-    fn add(&self, given: &[T], torques: &mut [T], torque: impl Fn(&SpringDamper<T>) -> T) {
+    fn add(&self, given: &[T], torques: &mut [T], torque: impl Fn(&SpringDamper<T>, T) -> T) {
         if [given.len(), torques.len()] != [self.links; 2] {
             torques.fill(T::from_f64(f64::NAN));
             return;
         }
-        for own in &self.list {
-            let ([a, b], torque) = (own.links, torque(own));
-            torques[a] = torques[a] + torque;
-            torques[b] = torques[b] - torque;
+        for run in &self.runs {
+            let sides = run.first.links.map(|first| first..first + run.count);
+            let Ok([own, other]) = torques.get_disjoint_mut(sides) else {
+                continue;
+            };
+            let sides = own.iter_mut().zip(other);
+            for ((own, other), difference) in sides.zip(run.differences(given)) {
+                let torque = torque(&run.first, difference);
+                *own = *own + torque;
+                *other = *other - torque;
+            }
+        }
+    }
+
+    /// Adds the torques on the links of states in the lanes of `V`, in the order in which
+    /// [`add_torques`](Self::add_torques) does: a state has the bits that it has alone.
+    #[inline(always)]
+    pub(crate) fn add_torques_in_registers<V: Simd<T>>(
+        &self,
+        theta: impl Fn(usize) -> V,
+        omega: impl Fn(usize) -> V,
+        torques: &mut [V],
+    ) {
+        if torques.len() != self.links {
+            torques.fill(V::from_f64(f64::NAN));
+            return;
+        }
+        for friction in [false, true] {
+            for run in &self.runs {
+                let (own, [a, b]) = (run.first.map(V::splat), run.first.links);
+                for place in 0..run.count {
+                    let [a, b] = [a + place, b + place];
+                    let torque = match friction {
+                        false => -own.pull(theta(a) - theta(b)),
+                        true => -own.braking(omega(a) - omega(b)),
+                    };
+                    if let Ok([own, other]) = torques.get_disjoint_mut([a, b]) {
+                        *own = *own + torque;
+                        *other = *other - torque;
+                    }
+                }
+            }
         }
     }
 
     /// Energy (J) of the springs; NaN for another number of angles than there are links.
     #[must_use]
     pub fn energy(&self, theta: &[T]) -> T {
-        self.sum(theta, |own| own.energy(theta))
+        self.sum(theta, |own, difference| own.energy(difference))
     }
 
-    /// Returns the energy (J) of each by itself, with the numbers of the two links; nothing for
-    /// another number of angles than there are links.
+    /// Returns the energies (J) of springs whose constants are the same, with the numbers of the
+    /// first two links that they act between; nothing for another number of angles than there are
+    /// links.
     pub fn energies(&self, theta: &[T]) -> impl Iterator<Item = ([usize; 2], T)> {
         let fits = theta.len() == self.links;
-        let list = self.list.iter().filter(move |_| fits);
-        list.map(|own| (own.links, own.energy(theta)))
+        let runs = self.runs.iter().filter(move |_| fits);
+        runs.map(|run| {
+            let energies = run.differences(theta).map(|own| run.first.energy(own));
+            let zero = T::from_f64(0.0);
+            (
+                run.first.links,
+                energies.fold(zero, |sum, energy| sum + energy),
+            )
+        })
     }
 
     /// Power (W) of the friction, never positive; NaN likewise.
     #[must_use]
     pub fn power(&self, omega: &[T]) -> T {
-        self.sum(omega, |own| -(own.braking(omega) * own.difference(omega)))
+        self.sum(omega, |own, rate| -(own.braking(rate) * rate))
     }
 
-    fn sum(&self, given: &[T], value: impl Fn(&SpringDamper<T>) -> T) -> T {
+    #[inline(always)]
+    fn sum(&self, given: &[T], value: impl Fn(&SpringDamper<T>, T) -> T) -> T {
         if given.len() != self.links {
             return T::from_f64(f64::NAN);
         }
         let zero = T::from_f64(0.0);
-        self.list.iter().fold(zero, |sum, own| sum + value(own))
+        self.runs.iter().fold(zero, |sum, run| {
+            let differences = run.differences(given);
+            differences.fold(sum, |sum, own| sum + value(&run.first, own))
+        })
     }
 }

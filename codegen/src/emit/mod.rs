@@ -28,6 +28,7 @@ mod shown;
 mod sink;
 mod slices;
 mod small;
+mod strip_between;
 mod strip_bodies;
 mod strip_docs;
 mod strip_equations;

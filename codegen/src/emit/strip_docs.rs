@@ -33,6 +33,15 @@ impl Emission<'_> {
                 ),
             ],
         };
+        let between = self.scene.spring_dampers.iter();
+        let between: Vec<String> = between.map(|own| format!("`{}`", own.what)).collect();
+        if self.scene.is_coupled() {
+            lines.push(String::new());
+            lines.push(format!(
+                "The torques of {} come as torques from outside do.",
+                between.join(", ")
+            ));
+        }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);

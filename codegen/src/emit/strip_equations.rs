@@ -42,6 +42,11 @@ impl Emission<'_> {
                 const HELD: bool = true;
             )
         });
+        let coupled = (!strips.spring_dampers.is_empty()).then(|| {
+            quote!(
+                const COUPLED: bool = true;
+            )
+        });
         let functions = LinkFunction::ALL.into_iter();
         let functions = functions.filter_map(|function| self.link_function(function));
         quote! {
@@ -68,6 +73,7 @@ impl Emission<'_> {
                 const JOINTS: bool = #joints;
                 const TORQUE: bool = #torque;
                 #forced
+                #coupled
                 #held
 
                 #(#functions)*

@@ -3,6 +3,7 @@
 use super::Emission;
 use super::doc_text::doc_lines;
 use crate::functions::Purpose;
+use crate::scene::PassiveTorques;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -22,8 +23,12 @@ impl Emission<'_> {
             true => (self.zero_of_potential(), " − ρ"),
             false => (self.zero_of_potential(), ""),
         };
+        let between = match self.is_coupled_by(|torques| !torques.spring.is_zero()) {
+            true => ", and the energy of springs between links that are not parent and child",
+            false => "",
+        };
         let potential = doc_lines(&[format!(
-            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs. NaN for a slice of another length than there are links. O(links)."
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs{between}. NaN for a slice of another length than there are links. O(links)."
         )]);
         quote! {
             /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
@@ -102,9 +107,16 @@ impl Emission<'_> {
         if !(requests.energies && fed) {
             return TokenStream::new();
         }
-        let mut links = self.scene.links.iter();
-        let braked = links.any(|link| link.passive.has_friction() || link.passive.has_drag());
+        let mut torques = self.scene.passive_torques();
+        let braked = torques.any(|torques| torques.has_friction() || torques.has_drag());
         let friction = braked.then(|| {
+            let (between, with_between) = match self.is_coupled_by(PassiveTorques::has_friction) {
+                true => (
+                    Some(quote!(+ self.tree.spring_dampers().power(omega))),
+                    " and between links that are not parent and child",
+                ),
+                false => (None, ""),
+            };
             let others = self.other_powers();
             let (laws, meaning) = match self.has_nonlinear_friction() {
                 true => (
@@ -114,13 +126,13 @@ impl Emission<'_> {
                 false => ("", ""),
             };
             let docs = doc_lines(&[format!(
-                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree{with_between}, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
             )]);
             quote! {
                 #docs
                 #[must_use]
                 pub fn friction_power(&self, omega: &[T]) -> T {
-                    self.bodies.friction_power(omega)
+                    self.bodies.friction_power(omega) #between
                 }
             }
         });
@@ -147,6 +159,8 @@ impl Emission<'_> {
             quote!(#runtime::Energy),
             quote!(#runtime::system::Workspace),
         );
+        let springs = self.is_coupled_by(|torques| !torques.spring.is_zero());
+        let springs = springs.then(|| quote!(+ self.tree.spring_dampers().energy(theta)));
         quote! {
             impl<T: #runtime::Scalar> #energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
@@ -171,7 +185,7 @@ impl Emission<'_> {
                     workspace: &mut #workspace<T>,
                     theta: &[T],
                 ) -> T {
-                    self.bodies.potential_energy(workspace, theta)
+                    self.bodies.potential_energy(workspace, theta) #springs
                 }
             }
         }

@@ -4,7 +4,7 @@
 use super::Emission;
 use crate::functions::{Purpose, ScaleFunction};
 use crate::mechanics::expression::NamedFormula;
-use crate::scene::{Layout, Link};
+use crate::scene::{Layout, PassiveTorques};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -34,10 +34,10 @@ impl Emission<'_> {
             let results = Literal::usize_unsuffixed(function.results());
             self.equation_function(Purpose::Scale(function), &quote!([T; #results]))
         });
-        let any = |force: fn(&Link) -> bool| self.scene.links.iter().any(force);
-        let springs = any(|link| !link.passive.spring.is_zero());
-        let friction = any(|link| link.passive.has_friction());
-        let drag = any(|link| link.passive.has_drag());
+        let any = |force: fn(&PassiveTorques) -> bool| self.scene.passive_torques().any(force);
+        let springs = any(|torques| !torques.spring.is_zero());
+        let friction = any(PassiveTorques::has_friction);
+        let drag = any(PassiveTorques::has_drag);
         let moved = self.has_moving_pivot();
         Some(quote! {
             // Of commas: all tokens stand where the attribute does, see `emit`.

@@ -5,7 +5,7 @@ use super::Emission;
 use super::doc_text::doc_lines;
 use super::tokens::{number_tokens, part_tokens};
 use crate::functions::{LINK_PROPERTIES, Purpose};
-use crate::program::{Column, ConstantId, ConstantOp, LoopTree, Op, StripConstants, ValueId};
+use crate::program::{Column, ConstantId, ConstantOp, LoopTree, Op, ValueId};
 use crate::scene::Layout;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -36,6 +36,7 @@ impl Emission<'_> {
                 quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
+        let between = self.spring_dampers(strips, &known);
         let all = strips.strips.iter();
         let bodies = self.scene.requests.energies.then(|| {
             let rows = all.clone().map(|strip| strip.body.as_slice());
@@ -84,7 +85,7 @@ impl Emission<'_> {
             #(#tables)*
             #(#lines)*
             Self {
-                tree: #runtime::tree::Tree::#tree,
+                tree: #runtime::tree::Tree::#tree #between,
                 #(#fields),*
             }
         }
@@ -96,9 +97,7 @@ impl Emission<'_> {
         &self,
         strips: &LoopTree,
     ) -> (Vec<TokenStream>, BTreeMap<ConstantId, Ident>) {
-        let rows = strips.strips.iter();
-        let rows = rows.flat_map(StripConstants::all_constants);
-        let mut wanted: Vec<ConstantId> = rows.collect();
+        let mut wanted: Vec<ConstantId> = strips.all_constants().collect();
         wanted.extend(self.stored_constants());
         wanted.extend(self.root_constants());
         let setup = &self.program.setup;
@@ -134,7 +133,11 @@ impl Emission<'_> {
         quote!([#(#components),*])
     }
 
-    fn known_value(&self, id: ConstantId, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+    pub(super) fn known_value(
+        &self,
+        id: ConstantId,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> TokenStream {
         match known.get(&id) {
             Some(name) => quote!(#name),
             None => self.constant_value(id, known).0,

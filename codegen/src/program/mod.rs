@@ -54,7 +54,7 @@ pub use count::Operations;
 pub use entry::Entry;
 pub use fuse::FusedSum;
 pub use interpret::Interpreter;
-pub use link::{Column, LINK_MOTION, LoopTree, StripConstants};
+pub use link::{Column, LINK_MOTION, LoopTree, SpringDamperConstants, StripConstants};
 pub use operation::{Definition, Op, ValueId};
 pub use pass::Pass;
 use passes::PASSES;

@@ -3,6 +3,7 @@
 use crate::functions::Argument;
 
 use super::{ConstantId, ConstantOp, Op, Program, ValueId};
+use crate::scene::PairRun;
 use std::fmt::{self, Write};
 
 impl fmt::Display for Program {
@@ -48,6 +49,15 @@ impl fmt::Display for Program {
                         .collect();
                     writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
                 }
+            }
+        }
+        for own in self.strips.iter().flat_map(|strips| &strips.spring_dampers) {
+            let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
+            let constants: Vec<String> = constants.collect();
+            writeln!(f, "{}: {}", own.what, constants.join(", "))?;
+            for PairRun { first, count } in &own.pairs {
+                let [a, b] = first;
+                writeln!(f, "  {count} from {a}, {b}")?;
             }
         }
         for entry in &self.entries {

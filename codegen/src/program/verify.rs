@@ -79,8 +79,7 @@ impl Program {
                 _ => {}
             }
         }
-        let strips = self.strips.iter().flat_map(|strips| &strips.strips);
-        constants.extend(strips.flat_map(super::StripConstants::all_constants));
+        constants.extend(self.strips.iter().flat_map(super::LoopTree::all_constants));
         // The model stores the named constants behind a product too. Whole ones come before
         // their parts: names say more.
         let stored = self.setup.behind(constants, |_| true);

@@ -48,8 +48,6 @@ pub enum Layout {
 pub(super) struct Asked<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) observables: bool,
-    /// True if links are coupled that are not parent and child, in compiled code.
-    pub(super) spring_dampers: bool,
 }
 
 /// How the code of a rule would be laid out that is not reduced.
@@ -205,10 +203,6 @@ fn unlooped(templates: &[Template], asked: &Asked<'_>) -> Option<&'static str> {
         (*transverse, "`emit(transverse)`"),
         (asked.resolved.acting.is_some(), "`emit(small)`"),
         (asked.observables, "`observe(…)`"),
-        (
-            asked.spring_dampers,
-            "springs and friction `between(…)` links or `siblings(…)`",
-        ),
         (factorization, "`solve = factorization`"),
         (templates.len() < 2, "a single generation"),
     ];

@@ -17,6 +17,7 @@ pub mod coordinates;
 mod drive;
 mod expand;
 mod layout;
+mod link_pairs;
 mod link_properties;
 mod magnitude;
 mod names;
@@ -52,6 +53,7 @@ mod values;
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;
+pub use link_pairs::{LinkPair, PairRun, SpringDamperEnds};
 pub use magnitude::{Magnitudes, NEGLIGIBLE};
 pub use names::is_keyword;
 pub use observed::{
@@ -64,7 +66,7 @@ pub use rational_expression::RationalExpression;
 pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
-pub use spring_dampers::{DescribedSpringDamper, LinkPair, SpringDamperEnds};
+pub use spring_dampers::DescribedSpringDamper;
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
@@ -117,8 +119,7 @@ pub struct Scene {
     /// Links whose motion the caller states, those of each set together. The sets come with
     /// `requests.forces`.
     pub prescribed: Vec<PrescribedSet>,
-    /// Springs and friction between links that are not parent and child. Code in loops has none:
-    /// such scenes are computed at run time.
+    /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<DescribedSpringDamper>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.

@@ -26,26 +26,13 @@ use std::collections::BTreeMap;
 /// `None` if anything is wrong, here or before: then `report` says what. Every
 /// mistake is looked for that does not depend on another one.
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
-    let scene = resolve_for(Computed::Compiled, description, report)?;
+    let scene = resolve_scene(description, report)?;
     check_coupling(description, &scene, report);
     report.is_empty().then_some(scene)
 }
 
-/// The way in which a scene is computed.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Computed {
-    /// By code for this tree.
-    Compiled,
-    /// By code for every tree.
-    AtRunTime,
-}
-
-/// Checks a description of a tree that is computed in this way.
-pub(super) fn resolve_for(
-    computed: Computed,
-    description: &Description,
-    report: &mut Faults,
-) -> Option<Scene> {
+/// Checks a description of a tree that is compiled or computed at run time.
+pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> Option<Scene> {
     let mut builder = TreeBuilder {
         values: Values::declared(description.parameters.as_ref(), report),
         ..TreeBuilder::default()
@@ -67,7 +54,6 @@ pub(super) fn resolve_for(
     let asked = Asked {
         resolved: &resolved,
         observables: !description.observables.is_empty(),
-        spring_dampers: computed == Computed::Compiled && !description.spring_dampers.is_empty(),
     };
     let readable = !description.damaged && !description.roots.iter().any(Node::is_damaged);
     let reduction = readable

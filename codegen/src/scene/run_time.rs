@@ -3,7 +3,7 @@
 
 use super::Scene;
 use super::layout::Layout;
-use super::resolve::{Computed, resolve_for};
+use super::resolve::resolve_scene;
 use crate::description::Description;
 use crate::report::{Faults, OutputMessage, SizeMessage};
 
@@ -46,7 +46,7 @@ pub fn resolve_at_run_time(description: &Description, report: &mut Faults) -> Op
         let always = known && is_single(&request.name);
         !derived && !always
     });
-    let scene = resolve_for(Computed::AtRunTime, &kept, report)?;
+    let scene = resolve_scene(&kept, report)?;
     if let (Layout::Generations { links, .. }, Some(root)) =
         (scene.layout, description.roots.first())
         && links > MOST

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
 use super::layout::Layout;
+use super::link_pairs::{LinkPair, SpringDamperEnds};
 use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
@@ -23,41 +24,6 @@ pub struct DescribedSpringDamper {
     pub ends: SpringDamperEnds,
     /// Spring and friction; there is no drag.
     pub torques: PassiveTorques,
-}
-
-/// The links of a spring-damper.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum SpringDamperEnds {
-    /// Two links; where the code is loops over generations, by their index in the whole tree.
-    Links([LinkId; 2]),
-    /// All copies of the node of that name under one link, two by two.
-    Siblings(String),
-}
-
-/// Two links that a spring-damper acts between.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LinkPair {
-    /// Index of the spring-damper in [`Scene::spring_dampers`].
-    pub spring_damper: usize,
-    /// The links.
-    pub links: [LinkId; 2],
-}
-
-impl LinkPair {
-    /// Weights of symmetric coordinates in the difference of the links' angles, by their index.
-    pub fn weights(&self, coordinates: &[Coordinate]) -> Vec<(usize, i64)> {
-        let weight = |coordinate: &Coordinate, link: LinkId| {
-            let mut own = coordinate.weights.iter();
-            own.find(|(known, _)| *known == link)
-                .map_or(0, |(_, weight)| *weight)
-        };
-        let [a, b] = self.links;
-        let weights = coordinates
-            .iter()
-            .enumerate()
-            .map(|(index, coordinate)| (index, weight(coordinate, a) - weight(coordinate, b)));
-        weights.filter(|(_, weight)| *weight != 0).collect()
-    }
 }
 
 impl Reduction {
@@ -79,42 +45,6 @@ impl Reduction {
 }
 
 impl Scene {
-    /// The links that spring-dampers act between, two by two, where the code is not loops.
-    pub fn link_pairs(&self) -> Vec<LinkPair> {
-        let mut pairs = Vec::new();
-        for (spring_damper, own) in self.spring_dampers.iter().enumerate() {
-            let mut add = |links| {
-                pairs.push(LinkPair {
-                    spring_damper,
-                    links,
-                });
-            };
-            match &own.ends {
-                SpringDamperEnds::Links(links) => add(*links),
-                SpringDamperEnds::Siblings(node) => {
-                    for copies in self.copies_of(node) {
-                        for (place, &first) in copies.iter().enumerate() {
-                            copies[place + 1..]
-                                .iter()
-                                .for_each(|&other| add([first, other]));
-                        }
-                    }
-                }
-            }
-        }
-        pairs
-    }
-
-    /// The copies of a node under each link.
-    fn copies_of<'a>(&'a self, node: &'a str) -> impl Iterator<Item = &'a [LinkId]> {
-        let node_of = |link: LinkId| {
-            let OrbitId(orbit) = self.links.get(link.0)?.orbit;
-            Some(self.orbits.get(orbit)?.node.as_str())
-        };
-        let groups = self.groups.iter().map(|group| group.copies.as_slice());
-        groups.filter(move |copies| copies.first().and_then(|&first| node_of(first)) == Some(node))
-    }
-
     /// Names of what a spring-damper acts between, by which its constants are called; a number
     /// besides where one before acts between the same.
     pub fn spring_damper_names(&self, index: usize) -> Vec<String> {
@@ -134,8 +64,10 @@ impl Scene {
     /// Springs, friction and drag of all links, and between them.
     pub fn passive_torques(&self) -> impl Iterator<Item = &PassiveTorques> {
         let links = self.links.iter().map(|link| &link.passive);
-        let pairs = self.link_pairs().into_iter();
-        links.chain(pairs.map(|pair| &self.spring_dampers[pair.spring_damper].torques))
+        // Copies in phase are one link.
+        let between = self.spring_dampers.iter();
+        let between = between.filter(|own| !self.pair_runs(&own.ends).is_empty());
+        links.chain(between.map(|own| &own.torques))
     }
 
     /// The spring-dampers between copies that move in phase as this link, by their indices.
@@ -174,6 +106,12 @@ impl Scene {
     /// sectors have no energies by themselves then. None where all springs together leave each
     /// sector to itself.
     pub fn coupling_spring(&self, coordinates: &[Coordinate]) -> Option<usize> {
+        if let Layout::Generations { .. } = self.layout {
+            // Coordinates are those of one link of each.
+            return self.spring_dampers.iter().position(|own| {
+                matches!(own.ends, SpringDamperEnds::Links(_)) && !own.torques.spring.is_zero()
+            });
+        }
         let sector = |index: usize| coordinates[index].kind.orbit_and_difference().1;
         let mut all: BTreeMap<[usize; 2], Vec<Quantity>> = BTreeMap::new();
         let mut first: BTreeMap<[usize; 2], usize> = BTreeMap::new();
@@ -295,9 +233,7 @@ pub(super) fn resolve_spring_dampers(
     for (clause, mut torques) in clauses.iter().zip(torques) {
         let what = in_words(clause);
         let is_of_siblings = clause.name == SIBLINGS;
-        // In code that is loops over generations a link in phase stands for them all.
-        let is_apart = is_of_siblings && names.layout == Layout::Unrolled;
-        if !reductions.in_phase.is_empty() && !is_apart {
+        if !reductions.in_phase.is_empty() && !is_of_siblings {
             report.error(
                 clause.name.span(),
                 TreeMessage::SpringDamperInPhase { what },

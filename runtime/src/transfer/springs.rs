@@ -54,7 +54,7 @@ impl<T: Scalar> SectorSprings<T> {
         spring_dampers: &SpringDampers<Double>,
     ) -> Option<Self> {
         let zero = Double::from_f64(0.0);
-        let list = spring_dampers.list().iter();
+        let list = spring_dampers.iter();
         let springs: Vec<_> = list.filter(|own| own.spring != zero).collect();
         if springs.is_empty() {
             return Some(Self::default());
@@ -63,7 +63,7 @@ impl<T: Scalar> SectorSprings<T> {
         let mut strains = Vec::new();
         let mut across = BTreeMap::new();
         for own in springs {
-            let terms = terms(shape, own);
+            let terms = terms(shape, &own);
             if own.rest != zero && !terms.iter().all(|term| term.block.is_mean) {
                 return None;
             }
@@ -73,7 +73,7 @@ impl<T: Scalar> SectorSprings<T> {
                         let square = term.weight * term.weight;
                         single[term.index] += own.spring * square / norm(term.column);
                     }
-                    terms => strains.push(SectorStrain::of(own, terms)),
+                    terms => strains.push(SectorStrain::of(&own, terms)),
                 }
             }
             add_products_across(own.spring, &terms, &mut across);

@@ -89,6 +89,11 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
     /// The functions read [`outside_torque`](LinkMotion::outside_torque).
     const FORCED: bool = false;
 
+    /// Springs and friction act between links that are not parent and child
+    /// ([`Tree::with_spring_dampers`](super::Tree::with_spring_dampers)). The functions read
+    /// torques from outside then.
+    const COUPLED: bool = false;
+
     /// The functions read [`held`](LinkMotion::held): links may have given accelerations,
     /// and what is told of these in place of accelerations are the torques that they take.
     const HELD: bool = false;

@@ -1,12 +1,17 @@
 //! Accelerations of a tree of which some links have given ones.
 
 use super::small::LinkStates;
-use super::{LinkEquations, RootDrive, Tree, states};
+use super::states::{self, ActingOnStates};
+use super::{LinkEquations, RootDrive, Tree};
 use crate::scalar::{Scalar, at};
 use crate::system::pendulum::put;
 use crate::system::{PrescribedMotion, Workspace};
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
+    /// Numbers of a link: what is given of it, whether it is held, and where torques act between
+    /// links all of these.
+    const OUTSIDE: usize = if E::COUPLED { 3 } else { 2 };
+
     /// Writes the angular accelerations and reactions where those of the links `set` are
     /// given, as
     /// [`Prescribed::accelerations_prescribed_with`](crate::Prescribed::accelerations_prescribed_with):
@@ -26,15 +31,17 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             reactions.fill(T::from_f64(f64::NAN));
             return;
         };
-        let (outside, workspace) = workspace.with_inner(2 * links);
+        let (outside, workspace) = workspace.with_inner(Self::OUTSIDE * links);
+        let (all, outside) = outside.split_at_mut((Self::OUTSIDE - 2) * links);
         let (given, held) = outside.split_at_mut(links);
+        let motion = self.with_torques_between(motion, all);
         hold(held_links, &motion, given, held);
         let states = LinkStates {
             theta: motion.theta,
             omega: motion.omega,
             torques: Some(given),
         };
-        self.accelerate(workspace, drive, states, Some(held), alpha);
+        self.accelerate_as_given(workspace, drive, states, Some(held), alpha);
         tell(held_links, &motion, alpha, reactions);
     }
 
@@ -54,13 +61,16 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             reactions.fill(T::from_f64(f64::NAN));
             return;
         };
-        let mut outside = alloc::vec![zero; 2 * links];
+        let mut outside = alloc::vec![zero; Self::OUTSIDE * links];
+        let (all, outside) = outside.split_at_mut((Self::OUTSIDE - 2) * links);
         let (given, held) = outside.split_at_mut(links);
+        let motion = self.with_torques_between(motion, all);
         hold(held_links, &motion, given, held);
         let mut room = alloc::vec![zero; self.room()];
+        let torques = &[];
         states::accelerations::<E, T, T>(
             &self.skeleton,
-            drive,
+            ActingOnStates { drive, torques },
             &mut room,
             |link| at(motion.theta, link),
             |link| at(motion.omega, link),
@@ -68,6 +78,31 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             |link, value| put(alpha, link, value),
         );
         tell(held_links, &motion, alpha, reactions);
+    }
+
+    /// Returns the motion under all that acts, where torques act between links: then these and
+    /// those from outside are in `all`.
+    #[inline(always)]
+    fn with_torques_between<'a>(
+        &self,
+        motion: PrescribedMotion<'a, T>,
+        all: &'a mut [T],
+    ) -> PrescribedMotion<'a, T> {
+        if !E::COUPLED {
+            return motion;
+        }
+        let PrescribedMotion {
+            theta,
+            omega,
+            torques,
+            ..
+        } = motion;
+        self.spring_dampers
+            .write_torques(Some(torques), [theta, omega], all);
+        PrescribedMotion {
+            torques: all,
+            ..motion
+        }
     }
 
     /// Returns the links of a set, of which there are some, if all lengths fit.

@@ -32,6 +32,7 @@ mod block;
 mod bodies;
 mod columns;
 mod copies;
+mod coupled;
 mod equations;
 mod evaluate;
 mod generation;
@@ -74,10 +75,10 @@ pub use small::{LinkStates, SmallTree};
 use crate::scalar::kind::{ByKind, compiled, compiled_once};
 use crate::scalar::{Scalar, at};
 use crate::simd::{Kernel, Simd, wide_slice};
+use crate::spring_dampers::SpringDampers;
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
 use copies::links;
-use evaluate::{InBlocks, InOnePiece};
 use memory::Sizes;
 use partition::Policy;
 use skeleton::{ByGeneration, ByLink, Skeleton};
@@ -91,6 +92,8 @@ pub const THREADED: usize = 1 << 17;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree<E, T> {
     skeleton: Skeleton<T>,
+    /// What acts between links that are not parent and child.
+    spring_dampers: SpringDampers<T>,
     equations: PhantomData<E>,
 }
 
@@ -114,6 +117,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         };
         Self {
             skeleton: skeleton(Self::COPIES, Self::SIZES, rows, root, threads),
+            spring_dampers: SpringDampers::default(),
             equations: PhantomData,
         }
     }
@@ -128,6 +132,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         let skeleton = compiled::<ByLink, T>();
         Self {
             skeleton: skeleton(parents, Self::SIZES.of_links(parents.len()), rows, root),
+            spring_dampers: SpringDampers::default(),
             equations: PhantomData,
         }
     }
@@ -154,7 +159,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             omega,
             torques: None,
         };
-        self.accelerate(workspace, drive, given, None, alpha);
+        self.accelerate(workspace, drive, given, alpha);
     }
 
     /// Writes the angular accelerations under torques from outside, as
@@ -173,30 +178,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             omega,
             torques: Some(torques),
         };
-        self.accelerate(workspace, drive, given, None, alpha);
-    }
-
-    fn accelerate(
-        &self,
-        workspace: &mut Workspace<T>,
-        drive: Option<RootDrive<T>>,
-        given: LinkStates<'_, T>,
-        held: Option<&[T]>,
-        alpha: &mut [T],
-    ) {
-        let accelerate = match Self::IN_BLOCKS {
-            true => compiled::<InBlocks, T>(),
-            false => compiled::<InOnePiece, T>(),
-        };
-        accelerate(
-            &self.skeleton,
-            sweep::sweep::<E, T>,
-            drive,
-            given,
-            held,
-            alpha,
-            workspace,
-        );
+        self.accelerate(workspace, drive, given, alpha);
     }
 
     /// Writes the accelerations without torques from outside, in memory that is
@@ -215,7 +197,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<E, S> {
         Tree {
-            skeleton: self.skeleton.cast(convert),
+            skeleton: self.skeleton.cast(&convert),
+            spring_dampers: self.spring_dampers.cast(convert),
             equations: PhantomData,
         }
     }
@@ -231,8 +214,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         alpha: impl FnMut(usize, T),
     ) {
         let mut room = alloc::vec![T::from_f64(0.0); self.room()];
-        let (tree, none) = (&self.skeleton, |_| [T::from_f64(0.0); 2]);
-        states::accelerations::<E, T, T>(tree, drive, &mut room, theta, omega, none, alpha);
+        let none = |_| [T::from_f64(0.0); 2];
+        self.accelerate_states::<T>(drive, &mut room, theta, omega, none, alpha);
     }
 
     /// Writes the accelerations under torques from outside, likewise; NaN where lengths
@@ -244,15 +227,14 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         [theta, omega, torques]: [&[T]; 3],
         alpha: &mut [T],
     ) {
-        let (tree, links) = (&self.skeleton, self.skeleton.plan.links());
+        let links = self.skeleton.plan.links();
         let lengths = [theta.len(), omega.len(), torques.len(), alpha.len()];
         if !E::FORCED || lengths != [links; 4] {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
         let mut room = alloc::vec![T::from_f64(0.0); self.room()];
-        states::accelerations::<E, T, T>(
-            tree,
+        self.accelerate_states::<T>(
             drive,
             &mut room,
             |link| at(theta, link),
@@ -282,7 +264,11 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     #[doc(hidden)]
     #[must_use]
     pub fn room(&self) -> usize {
-        states::room(&self.skeleton)
+        let torques = match E::COUPLED {
+            true => self.skeleton.plan.links(),
+            false => 0,
+        };
+        states::room(&self.skeleton) + torques
     }
 
     /// Returns many states in registers, with so much room for each.
@@ -363,9 +349,9 @@ impl<E: LinkEquations, T: Scalar, V: Simd<T>> InRegisters<V> for WithRoom<'_, '_
             LentOrOwn::Lent(values) => &mut **values,
             LentOrOwn::Own(values) => values,
         };
-        let tree = &self.tree.skeleton;
         let none = |_| [V::from_f64(0.0); 2];
-        states::accelerations::<E, T, V>(tree, self.drive, room, theta, omega, none, alpha);
+        self.tree
+            .accelerate_states(self.drive, room, theta, omega, none, alpha);
     }
 }
 

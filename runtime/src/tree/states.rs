@@ -61,13 +61,20 @@ pub(super) fn room<T: Scalar>(tree: &Skeleton<T>) -> usize {
     room
 }
 
+/// What acts on states beside what comes from outside link by link.
+pub(super) struct ActingOnStates<'a, V> {
+    pub(super) drive: Option<RootDrive<V>>,
+    /// The torques on all links, if some act between them and are not among those from outside.
+    pub(super) torques: &'a [V],
+}
+
 /// Tells the accelerations of all links, in any order, of states in the lanes of `V`;
 /// of none where the room is too small. What comes from `outside` to a link is its torque
 /// or given acceleration, and 1 where it is held.
 #[inline(always)]
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
-    drive: Option<RootDrive<V>>,
+    ActingOnStates { drive, torques }: ActingOnStates<'_, V>,
     mut room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
@@ -129,7 +136,15 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         if rises && by_link {
             for some in own.block.strips.subtrees().iter().rev() {
                 let links = [Generation::of_links(some.links.clone())];
-                form::<E, T, V>(&mut own, &links, [order, parents], &theta, &omega, &outside);
+                form::<E, T, V>(
+                    &mut own,
+                    &links,
+                    [order, parents],
+                    torques,
+                    &theta,
+                    &omega,
+                    &outside,
+                );
                 if let Some(view) = own.view() {
                     let passes = Passes::<E, T, V, V>::of(&view);
                     passes.within(some.strips.clone()).up();
@@ -141,6 +156,7 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
                 &mut own,
                 generations,
                 [order, parents],
+                torques,
                 &theta,
                 &omega,
                 &outside,
@@ -232,6 +248,7 @@ fn form<E: LinkEquations, T: Scalar, V: Simd<T>>(
     sweep: &mut Sweep<'_, T, V>,
     generations: &[Generation],
     [order, parents]: [&[u32]; 2],
+    torques: &[V],
     theta: &impl Fn(usize) -> V,
     omega: &impl Fn(usize) -> V,
     outside: &impl Fn(usize) -> [V; 2],
@@ -260,7 +277,12 @@ fn form<E: LinkEquations, T: Scalar, V: Simd<T>>(
                     let _ = velocities.store::<V, 1>(own, &[rate]);
                 }
                 if storage.sizes.forced {
-                    let [torque, held] = outside(links[i]);
+                    let [mut torque, held] = outside(links[i]);
+                    if E::COUPLED
+                        && let Some(&own) = torques.get(links[i])
+                    {
+                        torque = own;
+                    }
                     let _ = storage.torques.store::<V, 1>(own, &[torque]);
                     if storage.sizes.held {
                         let _ = storage.held.store::<V, 1>(own, &[held]);

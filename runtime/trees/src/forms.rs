@@ -172,23 +172,10 @@ impl<T: Scalar> Equations<T> {
             return acting;
         }
         numbers.resize(given[0].len(), T::from_f64(0.0));
-        self.write_torques(acting, given, numbers);
+        self.spring_dampers
+            .write_torques(acting.torques, given, numbers);
         let torques = Some(&**numbers);
         Acting { torques, ..acting }
-    }
-
-    /// Writes to `torques` what acts on links from outside and between them.
-    #[inline(always)]
-    fn write_torques(&self, acting: Acting<'_, T>, given: [&[T]; 2], torques: &mut [T]) {
-        match acting.torques {
-            // Torques of another number than there are links have no answer.
-            Some(outside) if outside.len() != torques.len() => {
-                torques.fill(T::from_f64(f64::NAN));
-            }
-            Some(outside) => torques.copy_from_slice(outside),
-            None => torques.fill(T::from_f64(0.0)),
-        }
-        self.spring_dampers.add_torques(given, torques);
     }
 
     /// Writes the accelerations at angles and angular velocities.
@@ -204,7 +191,8 @@ impl<T: Scalar> Equations<T> {
             true => (acting, workspace),
             false => {
                 let (torques, inner) = workspace.with_inner(given[0].len());
-                self.write_torques(acting, given, torques);
+                self.spring_dampers
+                    .write_torques(acting.torques, given, torques);
                 let torques = Some(&*torques);
                 (Acting { torques, ..acting }, inner)
             }

@@ -1,8 +1,6 @@
 //! Links in numbers: the quantities of a description at values of its parameters, in some
 //! 106 bits, so that what is formed of them is rounded once.
 
-use std::collections::BTreeMap;
-
 use branched_pendulum::ParameterError;
 use branched_pendulum::emitted::{
     LinkBody, free_link, require_downward, require_finite, require_magnitude, require_non_negative,
@@ -11,8 +9,8 @@ use branched_pendulum::emitted::{
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum_codegen::scene::{
-    FrictionPlace, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, OrbitId, PassiveTorques,
-    Quantity, QuantityAtom, RationalExpression, Scene, Sign, SpringDamperEnds,
+    FrictionPlace, Layout, Link, LinkId, Magnitudes, NEGLIGIBLE, Offset, PairRun, PassiveTorques,
+    Quantity, QuantityAtom, RationalExpression, Scene, Sign,
 };
 
 use crate::error::TreeError;
@@ -219,9 +217,13 @@ pub(crate) fn names(scene: &Scene) -> Vec<String> {
     names.collect()
 }
 
-/// Springs and friction between the links of a scene that are not parent and child, two links
-/// each, in numbers that are taken as they are.
-pub(crate) fn spring_dampers<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<SpringDamper<S>> {
+/// Springs and friction between the links of a scene that are not parent and child, in numbers
+/// that are taken as they are: of those that stand side by side the first one, and how many
+/// there are.
+pub(crate) fn spring_dampers<S: Scalar>(
+    scene: &Scene,
+    parameters: &[S],
+) -> Vec<(SpringDamper<S>, usize)> {
     let mut found = Vec::new();
     for spring_damper in &scene.spring_dampers {
         let passive = spring_damper
@@ -229,42 +231,19 @@ pub(crate) fn spring_dampers<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<
             .map(|quantity| value(quantity, parameters));
         let law = passive.law(FrictionPlace::Joint);
         let is_viscous = spring_damper.torques.is_viscous();
-        let between = |links: [usize; 2]| SpringDamper {
-            links,
-            spring: passive.spring,
-            rest: passive.rest,
-            friction: passive.friction,
-            law: (!is_viscous).then_some([law.coulomb, law.quadratic, law.width]),
-        };
-        match &spring_damper.ends {
-            SpringDamperEnds::Links(links) => found.push(between(links.map(|LinkId(link)| link))),
-            SpringDamperEnds::Siblings(node) => {
-                found.extend(siblings(scene, node).into_iter().map(between));
-            }
-        }
+        let runs = scene.pair_runs(&spring_damper.ends).into_iter();
+        found.extend(runs.map(|PairRun { first, count }| {
+            let first = SpringDamper {
+                links: first,
+                spring: passive.spring,
+                rest: passive.rest,
+                friction: passive.friction,
+                law: (!is_viscous).then_some([law.coulomb, law.quadratic, law.width]),
+            };
+            (first, count)
+        }));
     }
     found
-}
-
-/// All pairs of copies of a node under one link.
-fn siblings(scene: &Scene, node: &str) -> Vec<[usize; 2]> {
-    let is_own = |place: &Place| {
-        let orbit = scene.links.get(place.link).map(|link| link.orbit);
-        let orbit = orbit.and_then(|OrbitId(orbit)| scene.orbits.get(orbit));
-        orbit.is_some_and(|orbit| orbit.node == node)
-    };
-    let mut families: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
-    for (index, place) in places(scene).iter().enumerate() {
-        if is_own(place) {
-            families.entry(place.parent).or_default().push(index);
-        }
-    }
-    let families = families.values();
-    let pairs = families.flat_map(|family| {
-        let pairs = family.iter().enumerate();
-        pairs.flat_map(|(place, &first)| family[place + 1..].iter().map(move |&own| [first, own]))
-    });
-    pairs.collect()
 }
 
 fn numbers<S: Scalar>(link: &Link, parameters: &[S]) -> LinkNumbers<S> {

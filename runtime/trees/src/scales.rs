@@ -199,11 +199,9 @@ impl<T: Scalar> PendulumTree<T> {
 
     /// Adds the energies of springs between siblings.
     fn add_spring_energies(&self, rule: &ByRule<T>, theta: &[T], budget: &mut ScaleBudget<T>) {
-        for ([link, _], energy) in self.spring_dampers().energies(theta) {
-            if let Some(&scale) = rule.depths.get(link) {
-                budget.add_energy(scale, energy);
-            }
-        }
+        let scale_of = |link: usize| rule.depths.get(link).copied();
+        self.spring_dampers()
+            .add_energies_by_scale(theta, scale_of, budget);
     }
 
     /// Writes the same budget, in memory that the caller keeps; one of no scales where the tree
@@ -220,7 +218,7 @@ impl<T: Scalar> PendulumTree<T> {
             return;
         };
         let (links, spring_dampers) = (self.links(), self.spring_dampers());
-        let (numbers, workspace) = workspace.with_inner(6 * links);
+        let (numbers, workspace) = workspace.with_inner(7 * links);
         let mut numbers = numbers.chunks_exact_mut(links);
         let mut column = || numbers.next().unwrap_or_default();
         let own = rule.ordered(theta, column());
@@ -228,13 +226,12 @@ impl<T: Scalar> PendulumTree<T> {
         let on_links = rule.ordered(torques, column());
         let mut acting = [[].as_slice(); 2];
         if !spring_dampers.is_empty() {
-            let all = column();
-            all.fill(T::from_f64(0.0));
-            spring_dampers.add_spring_slopes(theta, all);
-            let slopes = rule.ordered(all, column());
-            all.fill(T::from_f64(0.0));
-            spring_dampers.add_friction(omega, all);
-            acting = [slopes, rule.ordered(all, column())];
+            let [slopes, friction] = [column(), column()];
+            spring_dampers.write_for_scales([theta, omega], [&mut *slopes, &mut *friction]);
+            acting = [
+                rule.ordered(slopes, column()),
+                rule.ordered(friction, column()),
+            ];
         }
         // Nothing has so many links as torques of another number.
         let fits = on_links.len() == torques.len();

@@ -70,7 +70,7 @@ pub(crate) fn series_of<T: Scalar>(
         let on_link = on_link.then(|| law(None, [zero, ground.quadratic, ground.width]));
         in_joint.into_iter().chain(on_link)
     });
-    let units = |own: &SpringDamper<Double>| SpringDamper {
+    let units = |own: SpringDamper<Double>| SpringDamper {
         links: own.links,
         spring: own.spring * unit,
         rest: own.rest,
@@ -79,10 +79,7 @@ pub(crate) fn series_of<T: Scalar>(
             .law
             .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
     };
-    let spring_dampers = spring_dampers
-        .list()
-        .iter()
-        .map(|own| units(own).map(constant));
+    let spring_dampers = spring_dampers.iter().map(|own| units(own).map(constant));
     SeriesTree::new(&constants, laws.collect(), constant(unit), form)
         .with_spring_dampers(spring_dampers.collect())
 }

@@ -160,7 +160,7 @@ impl<T: Scalar> PendulumTree<T> {
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let pairs = spring_dampers.list().iter();
+        let pairs = spring_dampers.iter();
         let pairs: Vec<_> = pairs.map(|own| (own.links, own.law.is_some())).collect();
         let equations = Equations::new(form, &parents, rows, above, spring_dampers.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
@@ -284,7 +284,7 @@ pub(crate) fn spring_dampers<S: Scalar>(
     parameters: &[S],
 ) -> SpringDampers<S> {
     // A scene names links that it has.
-    SpringDampers::new(links, numbers::spring_dampers(scene, parameters)).unwrap_or_default()
+    SpringDampers::of_runs(links, numbers::spring_dampers(scene, parameters)).unwrap_or_default()
 }
 
 /// A constant in the numbers of a tree.

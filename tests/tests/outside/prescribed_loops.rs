@@ -111,6 +111,23 @@ fn trees_by_rule_move_as_written_out() {
     reactions_make_the_free_tree_move_so(&looped, 20);
 }
 
+/// What acts between links is no part of the reactions.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 4, branching = 2, mass = 0.3, com = 0.1, inertia = 1e-3,
+        joint = (0.2, 0.01), mass_ratio = 0.6, length_ratio = 0.8, code = loops),
+    siblings(tree_4, spring = 0.05, friction(viscous = 1e-3, coulomb = 1e-2)),
+    between(tree_1, tree_4_2_1_2, spring = 0.1, rest = 0.5),
+    prescribed(tree_1),
+    prescribed(tree_4_2_1_2, tree_2_1, tree_3_2_2),
+)]
+struct CoupledInLoops;
+
+#[test]
+fn links_are_held_among_coupled_ones() {
+    reactions_make_the_free_tree_move_so(&CoupledInLoops::new(), 50);
+}
+
 /// In blocks, one above the other.
 #[branched_pendulum(
     gravity = 9.80665,

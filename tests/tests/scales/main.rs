@@ -43,7 +43,23 @@ tree!(Braked, BRAKED: tree: generations(count = 3, branching = 3, shape = rod, m
     friction(viscous = 1e-4, coulomb = 1e-2, quadratic = 1e-3, width = 0.1), friction_ratio = 0.5,
     drag(quadratic = 1e-4)));
 
+tree!(Coupled, COUPLED: tree: generations(count = 4, branching = 2, mass = 0.12,
+    com = (0.14, 0.02), inertia = 1e-3, joint = (0.3, 0.05), mass_ratio = 0.5,
+    length_ratio = 0.7),
+    siblings(tree_2, spring = 0.1), siblings(tree_4, spring = 0.02,
+        friction(viscous = 1e-3, coulomb = 2e-3, width = 0.1)),
+    between(tree_1, tree_4_2_1_2, friction(viscous = 1e-3, quadratic = 1e-4)),
+    drive(torque = 0.4 * cos(3 * t), x = 0.02 * sin(5 * t), y = 0.01 * cos(4 * t)));
+// Joints have springs and friction besides, and two act between the same.
+tree!(CoupledThrees, COUPLED_THREES: tree: generations(count = 3, branching = 3, shape = rod,
+    mass = 0.12, length = 0.3, mass_ratio = 0.4, length_ratio = 0.7, spring = 0.01, drag = 1e-4,
+    friction = 1e-4), siblings(tree_2, spring = 0.1, friction = 1e-3),
+    siblings(tree_3, spring = 0.02), siblings(tree_3, spring = 0.03, friction(quadratic = 1e-4)));
+
 // Large enough to be computed in blocks.
+tree!(CoupledBlocks: tree: generations(count = 13, branching = 2, shape = rod,
+    mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8),
+    siblings(tree_13, spring = 1e-4, friction = 1e-5), siblings(tree_7, friction = 1e-4));
 tree!(InBlocks: tree: generations(count = 13, branching = 2, shape = rod,
     mass = 0.2, length = 0.3, mass_ratio = 0.6, length_ratio = 0.8, friction = 1e-4,
     spring = 1e-3), drive(torque = 0.2 * cos(4 * t), y = 0.01 * sin(7 * t)));

@@ -46,6 +46,8 @@ fn energies_sum_to_that_of_the_tree() {
     closes(&Fifteen::new());
     closes(&ThirtyOne::new());
     closes(&Thirteen::new());
+    closes(&Coupled::new());
+    closes(&CoupledThrees::new());
 }
 
 /// Rows and powers are the rates of the energies along the motion, which dual numbers
@@ -104,6 +106,10 @@ fn rows_and_powers_are_rates() {
     are_rates(&thirty_one, &thirty_one.cast(dual));
     let thirteen = Thirteen::<f64>::new();
     are_rates(&thirteen, &thirteen.cast(dual));
+    let coupled = Coupled::<f64>::new();
+    are_rates(&coupled, &coupled.cast(dual));
+    let coupled = CoupledThrees::<f64>::new();
+    are_rates(&coupled, &coupled.cast(dual));
 }
 
 #[test]
@@ -112,6 +118,9 @@ fn rows_and_powers_of_large_trees_are_rates() {
     let binary = InBlocks::<f64>::new();
     are_rates(&binary, &binary.cast(dual));
     closes(&binary);
+    let coupled = CoupledBlocks::<f64>::new();
+    are_rates(&coupled, &coupled.cast(dual));
+    closes(&coupled);
     let ternary = BlocksOfThrees::<f64>::new();
     are_rates(&ternary, &ternary.cast(dual));
     closes(&ternary);

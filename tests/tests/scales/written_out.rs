@@ -173,6 +173,12 @@ fn thirteen_links_in_threes() {
 }
 
 #[test]
+fn links_with_springs_and_friction_between_them() {
+    agree(&Coupled::new(), COUPLED, 50);
+    agree(&CoupledThrees::new(), COUPLED_THREES, 50);
+}
+
+#[test]
 fn thirteen_links_with_friction_of_all_kinds() {
     agree(&Braked::new(), BRAKED, 50);
 }

@@ -33,7 +33,7 @@ impl EntryList<'_, '_> {
             link: &balance.symbols,
             forces,
             joints,
-            forced: scene.requests.forces,
+            forced: super::has_outside_torques(scene),
             prescribed: !scene.prescribed.is_empty(),
             drive_torque: mechanics
                 .drive

@@ -4,6 +4,7 @@
 use super::columns::Column;
 use crate::functions::{Argument, LINK_PROPERTIES};
 use crate::program::ConstantId;
+use crate::scene::PairRun;
 
 /// Fields of the runtime's `LinkMotion`, in the order of the elements of an argument.
 pub const LINK_MOTION: [&str; 7] = [
@@ -33,10 +34,43 @@ pub struct StripConstants {
 
 impl StripConstants {
     /// All constants that it holds.
-    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+    fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let properties = self.properties.iter().flatten();
         let all = self.constants.iter().chain(&self.body);
         all.chain(properties).copied()
+    }
+}
+
+/// A spring and friction between links that are not parent and child.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpringDamperConstants {
+    /// The clause in words, as in `siblings(arm)`.
+    pub what: String,
+    /// The pairs of links that it acts between, of which there are some.
+    pub pairs: Vec<PairRun>,
+    /// Stiffness.
+    pub spring: ConstantId,
+    /// Difference of the angles at which the spring is at rest.
+    pub rest: ConstantId,
+    /// Viscous friction.
+    pub friction: ConstantId,
+    /// Coulomb and quadratic friction and their width, if there is some.
+    pub law: Option<[ConstantId; 3]>,
+}
+
+impl SpringDamperConstants {
+    /// All constants that it holds, with words for them.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, ConstantId)> {
+        let own = [
+            ("spring", self.spring),
+            ("rest", self.rest),
+            ("friction", self.friction),
+        ];
+        let law = self.law.into_iter().flat_map(|law| {
+            let names = ["coulomb", "quadratic", "width"];
+            names.into_iter().zip(law)
+        });
+        own.into_iter().chain(law)
     }
 }
 
@@ -49,11 +83,14 @@ pub struct LoopTree {
     pub body_columns: Vec<Column>,
     /// From the root outwards.
     pub strips: Vec<StripConstants>,
+    /// Springs and friction between links that are not parent and child.
+    pub spring_dampers: Vec<SpringDamperConstants>,
     /// True if children of one link hang at several places.
     pub has_several_places: bool,
     /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// True if torques from outside act on the links.
+    /// True if torques act on the links that are not of their joints: from outside, or between
+    /// links that are not parent and child.
     pub has_outside_torques: bool,
     /// True if links may be held, with accelerations that are given.
     pub has_held_links: bool,
@@ -62,6 +99,13 @@ pub struct LoopTree {
 }
 
 impl LoopTree {
+    /// All constants that its tables hold.
+    pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
+        let rows = self.strips.iter().flat_map(StripConstants::all_constants);
+        let between = self.spring_dampers.iter();
+        rows.chain(between.flat_map(|own| own.named().map(|(_, id)| id)))
+    }
+
     /// Number of elements of an argument of the link functions.
     pub fn length(&self, argument: Argument) -> usize {
         let torque = usize::from(self.has_joint_torques);

@@ -20,14 +20,20 @@ mod quantities;
 mod reduced_units;
 mod root;
 mod scales;
+mod spring_dampers;
 mod strips;
 mod torques;
 mod tree;
 
 pub use columns::Column;
-pub use loop_tree::{LINK_MOTION, LoopTree, StripConstants};
+pub use loop_tree::{LINK_MOTION, LoopTree, SpringDamperConstants, StripConstants};
 
 use crate::scene::{LinkId, Scene};
+
+/// Returns true if torques act on links that are not of their joints.
+fn has_outside_torques(scene: &Scene) -> bool {
+    scene.requests.forces || scene.is_coupled()
+}
 
 /// The links that hang from each link.
 fn children(scene: &Scene) -> Vec<Vec<usize>> {

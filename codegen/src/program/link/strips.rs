@@ -264,14 +264,16 @@ impl Lowering<'_> {
                 properties: scene.requests.positions.then(|| self.link_properties(link)),
             });
         }
+        let spring_dampers = self.spring_damper_constants(scene);
         let drive = scene.drive.as_ref();
         LoopTree {
             columns,
             body_columns,
             strips,
+            spring_dampers,
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),
-            has_outside_torques: scene.requests.forces,
+            has_outside_torques: super::has_outside_torques(scene),
             has_held_links: !scene.prescribed.is_empty(),
             has_drive_torque: drive.is_some_and(|drive| drive.torque.is_some()),
         }

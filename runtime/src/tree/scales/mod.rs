@@ -6,6 +6,7 @@
 
 mod blocks;
 mod columns;
+mod coupled;
 mod energies;
 mod equations;
 mod flows;
@@ -59,6 +60,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         let wanted = ScaleOutput::Energies(budget);
         let acting = ActingOnScales::of(None);
         by_scale(self.rule(), workspace, acting, [theta, omega, &[]], wanted);
+        self.add_energies_between(theta, budget);
     }
 
     /// Computes the energies of sectors, as
@@ -73,6 +75,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         let wanted = ScaleOutput::Sectors(energies);
         let acting = ActingOnScales::of(None);
         by_scale(self.rule(), workspace, acting, [theta, omega, &[]], wanted);
+        self.add_energies_of_sectors(theta, energies);
     }
 
     /// Computes all of the budget, as
@@ -86,9 +89,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
         given: [&[T]; 3],
         budget: &mut ScaleBudget<T>,
     ) {
-        let wanted = ScaleOutput::Budget(budget);
-        let acting = ActingOnScales::of(drive);
-        by_scale(self.rule(), workspace, acting, given, wanted);
+        self.whole_budget(workspace, drive, given, budget);
     }
 
     /// Computes all of the budget under torques from outside, the third slice.
@@ -103,9 +104,7 @@ impl<E: ScaleEquations, T: Scalar> Tree<E, T> {
             true => given,
             false => [[].as_slice(); 3],
         };
-        let wanted = ScaleOutput::Budget(budget);
-        let acting = ActingOnScales::of(drive);
-        by_scale(self.rule(), workspace, acting, given, wanted);
+        self.whole_budget(workspace, drive, given, budget);
     }
 
     fn rule(&self) -> RuleTree<'_, E, T> {

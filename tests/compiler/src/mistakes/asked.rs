@@ -115,16 +115,11 @@ pub(super) const MISTAKES: &[Mistake] = &[
     between(b_1, b_2, spring = 1, rest = 0.1), emit(budget(parseval)))] struct Pendulum;",
     ),
     (
-        "siblings_in_loops",
-        "#[branched_pendulum(gravity = 9.8, code = loops,
-    a: generations(count = 4, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
-    siblings(a_4, spring = 1))] struct Pendulum;",
-    ),
-    (
-        "siblings_by_scale",
+        "spring_by_scale",
         "#[branched_pendulum(gravity = 9.8,
     a: generations(count = 4, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
-    siblings(a_4, spring = 1), emit(budget(parseval, scales)))] struct Pendulum;",
+    siblings(a_4, spring = 1), between(a_1, a_4_1_1_1, friction = 1),
+    between(a_1, a_4_1_1_2, spring = 1), emit(budget(parseval, scales)))] struct Pendulum;",
     ),
     (
         "budget_small",

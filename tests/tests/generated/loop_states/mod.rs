@@ -76,6 +76,34 @@ struct Bush;
 )]
 struct Sprung;
 
+/// Springs and friction between siblings, in generations that are parts of subtrees and in one
+/// above them.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 9, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.8),
+    siblings(tree_9, spring = 1e-4, friction(viscous = 1e-6, coulomb = 1e-5)),
+    siblings(tree_2, spring = 0.1, friction = 1e-4),
+)]
+struct Siblings;
+
+/// The same in a table.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk(mass = 0.2, com = -0.03, inertia = 1e-3, joint = -0.2, friction = 1e-4) [
+        arm: rod(mass = 0.1, length = 0.25, spring = 0.01) [
+            hand(mass = 0.04, com = 0.1, inertia = 1e-4, drag = 2e-4),
+            fork: generations(count = 3, branching = 2, shape = rod, mass = 0.02, length = 0.1,
+                length_ratio = 0.8),
+        ] * 3,
+        tail: point(mass = 0.03, length = 0.3),
+    ],
+    siblings(arm, spring = 0.1, friction = 1e-3),
+    between(tail, hand_2, spring = 0.05, rest = 0.3, friction(quadratic = 1e-4)),
+)]
+struct Guyed;
+
 /// Time at which driven trees are evaluated.
 const TIME: f64 = 0.7;
 
@@ -168,12 +196,12 @@ macro_rules! batches_agree {
 
 #[test]
 fn batches_of_generations_have_the_bits_of_single_states() {
-    batches_agree!(Binary, Deep, Ternary, Star, Chain; f32 Deep, Ternary);
+    batches_agree!(Binary, Deep, Ternary, Star, Chain, Siblings; f32 Deep, Ternary, Siblings);
 }
 
 #[test]
 fn batches_of_tables_have_the_bits_of_single_states() {
-    batches_agree!(Bush, Sprung; f32 Bush, Sprung);
+    batches_agree!(Bush, Sprung, Guyed; f32 Bush, Sprung, Guyed);
 }
 
 /// Trajectories in lanes end where the plain method does, but for rounding, and where
@@ -208,6 +236,7 @@ fn lanes_meet_the_plain_method<P: Pendulum<f64> + Sync>(model: &P) {
 fn trajectories_of_large_trees_in_lanes() {
     lanes_meet_the_plain_method(&Binary::<f64>::new());
     lanes_meet_the_plain_method(&Bush::<f64>::new());
+    lanes_meet_the_plain_method(&Guyed::<f64>::new());
 }
 
 /// ∂ω̇/∂θ of one link by dual numbers of a cast model, against differences.
@@ -266,4 +295,6 @@ fn dual_numbers_of_cast_models() {
     derivatives_agree(&Binary::<f64>::new(), 5);
     derivatives_agree(&Ternary::<f64>::new(), 5);
     derivatives_agree(&Sprung::<f64>::new(), 2);
+    derivatives_agree(&Siblings::<f64>::new(), 300);
+    derivatives_agree(&Guyed::<f64>::new(), 2);
 }

@@ -2,6 +2,7 @@
 //! places of their own: against the same trees written out, and against Jacobians
 //! of the tests' own.
 
+mod coupled;
 mod driven;
 mod friction;
 mod offsets;
