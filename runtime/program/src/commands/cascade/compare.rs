@@ -260,7 +260,7 @@ fn chart(spectra: &[FinishedRun]) -> Chart {
         });
         wild = line(wild, differences, &|row| Some(row.flatness?.value));
     }
-    let title = "Cascades: the two-thirds law would be level on the left";
+    let title = "Cascades: by the two-thirds law the upper left panel would be level";
     let scale = "generation in which the branches differ";
     Chart::new(title, Axis::linear(scale))
         .columns(2)
