@@ -94,7 +94,7 @@ impl<'a> Differences<'a> {
         tolerance: f64,
     ) -> Result<Self, Failure> {
         let frequency_hz = frequency_at_rest(&differences_of(tree, copies));
-        if !(frequency_hz > 0.0) {
+        if frequency_hz.is_nan() || frequency_hz <= 0.0 {
             return Err(Failure::Lacking {
                 what: "a small difference of the copies does not oscillate about the tree at rest \
                        with all angles zero: there is no frequency to look at its growth by"

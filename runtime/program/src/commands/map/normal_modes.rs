@@ -63,7 +63,7 @@ impl InPhaseModes {
     }
 
     /// Returns the coordinates from their rest at angles of all links.
-    pub(super) fn from_rest(&self, theta: &[f64]) -> Vec<f64> {
+    pub(super) fn coordinates(&self, theta: &[f64]) -> Vec<f64> {
         let both = self.sector.coordinates().iter().zip(&self.rest);
         both.map(|(own, rest)| own.of(theta) - rest).collect()
     }

@@ -108,7 +108,7 @@ fn frequencies(rates: &Rates<'_>, place: Point, span: f64) -> Result<Vec<f64>, F
     let start = rates.plane.start_at(&place);
     let run = method.sample(&AbsoluteAngles(&tree), &start, &times, |_, state| {
         let (theta, omega) = state.split_at(state.len() / 2);
-        states.push((modes.from_rest(theta), modes.rates(omega)));
+        states.push((modes.coordinates(theta), modes.rates(omega)));
     });
     run.map_err(|error| Failure::Motion(Box::new(error)))?;
     let both = modes.frequencies_hz().iter().enumerate();
