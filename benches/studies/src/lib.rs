@@ -5,12 +5,10 @@
 //! its own.
 
 pub mod advise;
-pub mod critical_angle;
 pub mod integration_speed;
-pub mod release_map;
 pub mod scenes;
 pub mod solvers;
 pub mod stability_map;
 pub mod swaying_branch;
-pub mod transfer_orders;
+pub mod tree_thresholds;
 pub mod work_precision;

@@ -27,7 +27,7 @@ mod states;
 pub use budget::{EnergyDefinition, SectorBudget};
 pub use constants::RigidLink;
 pub use forces::NonConservative;
-pub use orders::{Order, OrderedTransfers};
+pub use orders::{Order, OrderedTransfers, TransfersByForm};
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;

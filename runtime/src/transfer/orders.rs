@@ -51,13 +51,37 @@ impl<T: Scalar> SymmetricTree<T> {
         }
     }
 
-    /// Writes the transfers into all sectors by a form of W: exact, or cut off at an order, all
-    /// differences small. [`Angle(1)`](TransferForm::Angle) is the published form. NaN for
+    /// Returns the transfers by a form of W, exact or cut off at an order, all differences small,
+    /// with the memory that they take. [`Angle(1)`](TransferForm::Angle) is the published form.
+    /// None for orders above 15.
+    ///
+    /// Where copies differ, an order says less: forcing is of the first order of the differences.
+    #[must_use]
+    pub fn by_form(&self, form: TransferForm) -> Option<TransfersByForm<'_, T>> {
+        let (counted, order) = match form {
+            TransferForm::Exact => return Some(TransfersByForm::exact(self)),
+            TransferForm::Angle(order) => (Order::Angle, order as usize),
+            TransferForm::Amplitude(order) => (Order::Amplitude, order as usize),
+        };
+        let expansion = match order {
+            0..=2 => Expansion::Through2(self.expansion(&[])),
+            3..=4 => Expansion::Through4(self.expansion(&[])),
+            5..=8 => Expansion::Through8(self.expansion(&[])),
+            9..=15 => Expansion::Through15(self.expansion(&[])),
+            _ => return None,
+        };
+        Some(TransfersByForm {
+            tree: self,
+            expansion: Some((counted, order, expansion)),
+            workspace: Workspace::new(),
+        })
+    }
+
+    /// Writes the transfers into all sectors by a form of W ([`by_form`](Self::by_form)). NaN for
     /// slices of other lengths, and for orders above 15.
     ///
-    /// Truncated forms allocate an [`expansion`](Self::expansion) for each call: keep one for
-    /// many states. Where copies differ, an order says less: forcing is of the first order of
-    /// the differences.
+    /// Truncated forms allocate an [`expansion`](Self::expansion) for each call: keep what
+    /// [`by_form`](Self::by_form) returns for many states.
     pub fn transfers(
         &self,
         workspace: &mut Workspace<T>,
@@ -65,34 +89,65 @@ impl<T: Scalar> SymmetricTree<T> {
         given: Given<'_, T>,
         transfers: &mut [Transfer<T>],
     ) {
-        let (counted, order) = match form {
-            TransferForm::Exact => return self.exact_transfers(workspace, given, transfers),
-            TransferForm::Angle(order) => (Order::Angle, order as usize),
-            TransferForm::Amplitude(order) => (Order::Amplitude, order as usize),
-        };
+        if form == TransferForm::Exact {
+            return self.exact_transfers(workspace, given, transfers);
+        }
         let mut momenta = alloc::vec![T::from_f64(0.0); self.links()];
         let mut coordinates = momenta.clone();
         self.coordinates(workspace, given, &mut coordinates);
         self.momenta(workspace, given, &mut momenta);
-        let state = [&coordinates[..], &momenta];
-        match order {
-            0..=2 => self.through::<3>(counted, order, state, transfers),
-            3..=4 => self.through::<5>(counted, order, state, transfers),
-            5..=8 => self.through::<9>(counted, order, state, transfers),
-            9..=15 => self.through::<16>(counted, order, state, transfers),
-            _ => fill(transfers),
+        match self.by_form(form) {
+            Some(mut own) => own.transfers([&coordinates, &momenta], transfers),
+            None => fill(transfers),
+        }
+    }
+}
+
+/// Transfers by one form of W, with memory that is kept: [`SymmetricTree::by_form`].
+#[derive(Clone, Debug)]
+pub struct TransfersByForm<'a, T> {
+    tree: &'a SymmetricTree<T>,
+    /// None of the exact form.
+    expansion: Option<(Order, usize, Expansion<T>)>,
+    workspace: Workspace<T>,
+}
+
+/// Series of as many coefficients as an order takes.
+#[derive(Clone, Debug)]
+enum Expansion<T> {
+    Through2(OrderedTransfers<T, 3>),
+    Through4(OrderedTransfers<T, 5>),
+    Through8(OrderedTransfers<T, 9>),
+    Through15(OrderedTransfers<T, 16>),
+}
+
+impl<'a, T: Scalar> TransfersByForm<'a, T> {
+    fn exact(tree: &'a SymmetricTree<T>) -> Self {
+        Self {
+            tree,
+            expansion: None,
+            workspace: Workspace::new(),
         }
     }
 
-    fn through<const N: usize>(
-        &self,
-        counted: Order,
-        order: usize,
-        state: [&[T]; 2],
-        transfers: &mut [Transfer<T>],
-    ) {
-        let mut expansion = self.expansion::<N>(&[]);
-        expansion.transfers(counted, order, state, transfers);
+    /// Writes the transfers into all sectors at symmetric coordinates and their momenta.
+    /// Allocates the first time. NaN for slices of other lengths.
+    pub fn transfers(&mut self, [coordinates, momenta]: [&[T]; 2], transfers: &mut [Transfer<T>]) {
+        let state = [coordinates, momenta];
+        let Some((counted, order, expansion)) = &mut self.expansion else {
+            let given = Given::Momenta {
+                coordinates,
+                momenta,
+            };
+            let tree = self.tree;
+            return tree.exact_transfers(&mut self.workspace, given, transfers);
+        };
+        match expansion {
+            Expansion::Through2(own) => own.transfers(*counted, *order, state, transfers),
+            Expansion::Through4(own) => own.transfers(*counted, *order, state, transfers),
+            Expansion::Through8(own) => own.transfers(*counted, *order, state, transfers),
+            Expansion::Through15(own) => own.transfers(*counted, *order, state, transfers),
+        }
     }
 }
 

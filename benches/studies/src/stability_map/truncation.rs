@@ -2,7 +2,6 @@
 //! against the size of the motion that feeds it.
 
 use branched_pendulum::analysis::truncation::{Background, PhaseAverage, logarithmic};
-use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::{TransferForm, TransferForms};
 use branched_pendulum_charts::{Axis, Chart, Panel};
 use branched_pendulum_data::{Cell, Column};
@@ -77,13 +76,12 @@ pub fn map(job: &Job) -> Result<Vec<FormError>, Failure> {
     let progress = job.progress(releases.len());
     progress.begin("truncation");
     job.report("seed", SEED);
-    let places = Ensemble::new().map(&releases, |_, &release| {
-        let places = after(release);
+    let mut places = Vec::new();
+    for release in releases {
+        places.extend(after(release)?);
         progress.next();
-        places
-    });
-    let places: Result<Vec<_>, Failure> = places.into_iter().collect();
-    Ok(places?.concat())
+    }
+    Ok(places)
 }
 
 /// The places of one release, degrees.

@@ -7,7 +7,7 @@ const EVALUATION_SPEED: &str = env!("CARGO_BIN_EXE_evaluation-speed");
 const INTEGRATION_SPEED: &str = env!("CARGO_BIN_EXE_integration-speed");
 const STABILITY_MAP: &str = env!("CARGO_BIN_EXE_stability-map");
 const SWAYING_BRANCH: &str = env!("CARGO_BIN_EXE_swaying-branch");
-const TRANSFER_ORDERS: &str = env!("CARGO_BIN_EXE_transfer-orders");
+const TREE_THRESHOLDS: &str = env!("CARGO_BIN_EXE_tree-thresholds");
 const WORK_PRECISION: &str = env!("CARGO_BIN_EXE_work-precision");
 
 #[test]
@@ -28,15 +28,9 @@ fn mistakes_are_named() {
             "must be from 20 to 1000 Hz",
         ),
         (SWAYING_BRANCH, "--wind NaN", "must be from 0 to 40 m/s"),
-        (TRANSFER_ORDERS, "--states 9", "9 is not in 10..=1000000"),
-        (TRANSFER_ORDERS, "--states many", "invalid value 'many'"),
+        (TREE_THRESHOLDS, "--level 1", "must be from 1.1 to"),
         (
-            TRANSFER_ORDERS,
-            "--states",
-            "a value is required for '--states",
-        ),
-        (
-            TRANSFER_ORDERS,
+            TREE_THRESHOLDS,
             "--noise 1",
             "unexpected argument '--noise'",
         ),
@@ -60,7 +54,7 @@ fn help_tells_usage_and_defaults() {
         (EVALUATION_SPEED, "Usage: evaluation-speed"),
         (INTEGRATION_SPEED, "Usage: integration-speed"),
         (STABILITY_MAP, "Usage: stability-map"),
-        (TRANSFER_ORDERS, "[default: 20000]"),
+        (TREE_THRESHOLDS, "[default: 5:90:0.05]"),
         (WORK_PRECISION, "Usage: work-precision"),
     ] {
         let output = run(program, &["--help"]);

@@ -1,16 +1,13 @@
 //! The studies, as libraries and as processes: one binary of tests, for each one more
 //! links all of them again.
 
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 mod command_lines;
-mod growth;
 mod integration_speed;
 mod solvers;
 mod swaying_branch;
-mod transfer_orders;
+mod tree_thresholds;
 
 /// Runs a program to its end.
 fn run(program: &str, arguments: &[&str]) -> Output {
@@ -19,11 +16,4 @@ fn run(program: &str, arguments: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
-}
-
-/// A folder for one test that is not there yet.
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&path);
-    path
 }

@@ -102,7 +102,7 @@ fn nothing_flips_below_its_energy_and_mirror_images_flip_together() {
     let tree = folder.file("chain.txt", CHAIN);
     let words = ["map", "--of", "flip", "--tree", &tree, "--duration", "5"];
     let axes = ["--x", "lower=-170:170:20", "--y", "upper=-70:70:20"];
-    folder.answer(&[&words[..], &axes].concat());
+    let printed = folder.answer(&[&words[..], &axes].concat());
     let rows = rows(&folder);
     let (upper_moment, lower_moment) = ((0.2 / 2.0 + 0.1) * 0.3, 0.1 / 2.0 * 0.2);
     let above_rest = |moment: f64, degrees: f64| moment * (1.0 - degrees.to_radians().cos());
@@ -120,6 +120,10 @@ fn nothing_flips_below_its_energy_and_mirror_images_flip_together() {
         assert!(is_same, "{lower} {upper}: {time} {other}");
     }
     assert!(below > 20 && flipped > 20, "{below} {flipped}");
+    let told = format!("Of all points {below} have less energy");
+    assert!(printed.contains(&told), "{below}: {printed}");
+    let chart = folder.read("results/map.svg");
+    assert!(chart.contains("energy of the lowest inverted configuration"));
 }
 
 /// A rod that turns over and over comes from the bottom to the top within (2/ω) K(m), where

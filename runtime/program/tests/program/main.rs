@@ -2,6 +2,7 @@
 
 mod answers;
 mod cascade;
+mod differences;
 mod flips;
 mod held_out;
 mod identify;

@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 
 use nalgebra::DMatrix;
 
-use super::{BrakeOrbit, Checked, FINER, GrowthError, differences};
+use super::{BrakeOrbit, Checked, FINER, GrowthError, TransverseSystem, places};
 use crate::analysis::variational::{Linearised, flow_jacobian};
 use crate::integrate::{Dop853, Options};
-use crate::system::{State, Transverse, TransverseOde};
+use crate::system::State;
 
 /// The monodromy matrix of small deviations from a periodic motion: what one period of
 /// their equations makes of them.
@@ -26,18 +26,19 @@ pub struct Floquet {
 }
 
 impl Floquet {
-    /// Returns the multipliers of small differences beside an in-phase motion.
+    /// Returns the multipliers of small differences beside an in-phase motion, whose angles are
+    /// those of the system.
     ///
     /// # Errors
     ///
     /// As [`Dop853::integrate`].
-    pub fn of_differences<P: Transverse<f64>>(
-        ode: &TransverseOde<P>,
+    pub fn of_differences<O: TransverseSystem>(
+        ode: &O,
         orbit: &BrakeOrbit,
         tolerance: f64,
     ) -> Result<Self, GrowthError> {
         let parts = if orbit.is_symmetric() { 2.0 } else { 1.0 };
-        let (place, links) = (differences(ode), ode.sector().links);
+        let (place, links) = (places(ode), ode.differences());
         Self::checked(orbit.period / parts, tolerance, |method, period| {
             let mut matrix = DMatrix::zeros(2 * links, 2 * links);
             for column in 0..2 * links {

@@ -11,9 +11,11 @@ mod checked;
 mod copies;
 mod error;
 mod floquet;
+mod in_phase;
 mod record;
 mod rotation;
 mod sector;
+mod transverse;
 
 use std::ops::Range;
 
@@ -22,13 +24,16 @@ pub use self::checked::Checked;
 pub use self::copies::BetweenCopies;
 pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
+pub use self::in_phase::InPhaseOde;
 use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
 pub use self::sector::SectorDifferences;
+use self::transverse::places;
+pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options};
-use crate::system::{Ode, State, Transverse, TransverseOde};
+use crate::system::{LaneOde, Ode, State};
 
 /// Computation of the growth of differences.
 ///
@@ -107,35 +112,11 @@ const LOOKS_A_SCALE: usize = 256;
 /// Tolerance of the run that is believed over that of the other.
 const FINER: f64 = 0.01;
 
-/// Frequency of small differences of a sector beside the tree at rest with all angles
-/// zero, in hertz: of all its links turned as one, by Rayleigh's quotient, so that it is
-/// exact for one link. NaN where they do not oscillate.
-pub fn frequency_at_rest<P: Transverse<f64>>(ode: &TransverseOde<P>) -> f64 {
-    let all = ode.dimension() / 2;
-    let mut angles = vec![0.0; all - ode.sector().links];
-    angles.resize(all, 1.0);
-    let state = State::at_rest(0.0, &angles);
-    let mut rates = vec![0.0; state.values.len()];
-    ode.rates(0.0, &state.values, &mut rates);
-    let place = differences(ode);
-    let sum: f64 = rates[place.rates].iter().sum();
-    (-sum / ode.sector().links as f64).sqrt() / std::f64::consts::TAU
-}
-
 /// Where differences stand in a state.
 #[derive(Clone, Debug)]
 struct DifferenceRanges {
     angles: Range<usize>,
     rates: Range<usize>,
-}
-
-fn differences<P: Transverse<f64>>(ode: &TransverseOde<P>) -> DifferenceRanges {
-    let all = ode.dimension() / 2;
-    let motion = all - ode.sector().links;
-    DifferenceRanges {
-        angles: motion..all,
-        rates: all + motion..2 * all,
-    }
 }
 
 /// A motion on its way, and what was seen of it.
@@ -165,22 +146,22 @@ impl GrowthRun {
 
 impl Growth {
     /// Returns the growth along motions from the given starts, on all cores and in the
-    /// lanes of vector registers. A start is a state of its [`TransverseOde`]: in-phase
-    /// angles, differences, in-phase velocities, rates of the differences; all start at
-    /// one time.
+    /// lanes of vector registers. A start is a state of its [`TransverseSystem`], as of a
+    /// [`TransverseOde`](crate::system::TransverseOde): in-phase angles, differences, in-phase
+    /// velocities, rates of the differences; all start at one time.
     ///
     /// The result of a start depends neither on the others nor on the number of threads.
     ///
     /// # Errors
     ///
     /// Each result of its own: [`GrowthError`].
-    pub fn in_lanes<P>(
+    pub fn in_lanes<O>(
         &self,
         ensemble: &Ensemble<'_>,
-        releases: &[(TransverseOde<P>, State<f64>)],
+        releases: &[(O, State<f64>)],
     ) -> Vec<Result<Grown, GrowthError>>
     where
-        P: Transverse<f64> + Sync,
+        O: TransverseSystem + LaneOde<f64> + Sync,
     {
         let [coarse, fine] = self.tolerances().map(|tolerance| {
             let method = Dop853::new(Options::with_tolerance(tolerance));
@@ -188,7 +169,7 @@ impl Growth {
                 if start.time != releases[0].1.time {
                     return Err(GrowthError::StartTime(start.time));
                 }
-                self.begin(start.clone(), differences(ode))
+                self.begin(start.clone(), places(ode))
             });
             let mut runs: Vec<Result<GrowthRun, GrowthError>> = runs.collect();
             let start = releases.first().map_or(0.0, |(_, start)| start.time);

@@ -1,6 +1,6 @@
 //! Differences of one sector beside a motion in phase, by dual numbers.
 
-use super::{DifferenceRanges, Grown, Growth, GrowthError, GrowthRun};
+use super::{DifferenceRanges, Grown, Growth, GrowthError, GrowthRun, TransverseSystem, places};
 use crate::analysis::variational::Linearised;
 use crate::sectors::{Sector, SectorCoordinate};
 use crate::system::{Ode, State, Workspace};
@@ -17,7 +17,9 @@ use crate::system::{Ode, State, Workspace};
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
-/// use branched_pendulum::analysis::growth::{Growth, GrowthError, SectorDifferences};
+/// use branched_pendulum::analysis::growth::{
+///     Growth, GrowthError, SectorDifferences, frequency_at_rest,
+/// };
 /// use branched_pendulum::analysis::variational::linearised;
 /// use branched_pendulum::prelude::*;
 ///
@@ -34,7 +36,7 @@ use crate::system::{Ode, State, Workspace};
 /// let antiphase = &BranchedDouble::<f64>::SECTORS[1];
 /// let system = SectorDifferences::new(linearised(AbsoluteAngles(&model)), antiphase);
 /// let growth = Growth {
-///     frequency_hz: system.frequency_at_rest().unwrap(),
+///     frequency_hz: frequency_at_rest(&system),
 ///     horizons: vec![10.0],
 ///     tolerance: 1e-9,
 /// };
@@ -61,34 +63,12 @@ impl<L: Ode<f64>> SectorDifferences<L> {
     fn links(&self) -> usize {
         self.system.dimension() / 2
     }
-
-    fn place(&self) -> DifferenceRanges {
-        let (links, own) = (self.links(), self.coordinates.len());
-        DifferenceRanges {
-            angles: links..links + own,
-            rates: 2 * links + own..2 * (links + own),
-        }
-    }
 }
 
 impl<L: Linearised<f64>> SectorDifferences<L> {
-    /// Returns the frequency in hertz of small differences beside all angles zero and at rest:
-    /// of all links turned as one, by Rayleigh's quotient, so that it is exact for one. None
-    /// where they do not oscillate.
-    pub fn frequency_at_rest(&self) -> Option<f64> {
-        let (links, own) = (self.links(), self.coordinates.len());
-        let mut state = vec![0.0; 2 * (links + own)];
-        state[links..links + own].fill(1.0);
-        let mut rates = state.clone();
-        self.rates(0.0, &state, &mut rates);
-        let sum: f64 = rates[self.place().rates].iter().sum();
-        let frequency = (-sum / own as f64).sqrt() / std::f64::consts::TAU;
-        (frequency > 0.0).then_some(frequency)
-    }
-
     /// Writes Σ weight · difference to the links' angles and to their rates.
     fn write_deviation(&self, state: &[f64], deviation: &mut [f64]) {
-        let DifferenceRanges { angles, rates } = self.place();
+        let DifferenceRanges { angles, rates } = places(self);
         deviation.fill(0.0);
         let (to_angles, to_rates) = deviation.split_at_mut(self.links());
         for (range, links) in [(angles, to_angles), (rates, to_rates)] {
@@ -149,11 +129,17 @@ impl<L: Linearised<f64>> Ode<f64> for SectorDifferences<L> {
         let DifferenceRanges {
             angles,
             rates: place,
-        } = self.place();
+        } = places(self);
         rates[angles].copy_from_slice(&state[place.clone()]);
         for (rate, coordinate) in rates[place].iter_mut().zip(&self.coordinates) {
             *rate = coordinate.of(&deviation_rates[links..]);
         }
+    }
+}
+
+impl<L: Linearised<f64>> TransverseSystem for SectorDifferences<L> {
+    fn differences(&self) -> usize {
+        self.coordinates.len()
     }
 }
 
@@ -186,6 +172,6 @@ impl Growth {
         }
         let values = [theta, &vec![1.0; own], omega, &vec![0.0; own]].concat();
         let both = State::new(start.time, values);
-        self.one_by_one(system, &both, system.place(), GrowthRun::scale)
+        self.one_by_one(system, &both, places(system), GrowthRun::scale)
     }
 }

@@ -3,10 +3,9 @@
 use core::ops::ControlFlow;
 
 use super::error::{TruncationError, check_length};
-use super::small_coordinates;
+use super::{ComparedForms, small_coordinates};
 use crate::integrate::{Options, Verner98};
-use crate::system::{State, SymmetricCoordinates};
-use crate::transfer_forms::TransferForms;
+use crate::system::State;
 
 /// Bounds of the background: random states have every coordinate and rate
 /// within them, with equal probability. One number for each symmetric
@@ -22,8 +21,8 @@ pub struct Background {
 impl Background {
     /// Equal bounds for every coordinate of a model: `angle` in rad, `rate` in rad/s.
     #[must_use]
-    pub fn uniform<M: TransferForms<f64>>(model: &M, angle: f64, rate: f64) -> Self {
-        let n = model.links();
+    pub fn uniform(model: &impl ComparedForms, angle: f64, rate: f64) -> Self {
+        let n = model.coordinates();
         Self {
             angles: vec![angle; n],
             rates: vec![rate; n],
@@ -37,19 +36,21 @@ impl Background {
     /// # Errors
     ///
     /// [`TruncationError::Length`] and [`TruncationError::Integration`].
-    pub fn visited<M: TransferForms<f64>>(
-        model: &M,
+    pub fn visited(
+        model: &impl ComparedForms,
         release: &[f64],
         duration: f64,
     ) -> Result<Self, TruncationError> {
-        let n = model.links();
+        let n = model.coordinates();
         check_length("coordinates of the release", n, release)?;
         let mut start = release.to_vec();
-        small_coordinates(model).for_each(|index| start[index] = 0.0);
+        for index in small_coordinates(model) {
+            start[index] = 0.0;
+        }
         let mut largest = start.iter().map(|value| value.abs()).collect::<Vec<_>>();
         largest.resize(2 * n, 0.0);
         Verner98::new(Options::with_tolerance(1e-10)).integrate(
-            &SymmetricCoordinates(model),
+            &model.motion(),
             &State::at_rest(0.0, &start),
             duration,
             |step| {

@@ -8,7 +8,7 @@ use crate::transfer_forms::TransferForm;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorCurve {
     /// Name of the sector that W flows into.
-    pub receiver: &'static str,
+    pub receiver: String,
     /// The truncated forms, in the order of [`ErrorPoint::errors`].
     pub forms: Vec<TransferForm>,
     /// The points by growing amplitude; amplitudes at which no energy flows are
@@ -126,11 +126,25 @@ impl SquareSums {
             *sum += (form - exact).powi(2);
         }
     }
+
+    /// Adds the states of other sums.
+    pub(super) fn append(&mut self, others: &Self) {
+        self.states += others.states;
+        let pairs = [
+            (&mut self.exact, &others.exact),
+            (&mut self.errors, &others.errors),
+        ];
+        for (own, others) in pairs {
+            for (sum, other) in own.iter_mut().zip(others) {
+                *sum += other;
+            }
+        }
+    }
 }
 
 /// One curve for each receiver from sums at growing amplitudes.
 pub(super) fn curves(
-    receivers: &[&'static str],
+    receivers: &[String],
     forms: &[TransferForm],
     sums: &[(f64, SquareSums)],
 ) -> Vec<ErrorCurve> {
@@ -143,8 +157,8 @@ pub(super) fn curves(
             errors: own.map(|sum| (sum / exact).sqrt()).collect(),
         })
     };
-    let curve = |(index, &receiver): (usize, &&'static str)| ErrorCurve {
-        receiver,
+    let curve = |(index, receiver): (usize, &String)| ErrorCurve {
+        receiver: receiver.clone(),
         forms: forms.to_vec(),
         points: sums
             .iter()
@@ -167,7 +181,7 @@ mod tests {
             errors: vec![0.0, amplitude.powi(exponent)],
         };
         ErrorCurve {
-            receiver: "d",
+            receiver: "d".to_owned(),
             forms: vec![TransferForm::Amplitude(2), TransferForm::Amplitude(4)],
             points: logarithmic([1e-3, 1.5], 12)
                 .into_iter()
@@ -199,7 +213,7 @@ mod tests {
         // Two states, W exact = 3 and 4 into the first sector, none into the second.
         sums.add(&[3.0, 0.0], &[3.0, 0.0, 3.5, 1.0]);
         sums.add(&[4.0, 0.0], &[4.0, 0.0, 4.0, 1.0]);
-        let curves = curves(&["a", "b"], &forms, &[(0.1, sums)]);
+        let curves = curves(&["a", "b"].map(str::to_owned), &forms, &[(0.1, sums)]);
         assert_eq!(curves[0].receiver, "a");
         assert_eq!(curves[0].points[0].errors, [0.0, 0.1]);
         assert_eq!(curves[0].points[0].states, 2);

@@ -38,7 +38,7 @@ errors! {
         /// that they have no amplitude.
         NoFrequency {
             /// Name of the sector.
-            sector: &'static str,
+            sector: String,
             /// Mean square of its angular frequencies, 1/s².
             square: f64,
         } => "the differences of sector `{sector}` do not oscillate: the mean square of their \

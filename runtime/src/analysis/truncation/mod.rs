@@ -1,7 +1,7 @@
 //! Errors of the forms of an energy transfer W, against the amplitude of the
 //! coordinates that they take for small.
 //!
-//! For any model that has W in several forms ([`TransferForms`]). Two averages,
+//! For any tree that has W in several forms ([`ComparedForms`]). Two averages,
 //! both rms of (W − W exact) over rms of W exact at one amplitude, sector by
 //! sector:
 //!
@@ -57,6 +57,7 @@
 mod background;
 mod curve;
 mod error;
+mod forms;
 mod motion;
 mod phase_average;
 mod trajectories;
@@ -64,11 +65,10 @@ mod trajectories;
 pub use background::Background;
 pub use curve::{ErrorCurve, ErrorPoint, LevelCrossing};
 pub use error::TruncationError;
+pub use forms::{ComparedForms, SmallDifferences, TreeForms};
 pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};
 pub use trajectories::AlongTrajectories;
-
-use crate::transfer_forms::TransferForms;
 
 /// `count` values from `low` to `high`, both positive, with equal ratios.
 #[must_use]
@@ -80,9 +80,10 @@ pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
 }
 
 /// Indices of the coordinates that are small differences.
-fn small_coordinates<M: TransferForms<f64>>(model: &M) -> impl Iterator<Item = usize> + use<M> {
-    let links = model.links();
-    let sectors = M::SMALL_SECTORS.iter();
-    let indices = sectors.flat_map(|sector| sector.coordinates).copied();
-    indices.filter(move |&index| index < links)
+fn small_coordinates(model: &impl ComparedForms) -> Vec<usize> {
+    let indices = model.small_differences().into_iter();
+    let indices = indices.flat_map(|small| small.coordinates);
+    indices
+        .filter(|&index| index < model.coordinates())
+        .collect()
 }

@@ -1,45 +1,48 @@
 //! Amplitudes of small differences, and all forms of W at a state.
 
 use super::error::TruncationError;
+use super::forms::{ComparedForms, SmallDifferences};
 use crate::model::Transfer;
-use crate::transfer_forms::{TransferForm, TransferForms};
+use crate::system::{Ode, Workspace};
+use crate::transfer_forms::TransferForm;
 
 /// Difference at which the restoring acceleration is measured, rad: emitted
 /// code keeps the digits of small differences, and their cubes are lost.
 const SMALL: f64 = 1e-5;
 
-/// Angular frequency Ω of each of [`TransferForms::SMALL_SECTORS`], in rad/s:
-/// the root of the mean square over its linear modes about the hanging tree, at
+/// Angular frequency Ω of the [differences](ComparedForms::small_differences) of each sector, in
+/// rad/s: the root of the mean square over its linear modes about the hanging tree, at
 /// the time zero. Ω² is −tr(∂q̈/∂q)/n over the sector's n differences, by central
 /// differences.
 ///
 /// # Errors
 ///
 /// [`TruncationError::NoFrequency`] if the mean square is not positive.
-pub fn sector_frequencies<M: TransferForms<f64>>(model: &M) -> Result<Vec<f64>, TruncationError> {
-    let n = model.links();
-    let (mut coordinates, rates) = (vec![0.0; n], vec![0.0; n]);
-    let mut accelerations = vec![0.0; n];
+pub fn sector_frequencies(model: &impl ComparedForms) -> Result<Vec<f64>, TruncationError> {
+    let n = model.coordinates();
+    let (motion, mut workspace) = (model.motion(), Workspace::new());
+    let (mut state, mut state_rates) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
     let mut frequencies = Vec::new();
-    for sector in M::SMALL_SECTORS {
+    for SmallDifferences {
+        sector,
+        coordinates,
+    } in model.small_differences()
+    {
         let mut sum = 0.0;
-        for &index in sector.coordinates {
+        for &index in &coordinates {
             let mut at = |value: f64| {
-                if let Some(coordinate) = coordinates.get_mut(index) {
+                if let Some(coordinate) = state.get_mut(index) {
                     *coordinate = value;
                 }
-                model.symmetric_accelerations_into(0.0, &coordinates, &rates, &mut accelerations);
-                accelerations.get(index).copied().unwrap_or(f64::NAN)
+                motion.rates_with(&mut workspace, 0.0, &state, &mut state_rates);
+                state_rates.get(n + index).copied().unwrap_or(f64::NAN)
             };
             sum += (at(-SMALL) - at(SMALL)) / (2.0 * SMALL);
             at(0.0);
         }
-        let square = sum / sector.coordinates.len() as f64;
+        let square = sum / coordinates.len() as f64;
         if !(square.is_finite() && square > 0.0) {
-            return Err(TruncationError::NoFrequency {
-                sector: sector.name,
-                square,
-            });
+            return Err(TruncationError::NoFrequency { sector, square });
         }
         frequencies.push(square.sqrt());
     }
@@ -50,14 +53,14 @@ pub fn sector_frequencies<M: TransferForms<f64>>(model: &M) -> Result<Vec<f64>, 
 /// differences, with the `frequencies` Ω that [`sector_frequencies`] gives.
 /// Coordinates that the slices lack count as zero.
 #[must_use]
-pub fn amplitude<M: TransferForms<f64>>(
+pub fn amplitude(
+    small: &[SmallDifferences],
     frequencies: &[f64],
     coordinates: &[f64],
     rates: &[f64],
 ) -> f64 {
-    let sectors = M::SMALL_SECTORS.iter().zip(frequencies);
-    let differences = sectors.flat_map(|(sector, frequency)| {
-        let all = sector.coordinates.iter();
+    let differences = small.iter().zip(frequencies).flat_map(|(own, frequency)| {
+        let all = own.coordinates.iter();
         all.map(move |&index| (index, *frequency))
     });
     differences.fold(0.0, |largest, (index, frequency)| {
@@ -68,9 +71,17 @@ pub fn amplitude<M: TransferForms<f64>>(
     })
 }
 
+/// A function of coordinates and rates that writes their momenta.
+type MomentaOf<'m> = Box<dyn FnMut([&[f64]; 2], &mut [f64]) + 'm>;
+
+/// A function of a form's number, coordinates and momenta that writes W.
+type TransfersOf<'m> = Box<dyn FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]) + 'm>;
+
 /// Room for all forms of W at one state.
-pub(super) struct Powers<'m, M> {
-    model: &'m M,
+pub(super) struct Powers<'m> {
+    momenta_of: MomentaOf<'m>,
+    transfers_of: TransfersOf<'m>,
+    forms: Vec<TransferForm>,
     /// Indices of the truncated forms.
     indices: Vec<usize>,
     /// Index of the exact form.
@@ -83,19 +94,21 @@ pub(super) struct Powers<'m, M> {
     pub(super) truncated: Vec<f64>,
 }
 
-impl<'m, M: TransferForms<f64>> Powers<'m, M> {
-    pub(super) fn new(model: &'m M) -> Result<Self, TruncationError> {
-        let is_exact = |form: &usize| M::TRANSFER_FORMS[*form] == TransferForm::Exact;
-        let (exact, indices): (Vec<usize>, Vec<usize>) =
-            (0..M::TRANSFER_FORMS.len()).partition(is_exact);
+impl<'m> Powers<'m> {
+    pub(super) fn new<M: ComparedForms>(model: &'m M) -> Result<Self, TruncationError> {
+        let forms = model.forms();
+        let is_exact = |form: &usize| forms[*form] == TransferForm::Exact;
+        let (exact, indices): (Vec<usize>, Vec<usize>) = (0..forms.len()).partition(is_exact);
         let reference = *exact.first().ok_or(TruncationError::NoExactForm)?;
-        let receivers = M::RECEIVERS.len();
+        let receivers = model.receivers().len();
         Ok(Self {
-            model,
-            momenta: vec![0.0; model.links()],
+            momenta_of: Box::new(model.momenta()),
+            transfers_of: Box::new(model.transfers()),
+            momenta: vec![0.0; model.coordinates()],
             found: vec![Transfer::default(); receivers],
             exact: vec![0.0; receivers],
             truncated: vec![0.0; receivers * indices.len()],
+            forms,
             indices,
             reference,
         })
@@ -103,24 +116,21 @@ impl<'m, M: TransferForms<f64>> Powers<'m, M> {
 
     /// The truncated forms.
     pub(super) fn forms(&self) -> Vec<TransferForm> {
-        let forms = self.indices.iter().map(|&form| M::TRANSFER_FORMS[form]);
-        forms.collect()
+        self.indices.iter().map(|&form| self.forms[form]).collect()
     }
 
     /// Evaluates all forms at symmetric coordinates and their rates.
     pub(super) fn evaluate(&mut self, coordinates: &[f64], rates: &[f64]) {
-        self.model
-            .symmetric_momenta_into(coordinates, rates, &mut self.momenta);
-        self.model
-            .transfers_into(self.reference, coordinates, &self.momenta, &mut self.found);
+        (self.momenta_of)([coordinates, rates], &mut self.momenta);
+        let state = [coordinates, &self.momenta];
+        (self.transfers_of)(self.reference, state, &mut self.found);
         for (exact, found) in self.exact.iter_mut().zip(&self.found) {
             *exact = found.total();
         }
         let receivers = self.found.len().max(1);
         let rows = self.truncated.chunks_mut(receivers);
         for (&form, row) in self.indices.iter().zip(rows) {
-            self.model
-                .transfers_into(form, coordinates, &self.momenta, &mut self.found);
+            (self.transfers_of)(form, state, &mut self.found);
             for (power, found) in row.iter_mut().zip(&self.found) {
                 *power = found.total();
             }

@@ -6,9 +6,9 @@ use super::background::Background;
 use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_bounds, check_positive};
 use super::motion::{Powers, sector_frequencies};
-use super::small_coordinates;
+use super::{ComparedForms, small_coordinates};
 use crate::analysis::random::Random;
-use crate::transfer_forms::TransferForms;
+use crate::ensemble::Ensemble;
 
 /// Relative error over random states: the background anywhere within its
 /// bounds, and every small difference in an oscillation of the amplitude asked
@@ -16,7 +16,7 @@ use crate::transfer_forms::TransferForms;
 ///
 /// Each call takes the same states, and so do all amplitudes but for the
 /// amplitude. Cost: as many evaluations of every form as there are states and
-/// amplitudes.
+/// amplitudes, on all cores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseAverage {
     /// Amplitudes, rad, positive and growing; [`logarithmic`](super::logarithmic)
@@ -40,27 +40,29 @@ impl PhaseAverage {
     ///
     /// [`TruncationError`]: amplitudes or bounds that make no sense, a model
     /// without the exact form, differences that do not oscillate.
-    pub fn curves<M: TransferForms<f64>>(
+    pub fn curves(
         &self,
-        model: &M,
+        model: &(impl ComparedForms + Sync),
     ) -> Result<Vec<ErrorCurve>, TruncationError> {
         check_amplitudes(&self.amplitudes)?;
-        let mut powers = Powers::new(model)?;
         let unit = self.unit_states(model)?;
-        let mut all = Vec::with_capacity(self.amplitudes.len());
-        let n = model.links();
-        let mut state = vec![0.0; 2 * n];
-        for &amplitude in &self.amplitudes {
-            let mut sums = SquareSums::new(M::RECEIVERS.len(), powers.forms().len());
+        let (n, receivers) = (model.coordinates(), model.receivers());
+        let small = small_coordinates(model);
+        let forms = Powers::new(model)?.forms();
+        let sums = Ensemble::new().map(&self.amplitudes, |_, &amplitude| {
+            let mut powers = Powers::new(model)?;
+            let mut sums = SquareSums::new(receivers.len(), forms.len());
+            let mut state = vec![0.0; 2 * n];
             for unit in unit.chunks_exact(2 * n) {
-                scale(model, unit, amplitude, &mut state);
+                scale(&small, unit, amplitude, &mut state);
                 let (coordinates, rates) = state.split_at(n);
                 powers.evaluate(coordinates, rates);
                 sums.add(&powers.exact, &powers.truncated);
             }
-            all.push((amplitude, sums));
-        }
-        Ok(curves(M::RECEIVERS, &powers.forms(), &all))
+            Ok::<_, TruncationError>((amplitude, sums))
+        });
+        let sums = sums.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(curves(&receivers, &forms, &sums))
     }
 
     /// The states of one amplitude (rad) in canonical variables: what a program
@@ -69,20 +71,21 @@ impl PhaseAverage {
     /// # Errors
     ///
     /// As [`curves`](Self::curves).
-    pub fn canonical_states<M: TransferForms<f64>>(
+    pub fn canonical_states(
         &self,
-        model: &M,
+        model: &impl ComparedForms,
         amplitude: f64,
     ) -> Result<Vec<CanonicalState>, TruncationError> {
         check_positive("an amplitude", amplitude)?;
         let unit = self.unit_states(model)?;
-        let n = model.links();
+        let (n, small) = (model.coordinates(), small_coordinates(model));
+        let mut momenta_of = model.momenta();
         let canonical = |unit: &[f64]| {
             let mut coordinates = vec![0.0; 2 * n];
-            scale(model, unit, amplitude, &mut coordinates);
+            scale(&small, unit, amplitude, &mut coordinates);
             let rates = coordinates.split_off(n);
             let mut momenta = vec![0.0; n];
-            model.symmetric_momenta_into(&coordinates, &rates, &mut momenta);
+            momenta_of([&coordinates, &rates], &mut momenta);
             (coordinates, momenta)
         };
         Ok(unit.chunks_exact(2 * n).map(canonical).collect())
@@ -90,13 +93,13 @@ impl PhaseAverage {
 
     /// States of the amplitude 1 rad, coordinates and rates of one after those
     /// of the other.
-    fn unit_states<M: TransferForms<f64>>(&self, model: &M) -> Result<Vec<f64>, TruncationError> {
-        let n = model.links();
+    fn unit_states(&self, model: &impl ComparedForms) -> Result<Vec<f64>, TruncationError> {
+        let n = model.coordinates();
         let Background { angles, rates } = &self.background;
         check_bounds("bounds of the angles", n, angles)?;
         check_bounds("bounds of the rates", n, rates)?;
         let frequencies = sector_frequencies(model)?;
-        let small: Vec<usize> = small_coordinates(model).collect();
+        let (small, sectors) = (small_coordinates(model), model.small_differences());
         let mut random = Random::new(self.seed);
         let mut states = Vec::with_capacity(2 * n * self.states);
         for _ in 0..self.states {
@@ -108,8 +111,8 @@ impl PhaseAverage {
                     random.within(*bound)
                 });
             }
-            for (sector, frequency) in M::SMALL_SECTORS.iter().zip(&frequencies) {
-                for &index in sector.coordinates {
+            for (sector, frequency) in sectors.iter().zip(&frequencies) {
+                for &index in &sector.coordinates {
                     let (sin, cos) = random.within(PI).sin_cos();
                     states[begin + index] = cos;
                     states[begin + n + index] = frequency * sin;
@@ -121,10 +124,10 @@ impl PhaseAverage {
 }
 
 /// A unit state with its small differences made `amplitude` times as large.
-fn scale<M: TransferForms<f64>>(model: &M, unit: &[f64], amplitude: f64, out: &mut [f64]) {
+fn scale(small: &[usize], unit: &[f64], amplitude: f64, out: &mut [f64]) {
     out.copy_from_slice(unit);
-    for index in small_coordinates(model) {
+    for &index in small {
         out[index] *= amplitude;
-        out[model.links() + index] *= amplitude;
+        out[unit.len() / 2 + index] *= amplitude;
     }
 }

@@ -3,10 +3,10 @@
 use super::curve::{ErrorCurve, SquareSums, curves};
 use super::error::{TruncationError, check_amplitudes, check_length, check_positive};
 use super::motion::{Powers, amplitude, sector_frequencies};
-use super::small_coordinates;
+use super::{ComparedForms, small_coordinates};
+use crate::ensemble::Ensemble;
 use crate::integrate::{Options, Tolerance, Verner98};
-use crate::system::{State, SymmetricCoordinates};
-use crate::transfer_forms::TransferForms;
+use crate::system::State;
 
 /// Relative error along motions that are released from rest, by the amplitude
 /// at the instant.
@@ -19,7 +19,7 @@ use crate::transfer_forms::TransferForms;
 ///
 /// Cost: an integration in symmetric coordinates by [`Verner98`] at the
 /// tolerance 1e-12 for each disturbance, and an evaluation of every form for
-/// each sample within the range.
+/// each sample within the range; the disturbances on all cores.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlongTrajectories {
     /// Symmetric coordinates at the release, rad. Small differences start from
@@ -47,21 +47,20 @@ impl AlongTrajectories {
     /// [`TruncationError`]: numbers that make no sense, a model without the
     /// exact form, differences that do not oscillate, motions that cannot be
     /// followed.
-    pub fn curves<M: TransferForms<f64>>(
+    pub fn curves(
         &self,
-        model: &M,
+        model: &(impl ComparedForms + Sync),
     ) -> Result<Vec<ErrorCurve>, TruncationError> {
-        let n = model.links();
+        let (n, receivers) = (model.coordinates(), model.receivers());
         check_length("coordinates of the release", n, &self.release)?;
         check_positive("the duration", self.duration)?;
         check_positive("the number of samples per second", self.sampling)?;
         let [low, high] = self.amplitudes;
         check_amplitudes(&self.amplitudes)?;
         let frequencies = sector_frequencies(model)?;
-        let mut powers = Powers::new(model)?;
         let per_bin = (high / low).ln() / self.bins as f64;
-        let empty = SquareSums::new(M::RECEIVERS.len(), powers.forms().len());
-        let mut bins = vec![empty; self.bins];
+        let forms = Powers::new(model)?.forms();
+        let empty = SquareSums::new(receivers.len(), forms.len());
         let samples = (self.duration * self.sampling).floor() as u64;
         let times: Vec<f64> = (0..=samples)
             .map(|sample| sample as f64 / self.sampling)
@@ -72,13 +71,18 @@ impl AlongTrajectories {
             ..Options::with_tolerance(1e-12)
         };
         let method = Verner98::new(options);
-        for &disturbance in &self.disturbances {
+        let (sectors, small) = (model.small_differences(), small_coordinates(model));
+        let motions = Ensemble::new().map(&self.disturbances, |_, &disturbance| {
+            let (mut powers, motion) = (Powers::new(model)?, model.motion());
+            let mut bins = vec![empty.clone(); self.bins];
             let mut start = self.release.clone();
-            small_coordinates(model).for_each(|index| start[index] = disturbance);
+            for &index in &small {
+                start[index] = disturbance;
+            }
             let start = State::at_rest(0.0, &start);
             let visit = |_: f64, state: &[f64]| {
                 let (coordinates, rates) = state.split_at(n);
-                let size = amplitude::<M>(&frequencies, coordinates, rates);
+                let size = amplitude(&sectors, &frequencies, coordinates, rates);
                 let bin = ((size / low).ln() / per_bin).floor();
                 // Below the range it is negative, which the cast would make zero.
                 if bin >= 0.0
@@ -88,7 +92,14 @@ impl AlongTrajectories {
                     sums.add(&powers.exact, &powers.truncated);
                 }
             };
-            method.sample(&SymmetricCoordinates(model), &start, &times, visit)?;
+            method.sample(&motion, &start, &times, visit)?;
+            Ok::<_, TruncationError>(bins)
+        });
+        let mut bins = vec![empty.clone(); self.bins];
+        for motion in motions {
+            for (all, own) in bins.iter_mut().zip(motion?) {
+                all.append(&own);
+            }
         }
         let centre = |bin: usize| low * (per_bin * (bin as f64 + 0.5)).exp();
         let sums: Vec<_> = bins
@@ -96,6 +107,6 @@ impl AlongTrajectories {
             .enumerate()
             .map(|(bin, sums)| (centre(bin), sums))
             .collect();
-        Ok(curves(M::RECEIVERS, &powers.forms(), &sums))
+        Ok(curves(&receivers, &forms, &sums))
     }
 }

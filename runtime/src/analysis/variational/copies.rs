@@ -1,5 +1,6 @@
 //! Copies that move in phase, and the two kinds of deviations from that.
 
+use crate::sectors::{Sector, SectorCoordinate};
 use crate::system::{Ode, State};
 
 /// Largest part by which rates of copies differ, from rounding.
@@ -104,6 +105,18 @@ impl Copies {
             write(&mut deviation, component, value);
         }
         deviation
+    }
+
+    /// Returns the differences of the first two copies: of links, of their angles and of the
+    /// angles of all that hangs from them.
+    pub fn first_difference(&self) -> Sector {
+        let angles = self.groups.iter().take(self.groups.len() / 2);
+        let coordinates = angles.filter_map(|group| {
+            let (&one, &other) = group.first().zip(group.get(1))?;
+            let weights = vec![(one, 1.0), (other, -1.0)];
+            Some(SectorCoordinate::new(format!("theta_{one}_d"), weights))
+        });
+        Sector::new("d".to_owned(), coordinates.collect())
     }
 
     /// Returns true if the copies are in one state and move on alike in `system`, but for

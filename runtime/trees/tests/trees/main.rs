@@ -3,6 +3,7 @@
 mod between;
 mod costs;
 mod forms;
+mod growth;
 mod magnitudes;
 mod mechanics;
 mod plain;
@@ -11,3 +12,4 @@ mod scales;
 mod series;
 mod text;
 mod transfer;
+mod truncation;

@@ -6,6 +6,7 @@ mod growth;
 mod observables;
 mod series;
 mod transfer;
+mod truncation;
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;

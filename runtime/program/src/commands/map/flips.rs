@@ -7,8 +7,10 @@ use branched_pendulum_charts::{Axis, Chart, Color};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 
-use super::plane::{MapPlane, Point, Question, cells, shaded};
+use super::bound;
+use super::plane::{MapPlane, Point, Question, cells, marks, shaded};
 use crate::Failure;
+use crate::frame::Job;
 
 /// Colour of points without a flip, which the scale of times has not.
 const NO_FLIP: Color = Color::rgb(232, 232, 232);
@@ -27,6 +29,11 @@ pub(super) struct Flips<'a> {
     /// Time followed, s.
     pub(super) duration: f64,
     pub(super) tolerance: f64,
+    /// Points that the map marks.
+    pub(super) marked: &'a [Point],
+    /// Energy at each point above that of the lowest inverted configuration, J; empty for trees
+    /// that have none.
+    pub(super) excess: Vec<f64>,
 }
 
 /// The first flip of a motion.
@@ -122,6 +129,12 @@ impl Question for Flips<'_> {
             .collect())
     }
 
+    fn complete(&mut self, _: &Job) -> Result<(), Failure> {
+        let excess = bound::excess(self.plane, &self.links, &self.plane.points())?;
+        self.excess = excess.unwrap_or_default();
+        Ok(())
+    }
+
     fn columns(&self) -> Vec<Column> {
         vec![
             Column::new("time of the first flip", "s"),
@@ -151,9 +164,17 @@ impl Question for Flips<'_> {
             0 => String::new(),
             lost => format!("; {lost} could not be followed"),
         };
+        let below = self.excess.iter().filter(|excess| **excess < 0.0);
+        let below = match below.count() {
+            0 => String::new(),
+            count => format!(
+                "Of all points {count} have less energy than the lowest configuration with a link upside \
+                 down:\nfrom there none flips, however long one waits.\n"
+            ),
+        };
         format!(
             "{}: {} points, {:.1} % with a flip within {} s{first}.\n\
-             At {open} the two tolerances differ by more than 1 %{lost}.\n",
+             At {open} the two tolerances differ by more than 1 %{lost}.\n{below}",
             self.plane.subject.name,
             found.len(),
             100.0 * flipped as f64 / found.len().max(1) as f64,
@@ -185,7 +206,10 @@ impl Question for Flips<'_> {
                 let label = format!("no flip within {} s", self.duration);
                 panel = panel.series(cells(label, &others).color(NO_FLIP));
             }
-            panel
+            if let Some(curve) = bound::curve(self.plane, &self.excess) {
+                panel = panel.series(curve);
+            }
+            marks(panel, self.marked)
         });
         let times = times.iter().map(|(_, time)| *time);
         let first = times.fold(0.1 * self.duration, f64::min);

@@ -1,8 +1,11 @@
 //! A quantity over a plane of two others: growth rates, times of flips.
 
+mod bound;
 mod flips;
+mod normal_modes;
 mod plane;
 mod rates;
+mod tongues;
 
 use branched_pendulum_data::Cell;
 use clap::{Parser, ValueEnum};
@@ -13,7 +16,7 @@ use self::rates::Rates;
 use super::growth::PairArguments;
 use crate::Failure;
 use crate::frame::Job;
-use crate::frame::command_line::number;
+use crate::frame::command_line::{number, parts};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
@@ -21,6 +24,10 @@ use crate::subject::TreeArguments;
 /// first flip? Each axis is the angle of a link at the start, or a parameter of the
 /// description. Draws the growth rate of a small difference beside the motion in phase, or
 /// the time until the first flip, from rest.
+///
+/// Of a tree that mirrors itself, twice the frequency of a difference that grows is a sum
+/// of whole multiples of those of the motion in phase: `--tongues` lists where it grows,
+/// with the multiples.
 ///
 /// A link flips where its angle passes an odd multiple of 180°: it points away from where
 /// it points at angle zero. The time is that of the first link that does so. A link that
@@ -44,7 +51,7 @@ pub struct Arguments {
     #[arg(long, value_name = "LINK[,..]")]
     link: Option<String>,
     /// horizontal axis: a link with its angles in degrees, or a parameter with its values;
-    /// all copies of a link have one name
+    /// all copies of a link have one name, and names joined by `+` one angle
     #[arg(
         verbatim_doc_comment,
         long,
@@ -53,7 +60,7 @@ pub struct Arguments {
         value_parser = AxisValues::read
     )]
     x: AxisValues,
-    /// vertical axis, written alike
+    /// vertical axis, written alike; in place of a step `xRATIO` is a ratio of neighbours
     #[arg(
         long,
         value_name = "NAME=FROM:TO:STEP",
@@ -61,6 +68,17 @@ pub struct Arguments {
         value_parser = AxisValues::read
     )]
     y: AxisValues,
+    /// growth: draws the nonlinear normal modes of the motion in phase, where the plane is that
+    /// of the releases of all its two angles
+    #[arg(verbatim_doc_comment, long)]
+    modes: bool,
+    /// growth: lists the tongues of instability on lines across the plane, at these values of
+    /// one of its axes, followed eight times as long
+    #[arg(verbatim_doc_comment, long, value_name = "NAME=VALUE[,VALUE]...", value_parser = AxisValues::read_values)]
+    tongues: Vec<AxisValues>,
+    /// points that the map marks
+    #[arg(long, value_name = "X:Y[,X:Y]...", value_parser = points, allow_hyphen_values = true)]
+    mark: Option<::std::vec::Vec<Point>>,
     /// time followed, s from 1 to 1000
     #[arg(long, value_name = "S", default_value = "15", value_parser = number(1.0..=1000.0, "s"))]
     duration: f64,
@@ -87,6 +105,13 @@ impl crate::frame::Arguments for Arguments {
         if self.x.name == self.y.name {
             return Err(format!("both axes are `{}`: name another one", self.x.name));
         }
+        if self.of == Of::Flip && (self.modes || !self.tongues.is_empty()) {
+            return Err(
+                "`--modes` and `--tongues` are those of a growth: leave them out, or map it with \
+                 `--of growth`"
+                    .to_owned(),
+            );
+        }
         match self.of {
             Of::Growth if self.link.is_some() => {
                 Err("`--link` names the links whose flips count: add `--of flip`".to_owned())
@@ -99,6 +124,17 @@ impl crate::frame::Arguments for Arguments {
             _ => Ok(()),
         }
     }
+}
+
+/// Reads points `X:Y`.
+fn points(text: &str) -> Result<Vec<Point>, String> {
+    let point = |part: &str| {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        let both = part.split_once(':');
+        let both = both.and_then(|(x, y)| Some([number(x)?, number(y)?]));
+        both.ok_or_else(|| format!("`{part}` is no point `X:Y`"))
+    };
+    parts(text).map(point).collect()
 }
 
 /// Computes the map and writes it; Ctrl-C leaves the points that are done.
@@ -118,13 +154,22 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             // A tree without copies has no such map at all, whatever the axes.
             let copies = arguments.pair.copies(&subject)?;
             let plane = &plane()?;
+            if arguments.modes {
+                normal_modes::check(plane)?;
+            }
+            let lines = arguments.tongues.iter().map(|line| plane.lines(line));
             let rates = Rates {
                 plane,
                 copies,
                 duration,
                 tolerance,
+                marked: arguments.mark.as_deref().unwrap_or_default(),
+                lines: lines.collect::<Result<Vec<_>, _>>()?.concat(),
+                with_modes: arguments.modes,
+                modes: Vec::new(),
+                tongues: Vec::new(),
             };
-            answer(job, plane, &rates)
+            answer(job, plane, rates)
         }
         Of::Flip => {
             let links = match &arguments.link {
@@ -137,14 +182,16 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
                 links,
                 duration,
                 tolerance,
+                marked: arguments.mark.as_deref().unwrap_or_default(),
+                excess: Vec::new(),
             };
-            answer(job, plane, &flips)
+            answer(job, plane, flips)
         }
     }
 }
 
 /// Answers a question at all points of the plane, and writes what was found.
-fn answer<Q: Question>(job: &Job, plane: &MapPlane<'_>, question: &Q) -> Result<(), Failure> {
+fn answer<Q: Question>(job: &Job, plane: &MapPlane<'_>, mut question: Q) -> Result<(), Failure> {
     let points = plane.points();
     let progress = job.progress(points.len());
     progress.begin("points of the map");
@@ -163,11 +210,12 @@ fn answer<Q: Question>(job: &Job, plane: &MapPlane<'_>, question: &Q) -> Result<
     if all == 0 {
         return Ok(());
     }
+    question.complete(job)?;
     job.print(&question.report(&found, all - found.len()))?;
     for (name, count) in question.record(&found) {
         job.report(name, count);
     }
-    write(job, plane, question, &found)?;
+    write(job, plane, &question, &found)?;
     match found.is_empty() || !plane.is_plane() {
         true => Ok(()),
         false => job.chart("map", &question.chart(&found)),

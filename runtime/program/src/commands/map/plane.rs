@@ -5,11 +5,13 @@ use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
 use branched_pendulum::system::State;
-use branched_pendulum_charts::{Axis, Chart, Panel, Series, verbatim};
+use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol, verbatim};
 use branched_pendulum_data::{Cell, Column};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
+use crate::frame::Job;
+use crate::frame::command_line::parts;
 use crate::subject::Subject;
 
 /// A quantity with the values that it takes along an axis.
@@ -17,37 +19,63 @@ use crate::subject::Subject;
 pub(super) struct AxisValues {
     pub(super) name: String,
     values: Vec<f64>,
+    /// True where neighbours have equal ratios.
+    by_ratio: bool,
 }
+
+/// Colour of marks, which is seen on dark blue and on yellow.
+const MARKED: Color = Color::rgb(250, 120, 200);
 
 /// Most values along an axis.
 const MOST_VALUES: f64 = 2000.0;
 
 impl AxisValues {
+    /// Reads `NAME=FROM:TO:STEP`, or `NAME=FROM:TO:xRATIO`.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "`{text}` is no axis: write `NAME=FROM:TO:STEP`, as in `parent=0:90:5`, with at \
-                 most {MOST_VALUES} steps"
+                "`{text}` is no axis: write `NAME=FROM:TO:STEP`, as in `parent=0:90:5`, or \
+                 `NAME=FROM:TO:xRATIO`, as in `mass=0.1:10:x1.2`, with at most {MOST_VALUES} steps"
             )
         };
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
         let (name, range) = text.split_once('=').ok_or_else(wrong)?;
-        let numbers: Vec<f64> = range
-            .split(':')
-            .map(|number| number.trim().parse().ok())
-            .collect::<Option<_>>()
-            .ok_or_else(wrong)?;
-        let [from, to, step] = *numbers else {
+        let parts: Vec<&str> = range.split(':').collect();
+        let [from, to, step] = *parts else {
             return Err(wrong());
         };
-        let steps = ((to - from) / step + 1e-9).floor();
-        if !(0.0..MOST_VALUES).contains(&steps) {
+        let (from, to) = (number(from)?, number(to)?);
+        let ratio = step.trim().strip_prefix('x');
+        let step = number(ratio.unwrap_or(step))?;
+        let by_ratio = ratio.is_some();
+        let steps = match by_ratio {
+            true => (to / from).ln() / step.ln(),
+            false => (to - from) / step,
+        };
+        let steps = (steps + 1e-9).floor();
+        if !(0.0..MOST_VALUES).contains(&steps) || by_ratio && from <= 0.0 {
             return Err(wrong());
         }
+        let value = |k: u32| match by_ratio {
+            true => from * step.powi(k as i32),
+            false => from + f64::from(k) * step,
+        };
         Ok(Self {
             name: name.trim().to_owned(),
-            values: (0..=steps as u32)
-                .map(|k| from + f64::from(k) * step)
-                .collect(),
+            values: (0..=steps as u32).map(value).collect(),
+            by_ratio,
+        })
+    }
+
+    /// Reads `NAME=VALUE,VALUE`.
+    pub(super) fn read_values(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}` is no `NAME=VALUE,VALUE`, as in `parent=20,40`");
+        let (name, values) = text.split_once('=').ok_or_else(wrong)?;
+        let values = parts(values).map(|value| value.parse().map_err(|_| wrong()));
+        Ok(Self {
+            name: name.trim().to_owned(),
+            values: values.collect::<Result<_, _>>()?,
+            by_ratio: false,
         })
     }
 }
@@ -60,6 +88,11 @@ enum Quantity {
 
 impl Quantity {
     fn of(subject: &Subject, axis: &AxisValues) -> Result<Self, Failure> {
+        if axis.name.contains('+') {
+            let links = axis.name.split('+');
+            let links = links.map(|name| subject.links_named(name.trim()));
+            return Ok(Self::Angles(links.collect::<Result<Vec<_>, _>>()?.concat()));
+        }
         let description = subject.tree.description();
         let is_parameter = description.parameters().any(|own| own == axis.name);
         match (is_parameter, subject.links_named(&axis.name)) {
@@ -132,6 +165,62 @@ impl<'a> MapPlane<'a> {
             .collect()
     }
 
+    /// Returns the lines across the plane on which the quantity of one axis has these values: the
+    /// points on each, along the other axis.
+    ///
+    /// # Errors
+    /// [`Failure::Lacking`] where no axis has the name.
+    pub(super) fn lines(&self, at: &AxisValues) -> Result<Vec<Vec<Point>>, Failure> {
+        let [x, y] = self.axes;
+        let values = at.values.iter();
+        if at.name == x.name {
+            let line = |&x: &f64| y.values.iter().map(|&y| [x, y]).collect();
+            Ok(values.map(line).collect())
+        } else if at.name == y.name {
+            let line = |&y: &f64| x.values.iter().map(|&x| [x, y]).collect();
+            Ok(values.map(line).collect())
+        } else {
+            Err(Failure::Lacking {
+                what: format!(
+                    "`{}` is on neither axis of the map: they are {} and {}",
+                    at.name, x.name, y.name
+                ),
+            })
+        }
+    }
+
+    /// Returns the names of the axes.
+    pub(super) fn names(&self) -> [&str; 2] {
+        self.axes.map(|axis| axis.name.as_str())
+    }
+
+    /// Returns a value of an axis with its unit.
+    pub(super) fn words(&self, axis: usize, value: f64) -> String {
+        match self.quantities[axis] {
+            Quantity::Parameter(_) => value.to_string(),
+            Quantity::Angles(_) => format!("{value}°"),
+        }
+    }
+
+    /// Returns the links whose angles the axes are; none where one is a parameter.
+    pub(super) fn links(&self) -> Option<[&[usize]; 2]> {
+        match &self.quantities {
+            [Quantity::Angles(x), Quantity::Angles(y)] => Some([x, y]),
+            _ => None,
+        }
+    }
+
+    /// Returns the largest magnitude along both axes.
+    pub(super) fn largest(&self) -> f64 {
+        let values = self.axes.iter().flat_map(|axis| &axis.values);
+        values.fold(0.0, |most, value| most.max(value.abs()))
+    }
+
+    /// Returns the numbers of columns and rows.
+    pub(super) fn size(&self) -> [usize; 2] {
+        self.axes.map(|axis| axis.values.len())
+    }
+
     /// Returns true where both quantities take more than one value.
     pub(super) fn is_plane(&self) -> bool {
         self.axes.iter().all(|axis| axis.values.len() > 1)
@@ -194,9 +283,20 @@ impl<'a> MapPlane<'a> {
 
     /// Returns a chart of the plane, whose panel `fill` gives its series.
     pub(super) fn chart(&self, title: &str, fill: impl FnOnce(Panel) -> Panel) -> Chart {
-        let panel = fill(Panel::new(Axis::linear(self.label(1))));
+        let [x, y] = [0, 1].map(|axis| {
+            let AxisValues {
+                values, by_ratio, ..
+            } = self.axes[axis];
+            let label = self.label(axis);
+            match (by_ratio, values.as_slice()) {
+                (true, _) => Axis::log(label),
+                (false, &[first, .., last]) => Axis::linear(label).range(first, last),
+                (false, _) => Axis::linear(label),
+            }
+        });
+        let panel = fill(Panel::new(y));
         let title = format!("{}: {title}", verbatim(&self.subject.name));
-        let chart = Chart::new(title, Axis::linear(self.label(0))).panel(panel);
+        let chart = Chart::new(title, x).panel(panel);
         chart.size(960.0, 720.0)
     }
 
@@ -223,6 +323,16 @@ pub(super) fn cells(label: String, points: &[Point]) -> Series {
     Series::cells(label, &x, &y)
 }
 
+/// Adds the points that a map marks to its panel.
+pub(super) fn marks(panel: Panel, points: &[Point]) -> Panel {
+    if points.is_empty() {
+        return panel;
+    }
+    let [x, y] = coordinates(points.iter().copied());
+    let marked = Series::points("marked", &x, &y).color(MARKED);
+    panel.series(marked.symbol(Symbol::Diamond))
+}
+
 fn coordinates(points: impl Iterator<Item = Point>) -> [Vec<f64>; 2] {
     let (x, y) = points.map(|[x, y]| (x, y)).unzip();
     [x, y]
@@ -240,6 +350,14 @@ pub(super) trait Question {
     /// # Errors
     /// [`Failure`].
     fn at(&self, points: &[Point]) -> Result<Vec<Option<Self::Answer>>, Failure>;
+
+    /// Finds what belongs to the map beside its points.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    fn complete(&mut self, _: &Job) -> Result<(), Failure> {
+        Ok(())
+    }
 
     /// Columns of an answer in the table.
     fn columns(&self) -> Vec<Column>;

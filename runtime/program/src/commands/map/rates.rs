@@ -1,14 +1,22 @@
 //! Growth rate of a small difference between copies at every point.
 
+use std::rc::Rc;
+
 use branched_pendulum::analysis::growth::{Grown, GrowthError};
 use branched_pendulum::analysis::variational::Copies;
-use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum_charts::{Axis, Chart};
+use branched_pendulum::system::State;
+use branched_pendulum_charts::{Axis, Chart, Color, Dash, Series};
 use branched_pendulum_data::{Cell, Column};
 
-use super::plane::{MapPlane, Point, Question, shaded};
+use super::normal_modes::{self, NormalMode};
+use super::plane::{MapPlane, Point, Question, marks, shaded};
+use super::tongues::{self, Tongue};
 use crate::Failure;
 use crate::commands::growth::Differences;
+use crate::frame::Job;
+
+/// Colours of lines that are seen on dark blue and on yellow.
+const LINES: [Color; 2] = [Color::rgb(225, 70, 60), Color::rgb(70, 200, 245)];
 
 /// Growth rates between which colours change, 1/s.
 const RATES: [f64; 2] = [0.01, 5.0];
@@ -20,28 +28,66 @@ pub(super) struct Rates<'a> {
     /// Time followed, s.
     pub(super) duration: f64,
     pub(super) tolerance: f64,
+    /// Points that the map marks.
+    pub(super) marked: &'a [Point],
+    /// Lines on which tongues are looked for.
+    pub(super) lines: Vec<Vec<Point>>,
+    pub(super) with_modes: bool,
+    pub(super) modes: Vec<NormalMode>,
+    pub(super) tongues: Vec<Tongue>,
 }
 
 impl Rates<'_> {
-    fn at_point(&self, point: &Point) -> Result<Option<Grown>, Failure> {
-        let tree = self.plane.tree_at(point)?;
-        let horizons = vec![self.duration];
-        let differences = Differences::new(&tree, &self.copies, horizons, self.tolerance)?;
-        match differences.along(&self.plane.start_at(point)) {
-            Ok(grown) => Ok(Some(grown)),
-            Err(Failure::Growth(GrowthError::Integration(_))) => Ok(None),
-            Err(failure) => Err(failure),
+    /// Returns the growth within a time at some points; none where the motion could not be
+    /// followed. Points with one tree are computed together.
+    pub(super) fn within(
+        &self,
+        duration: f64,
+        points: &[Point],
+    ) -> Result<Vec<Option<Grown>>, Failure> {
+        let trees = self.plane.trees_at(points)?;
+        let mut grown: Vec<Option<Grown>> = vec![None; points.len()];
+        let mut left: Vec<usize> = (0..points.len()).collect();
+        while let Some(&first) = left.first() {
+            let tree = &trees[first];
+            let (own, others) = left
+                .into_iter()
+                .partition(|&place| Rc::ptr_eq(&trees[place], tree));
+            left = others;
+            let differences = Differences::new(tree, &self.copies, vec![duration], self.tolerance)?;
+            let own: Vec<usize> = own;
+            let starts = own.iter().map(|&place| self.plane.start_at(&points[place]));
+            let starts: Vec<State<f64>> = starts.collect();
+            for (place, found) in own.into_iter().zip(differences.along(&starts)?) {
+                grown[place] = match found {
+                    Ok(found) => Some(found),
+                    Err(GrowthError::Integration(_)) => None,
+                    Err(error) => return Err(error.into()),
+                };
+            }
         }
+        Ok(grown)
     }
 }
 
 impl Question for Rates<'_> {
     type Answer = Grown;
-    const BLOCK: usize = 256;
+    const BLOCK: usize = 2048;
 
     fn at(&self, points: &[Point]) -> Result<Vec<Option<Grown>>, Failure> {
-        let grown = Ensemble::new().map(points, |_, point| self.at_point(point));
-        grown.into_iter().collect()
+        self.within(self.duration, points)
+    }
+
+    fn complete(&mut self, job: &Job) -> Result<(), Failure> {
+        if self.with_modes && !job.is_interrupted() {
+            self.modes = normal_modes::of(self.plane, &self.copies)?;
+        }
+        for line in &self.lines {
+            if !job.is_interrupted() {
+                self.tongues.extend(tongues::along(self, line)?);
+            }
+        }
+        Ok(())
     }
 
     fn columns(&self) -> Vec<Column> {
@@ -75,13 +121,15 @@ impl Question for Rates<'_> {
         };
         format!(
             "{}: {} points, {:.1} % with a growth rate below {} 1/s, {:.1} % with one above 1 1/s.\n\
-             At {} the two tolerances differ by more than 1 %{lost}.\n",
+             At {} the two tolerances differ by more than 1 %{lost}.\n{}{}",
             self.plane.subject.name,
             found.len(),
             share(&|rate| rate < RATES[0]),
             RATES[0],
             share(&|rate| rate > 1.0),
             open.count(),
+            normal_modes::text(&self.modes),
+            tongues::text(self),
         )
     }
 
@@ -96,9 +144,16 @@ impl Question for Rates<'_> {
         let rates: Vec<(Point, f64)> = rates.collect();
         let title = "growth rate of a difference between copies";
         let colors = Axis::log("growth rate (1/s)").range(RATES[0], RATES[1]);
-        let chart = self
-            .plane
-            .chart(title, |panel| panel.series(shaded(&rates)));
+        let chart = self.plane.chart(title, |panel| {
+            let panel = panel.series(shaded(&rates));
+            let modes = self.modes.iter().zip(LINES).enumerate();
+            let panel = modes.fold(panel, |panel, (number, (mode, color))| {
+                let [x, y] = mode.curve();
+                let label = format!("nonlinear normal mode f_{}", number + 1);
+                panel.series(Series::line(label, &x, &y).color(color).dash(Dash::Solid))
+            });
+            marks(panel, self.marked)
+        });
         chart.colors(colors)
     }
 }

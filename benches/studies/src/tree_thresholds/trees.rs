@@ -9,8 +9,8 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_data::{Cell, Column};
 
 use super::arguments::Arguments;
-use super::charts;
-use super::scene::{at_rest, first_sector};
+use super::chart;
+use branched_pendulum::system::TransverseOde;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
@@ -105,16 +105,29 @@ pub const MASSES: [f64; 3] = [0.25, 0.5, 1.0];
 /// Ratios of lengths.
 pub const LENGTHS: [f64; 3] = [0.5, 0.7, 1.0];
 
+/// The equations of differences of the first branching.
+fn first_branching<P: Transverse<f64>>(model: &P) -> Result<TransverseOde<&P>, Failure> {
+    TransverseOde::new(model, 0).ok_or(Failure::NoPair)
+}
+
+/// A release from rest, all rods but the root vertical, with a difference of one of all rods.
+fn at_rest<P: Transverse<f64>>(ode: &TransverseOde<&P>, model: &P, root: f64) -> State<f64> {
+    let mut angles = vec![0.0; model.links()];
+    angles[0] = root.to_radians();
+    angles.resize(model.links() + ode.sector().links, 1.0);
+    State::at_rest(0.0, &angles)
+}
+
 /// Releases from rest, the root at every angle and all others vertical, by ascending
 /// angle and not far beyond the threshold: above it motions are chaotic, and dear.
 fn along<P: Transverse<f64> + Sync>(
     model: &P,
     arguments: &Arguments,
 ) -> Result<Vec<Factor>, Failure> {
-    let ode = first_sector(model)?;
+    let ode = first_branching(model)?;
     let releases = arguments.angles_deg.iter();
     let releases: Vec<_> = releases
-        .map(|degrees| (ode, at_rest(model, *degrees, 0.0)))
+        .map(|degrees| (ode, at_rest(&ode, model, *degrees)))
         .collect();
     let frequency_hz = frequency_at_rest(&ode);
     let growth = Growth {
@@ -124,10 +137,7 @@ fn along<P: Transverse<f64> + Sync>(
     };
     let mut factors: Vec<Factor> = Vec::new();
     for block in releases.chunks(BLOCK) {
-        if factors
-            .iter()
-            .any(|(factor, _)| *factor >= level(arguments))
-        {
+        if factors.iter().any(|(factor, _)| *factor >= arguments.level) {
             break;
         }
         let grown = growth.in_lanes(&Ensemble::new(), block).into_iter();
@@ -140,21 +150,17 @@ fn along<P: Transverse<f64> + Sync>(
     Ok(factors)
 }
 
-/// The growth factor that makes a threshold.
-fn level(arguments: &Arguments) -> f64 {
-    arguments.levels.first().copied().unwrap_or(f64::INFINITY)
-}
-
-/// Finds the threshold of a tree: the first level of the command line.
+/// Finds the threshold of a tree.
 ///
 /// # Errors
 /// [`Failure`].
 pub fn threshold(rule: Rule, arguments: &Arguments) -> Result<Threshold, Failure> {
-    let level = level(arguments);
     let factors = factors(rule, arguments)?;
     let first_factor = factors.first().map_or(f64::NAN, |(factor, _)| *factor);
     let both = arguments.angles_deg.iter().zip(&factors);
-    let first = both.into_iter().find(|(_, (factor, _))| *factor >= level);
+    let first = both
+        .into_iter()
+        .find(|(_, (factor, _))| *factor >= arguments.level);
     Ok(Threshold {
         rule,
         angle_deg: first.map(|(angle, _)| *angle),
@@ -202,7 +208,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         found.any(|threshold| threshold.rule.length_ratio == *length)
     };
     if LENGTHS.iter().all(is_found) {
-        let chart = charts::thresholds(arguments, &thresholds);
+        let chart = chart::thresholds(arguments, &thresholds);
         job.chart("critical-angles", &chart)?;
     }
     let columns = [
@@ -236,7 +242,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 fn report(arguments: &Arguments, thresholds: &[Threshold]) -> String {
-    let level = level(arguments);
+    let level = arguments.level;
     let mut text = format!(
         "Smallest angle of the root, all others vertical, from which differences of the first\n\
          branching grow {level}-fold within {PERIODS} periods of theirs at rest\n\n\

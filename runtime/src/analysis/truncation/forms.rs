@@ -1,0 +1,151 @@
+//! What the errors of the forms of W are found from.
+
+use crate::model::Transfer;
+use crate::sectors::Sectors;
+use crate::system::{Ode, SymmetricCoordinates, Workspace};
+use crate::transfer::{Given, SymmetricTree, TransfersByForm};
+use crate::transfer_forms::{TransferForm, TransferForms};
+
+/// A tree with W in several forms, the exact one among them: compiled models that have
+/// [`TransferForms`], and any other tree as [`TreeForms`].
+///
+/// States are symmetric coordinates (rad) with their rates (rad/s) or momenta (kg m²/s).
+pub trait ComparedForms {
+    /// Returns the number of symmetric coordinates.
+    fn coordinates(&self) -> usize;
+
+    /// Returns the forms.
+    fn forms(&self) -> Vec<TransferForm>;
+
+    /// Returns the names of the sectors that W flows into.
+    fn receivers(&self) -> Vec<String>;
+
+    /// Returns the differences that truncated forms take for small.
+    fn small_differences(&self) -> Vec<SmallDifferences>;
+
+    /// Returns the motion, as coordinates followed by their rates.
+    fn motion(&self) -> impl Ode<f64>;
+
+    /// Returns a function that writes the momenta of coordinates and rates.
+    fn momenta(&self) -> impl FnMut([&[f64]; 2], &mut [f64]);
+
+    /// Returns a function that writes W (in W) into each receiver by the form of that number, at
+    /// coordinates and momenta.
+    fn transfers(&self) -> impl FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]);
+}
+
+/// Differences of one sector that truncated forms of W take for small.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SmallDifferences {
+    /// Name of the sector.
+    pub sector: String,
+    /// Indices of the sector's symmetric coordinates.
+    pub coordinates: Vec<usize>,
+}
+
+impl<M: TransferForms<f64>> ComparedForms for M {
+    fn coordinates(&self) -> usize {
+        self.links()
+    }
+
+    fn forms(&self) -> Vec<TransferForm> {
+        M::TRANSFER_FORMS.to_vec()
+    }
+
+    fn receivers(&self) -> Vec<String> {
+        M::RECEIVERS.iter().map(ToString::to_string).collect()
+    }
+
+    fn small_differences(&self) -> Vec<SmallDifferences> {
+        let sectors = M::SMALL_SECTORS.iter();
+        let small = sectors.map(|sector| SmallDifferences {
+            sector: sector.name.to_owned(),
+            coordinates: sector.coordinates.to_vec(),
+        });
+        small.collect()
+    }
+
+    fn motion(&self) -> impl Ode<f64> {
+        SymmetricCoordinates(self)
+    }
+
+    fn momenta(&self) -> impl FnMut([&[f64]; 2], &mut [f64]) {
+        |[coordinates, rates], momenta| self.symmetric_momenta_into(coordinates, rates, momenta)
+    }
+
+    fn transfers(&self) -> impl FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]) {
+        |form, [coordinates, momenta], transfers| {
+            self.transfers_into(form, coordinates, momenta, transfers);
+        }
+    }
+}
+
+/// Forms of W of a tree in numbers, without a compiler. All differences count as small.
+#[derive(Clone, Debug)]
+pub struct TreeForms<'a, O> {
+    /// The tree.
+    pub tree: &'a SymmetricTree<f64>,
+    /// The tree's motion in symmetric coordinates followed by their rates.
+    pub motion: O,
+    /// The forms, of orders up to 15.
+    pub forms: Vec<TransferForm>,
+}
+
+impl<O: Ode<f64>> ComparedForms for TreeForms<'_, O> {
+    fn coordinates(&self) -> usize {
+        self.tree.links()
+    }
+
+    fn forms(&self) -> Vec<TransferForm> {
+        self.forms.clone()
+    }
+
+    fn receivers(&self) -> Vec<String> {
+        let sectors = self.tree.sectors().iter().skip(1);
+        sectors.map(|sector| sector.name().to_owned()).collect()
+    }
+
+    fn small_differences(&self) -> Vec<SmallDifferences> {
+        let mut first = 0;
+        let all = self.tree.sectors().iter().map(|sector| {
+            let own = first..first + sector.coordinates().len();
+            first = own.end;
+            SmallDifferences {
+                sector: sector.name().to_owned(),
+                coordinates: own.collect(),
+            }
+        });
+        all.skip(1).collect()
+    }
+
+    fn motion(&self) -> impl Ode<f64> {
+        &self.motion
+    }
+
+    fn momenta(&self) -> impl FnMut([&[f64]; 2], &mut [f64]) {
+        let mut workspace = Workspace::new();
+        move |[coordinates, rates], momenta| {
+            let given = Given::Rates { coordinates, rates };
+            self.tree.momenta(&mut workspace, given, momenta);
+        }
+    }
+
+    fn transfers(&self) -> impl FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]) {
+        let forms = self.forms.iter();
+        let mut forms: Vec<Option<TransfersByForm<'_, f64>>> =
+            forms.map(|form| self.tree.by_form(*form)).collect();
+        let mut all = vec![Transfer::default(); self.tree.sectors().len()];
+        move |form, state, transfers| match forms.get_mut(form) {
+            Some(Some(own)) => {
+                own.transfers(state, &mut all);
+                for (into, found) in transfers.iter_mut().zip(&all[1..]) {
+                    *into = *found;
+                }
+            }
+            _ => transfers.fill(Transfer {
+                kinetic: f64::NAN,
+                potential: f64::NAN,
+            }),
+        }
+    }
+}
