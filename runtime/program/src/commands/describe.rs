@@ -102,7 +102,7 @@ fn links(subject: &Subject) -> String {
 fn between(tree: &PendulumTree) -> String {
     let mut text = String::new();
     let name = |link: usize| tree.names().get(link).map_or("", String::as_str);
-    for (place, own) in tree.spring_dampers().list().iter().enumerate() {
+    for (place, own) in tree.spring_dampers().iter().enumerate() {
         if place == 0 {
             text.push_str("\nbetween links\n");
         }
