@@ -158,7 +158,7 @@ fn the_energy_is_balanced_along_a_run() {
         coulomb: 0.0,
         quadratic: 0.0,
     };
-    let [mut viscous, mut coulomb, mut quadratic, mut all] = [(); 4].map(|()| none.clone());
+    let [mut viscous, mut coulomb, mut quadratic, mut all] = [none; 4];
     viscous.viscous = 2e-3;
     coulomb.coulomb = 4e-3;
     (quadratic.quadratic, quadratic.spring) = (1e-3, 0.0);
