@@ -1,0 +1,65 @@
+//! Texts of descriptions: any text gives a tree that can be computed, or mistakes with their
+//! places.
+
+#![no_main]
+
+use branched_pendulum::prelude::*;
+use branched_pendulum_trees::TreeDescription;
+use libfuzzer_sys::{Corpus, fuzz_target};
+
+/// Larger trees are as slow as they are large, and no other code.
+const LINKS: usize = 100;
+
+/// The value of all parameters.
+const VALUE: f64 = 0.3;
+
+fuzz_target!(|bytes: &[u8]| -> Corpus {
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return Corpus::Reject;
+    };
+    match TreeDescription::parse(text) {
+        Ok(description) => compute(&description),
+        Err(error) => {
+            let lines = text.lines().count().max(1);
+            assert!(!error.mistakes().is_empty());
+            assert!(error.to_string().starts_with("error: "));
+            for mistake in error.mistakes() {
+                assert!((1..=lines + 1).contains(&mistake.line));
+                assert!(!mistake.message.is_empty() && !mistake.help.is_empty());
+            }
+        }
+    }
+    Corpus::Keep
+});
+
+/// What a program asks of a description that it was handed.
+fn compute(description: &TreeDescription) {
+    let names: Vec<String> = description.parameters().map(str::to_owned).collect();
+    for name in &names {
+        assert!(description.parameter_use(name).is_some());
+    }
+    let links = description.links().len();
+    if links > LINKS {
+        return;
+    }
+    assert_eq!(description.parents().len(), links);
+    let in_nodes = description.nodes().into_iter().map(|node| node.links.len());
+    assert_eq!(in_nodes.sum::<usize>(), links);
+    let values: Vec<(&str, f64)> = names.iter().map(|name| (&**name, VALUE)).collect();
+    let tree = match description.tree::<f64>(&values) {
+        Ok(tree) => tree,
+        Err(error) => return assert!(!error.to_string().is_empty()),
+    };
+    assert_eq!(tree.names().len(), tree.links());
+    let angles = vec![0.1; tree.links()];
+    let alpha = tree.accelerations(0.2, &angles, &angles);
+    assert_eq!(alpha.len(), tree.links());
+    assert!(alpha.iter().all(|alpha| alpha.is_finite()), "{alpha:?}");
+    assert!(tree.energy_of(&angles, &angles).is_finite());
+    if let Ok(symmetric) = tree.symmetric() {
+        drop(symmetric);
+    }
+    for name in tree.observable_names() {
+        assert!(tree.observable(name).is_ok());
+    }
+}
