@@ -5,8 +5,9 @@ use core::marker::PhantomData;
 
 use super::super::evaluate::accelerations as one_state;
 use super::super::small::LinkStates;
+use super::super::states::{self, ActingOnStates};
 use super::super::sweep::SweepKernel;
-use super::super::{LinkEquations, Tree, states};
+use super::super::{LinkEquations, Tree};
 use super::equations::{ALL, MIXED, any, by_generation, by_link, links};
 use super::{accelerations, drive, motion};
 use crate::scalar::{InstructionSet, Lane, Real, Scalar};
@@ -55,9 +56,13 @@ impl<E: LinkEquations, T: Lane> Kernel<T> for States<'_, E, T> {
             *offset = T::from_f64(0.01 * lane as f64);
         }
         let offsets = V::load_front(&offsets);
+        let acting = ActingOnStates {
+            drive: Some(drive.map(V::splat)),
+            torques: &[],
+        };
         states::accelerations::<E, T, V>(
             &tree.skeleton,
-            Some(drive.map(V::splat)),
+            acting,
             &mut room,
             |link| V::splat(theta[link]) + offsets,
             |link| V::splat(omega[link]),

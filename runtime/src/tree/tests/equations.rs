@@ -10,6 +10,7 @@ use super::super::skeleton::Skeleton;
 use super::super::{LinkEquations, LinkMotion, Tree};
 use super::numbers;
 use crate::scalar::Scalar;
+use crate::spring_dampers::SpringDampers;
 
 /// Copies of each generation, of trees that one set of compiled equations serves: those that
 /// it is compiled for come last. Numbers of siblings below, at and above the lanes of every
@@ -309,6 +310,7 @@ pub(super) fn by_generation<T: Scalar, const PLACE: usize>(
     let sizes = Sizes::of::<CommonPivot<PLACE>, T>();
     Tree {
         skeleton: Skeleton::by_generation(copies, sizes, rows.collect(), root, 1),
+        spring_dampers: SpringDampers::default(),
         equations: PhantomData,
     }
 }
