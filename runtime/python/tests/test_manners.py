@@ -35,7 +35,7 @@ LONG = {
     "lyapunov": "tree.lyapunov(y, intervals=10**8)",
     "growth": "tree.growth(np.tile(y * [1, 0, 0, 0, 0, 0], (200, 1)), ('child_1', 'child_2'), [2e4])",
     "advice": "tree.advise(y, np.linspace(0, 1e5, 2001))",
-    "a budget": "big.budget(np.ones((1000, 2 * len(big))))",
+    "a budget": "big.budget(np.ones((5000, 2 * len(big))))",
     "a stepper": "tree.stepper(y, max_steps=10**12).advance(1e7)",
     "a stepper under torques": "tree.stepper(y, torques=lambda t, y: -1e-3 * y[3:], max_steps=10**12).advance(1e7)",
     "smooth": "tree.smooth(np.arange(0, 900, 1 / 240), noisy[:216000], method='equations')",
