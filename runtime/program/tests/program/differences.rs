@@ -44,7 +44,7 @@ fn windows_without_friction_and_with_quality_factors() {
     }
     // The ideal pendulum grows more than tenfold at both, with friction at neither.
     assert!(
-        text.contains("G = 10 lies between 47.6° and 47.8° within one of these times of: no tree"),
+        text.contains("G = 10 lies between 47.6° and 47.8° within none of these times"),
         "{text}"
     );
     has_charts(&folder, "growth");

@@ -116,13 +116,13 @@ impl Report<'_> {
             };
             let labels = self.scans.iter().filter(lies_between);
             let labels: Vec<&str> = labels.map(|scan| scan.label.as_str()).collect();
-            let with = match labels.is_empty() {
-                true => "no tree".to_owned(),
-                false => labels.join("; "),
+            let within = match labels.is_empty() {
+                true => "none of these times".to_owned(),
+                false => format!("one of these times of: {}", labels.join("; ")),
             };
             let _ = writeln!(
                 text,
-                "G = {level} lies between {}° and {}° within one of these times of: {with}",
+                "G = {level} lies between {}° and {}° within {within}",
                 marks[one], marks[other]
             );
         }
