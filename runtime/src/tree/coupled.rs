@@ -80,7 +80,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         );
     }
 
-    /// Tells the accelerations of states in the lanes of `V` under all that acts; of none where
+    /// Hands over the accelerations of states in the lanes of `V` under all that acts; of none where
     /// the room is too small.
     #[inline(always)]
     pub(super) fn accelerate_states<V: Simd<T>>(

@@ -68,7 +68,7 @@ pub(super) struct ActingOnStates<'a, V> {
     pub(super) torques: &'a [V],
 }
 
-/// Tells the accelerations of all links, in any order, of states in the lanes of `V`;
+/// Hands over the accelerations of all links, in any order, of states in the lanes of `V`;
 /// of none where the room is too small. What comes from `outside` to a link is its torque
 /// or given acceleration, and 1 where it is held.
 #[inline(always)]
