@@ -28,6 +28,11 @@ use crate::system::{Ode, Workspace};
 /// let system = InPhaseOde::new(AbsoluteAngles(&model), &BranchedDouble::<f64>::SECTORS[0]);
 /// assert_eq!(system.dimension(), 4);
 /// assert_eq!(system.angles(&[0.8, 0.3]), [0.8, 0.3, 0.3]);
+///
+/// // A state of another length has no rates.
+/// let mut rates = [0.0; 3];
+/// system.rates(0.0, &[0.8, 0.3, 0.0], &mut rates);
+/// assert!(rates.iter().all(|rate| rate.is_nan()));
 /// ```
 #[derive(Clone, Debug)]
 pub struct InPhaseOde<L> {
@@ -37,7 +42,7 @@ pub struct InPhaseOde<L> {
 
 impl<L: Ode<f64>> InPhaseOde<L> {
     /// Returns the system of angles followed by their rates, in the coordinates of the sector of
-    /// the means.
+    /// the means. With states of another length, and a sector of another tree, all rates are NaN.
     pub fn new(system: L, in_phase: &Sector) -> Self {
         Self {
             system,
@@ -54,20 +59,23 @@ impl<L: Ode<f64>> InPhaseOde<L> {
 
     fn write_links(&self, coordinates: &[f64], links: &mut [f64]) {
         for (own, value) in self.coordinates.iter().zip(coordinates) {
-            for &(link, weight) in own.weights() {
-                if let Some(place) = links.get_mut(link) {
-                    *place = weight * value;
-                }
-            }
+            own.write(*value, links);
         }
+    }
+
+    /// Returns true if slices of these lengths are states, and the sector is one of the system's.
+    fn fits(&self, lengths: [usize; 2]) -> bool {
+        let links = self.system.dimension() / 2;
+        let mut weights = self.coordinates.iter().flat_map(|own| own.weights());
+        lengths == [2 * self.coordinates.len(); 2] && weights.all(|(link, _)| *link < links)
     }
 
     /// Writes a state, or a deviation, of all links.
     fn write_whole(&self, state: &[f64], whole: &mut [f64]) {
-        let (own, links) = (self.coordinates.len().min(state.len()), whole.len() / 2);
-        let (angles, rates) = whole.split_at_mut(links);
-        self.write_links(&state[..own], angles);
-        self.write_links(&state[own..], rates);
+        let (angles, rates) = whole.split_at_mut(whole.len() / 2);
+        let (own, own_rates) = state.split_at(self.coordinates.len());
+        self.write_links(own, angles);
+        self.write_links(own_rates, rates);
     }
 
     /// Writes what coordinates have of the rates of all links.
@@ -97,6 +105,10 @@ impl<L: Ode<f64>> Ode<f64> for InPhaseOde<L> {
         state: &[f64],
         rates: &mut [f64],
     ) {
+        if !self.fits([state.len(), rates.len()]) {
+            rates.fill(f64::NAN);
+            return;
+        }
         let dimension = self.system.dimension();
         let (numbers, inner) = workspace.with_inner(2 * dimension);
         let (whole, whole_rates) = numbers.split_at_mut(dimension);
@@ -116,6 +128,12 @@ impl<L: Linearised<f64>> Linearised<f64> for InPhaseOde<L> {
         rates: &mut [f64],
         deviation_rates: &mut [f64],
     ) {
+        let lengths = [state, deviation].map(<[f64]>::len);
+        if !(self.fits(lengths) && self.fits([rates.len(), deviation_rates.len()])) {
+            rates.fill(f64::NAN);
+            deviation_rates.fill(f64::NAN);
+            return;
+        }
         let dimension = self.system.dimension();
         let (numbers, inner) = workspace.with_inner(4 * dimension);
         let (given, found) = numbers.split_at_mut(2 * dimension);

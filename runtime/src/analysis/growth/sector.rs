@@ -73,9 +73,7 @@ impl<L: Linearised<f64>> SectorDifferences<L> {
         let (to_angles, to_rates) = deviation.split_at_mut(self.links());
         for (range, links) in [(angles, to_angles), (rates, to_rates)] {
             for (coordinate, difference) in self.coordinates.iter().zip(&state[range]) {
-                for &(link, weight) in coordinate.weights() {
-                    links[link] = weight * difference;
-                }
+                coordinate.write(*difference, links);
             }
         }
     }
