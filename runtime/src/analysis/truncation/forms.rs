@@ -20,8 +20,8 @@ pub trait ComparedForms {
     /// Returns the names of the sectors that W flows into.
     fn receivers(&self) -> Vec<String>;
 
-    /// Returns the differences that truncated forms take for small.
-    fn small_differences(&self) -> Vec<SmallDifferences>;
+    /// Returns the sectors whose differences truncated forms take for small.
+    fn truncated_sectors(&self) -> Vec<TruncatedSector>;
 
     /// Returns the motion, as coordinates followed by their rates.
     fn motion(&self) -> impl Ode<f64>;
@@ -34,9 +34,9 @@ pub trait ComparedForms {
     fn transfers(&self) -> impl FnMut(usize, [&[f64]; 2], &mut [Transfer<f64>]);
 }
 
-/// Differences of one sector that truncated forms of W take for small.
+/// A sector whose differences truncated forms of W take for small.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SmallDifferences {
+pub struct TruncatedSector {
     /// Name of the sector.
     pub sector: String,
     /// Indices of the sector's symmetric coordinates.
@@ -56,9 +56,9 @@ impl<M: TransferForms<f64>> ComparedForms for M {
         M::RECEIVERS.iter().map(ToString::to_string).collect()
     }
 
-    fn small_differences(&self) -> Vec<SmallDifferences> {
+    fn truncated_sectors(&self) -> Vec<TruncatedSector> {
         let sectors = M::SMALL_SECTORS.iter();
-        let small = sectors.map(|sector| SmallDifferences {
+        let small = sectors.map(|sector| TruncatedSector {
             sector: sector.name.to_owned(),
             coordinates: sector.coordinates.to_vec(),
         });
@@ -105,12 +105,12 @@ impl<O: Ode<f64>> ComparedForms for TreeForms<'_, O> {
         sectors.map(|sector| sector.name().to_owned()).collect()
     }
 
-    fn small_differences(&self) -> Vec<SmallDifferences> {
+    fn truncated_sectors(&self) -> Vec<TruncatedSector> {
         let mut first = 0;
         let all = self.tree.sectors().iter().map(|sector| {
             let own = first..first + sector.coordinates().len();
             first = own.end;
-            SmallDifferences {
+            TruncatedSector {
                 sector: sector.name().to_owned(),
                 coordinates: own.collect(),
             }

@@ -65,7 +65,7 @@ mod trajectories;
 pub use background::Background;
 pub use curve::{ErrorCurve, ErrorPoint, LevelCrossing};
 pub use error::TruncationError;
-pub use forms::{ComparedForms, SmallDifferences, TreeForms};
+pub use forms::{ComparedForms, TreeForms, TruncatedSector};
 pub use motion::{amplitude, sector_frequencies};
 pub use phase_average::{CanonicalState, PhaseAverage};
 pub use trajectories::AlongTrajectories;
@@ -81,7 +81,7 @@ pub fn logarithmic([low, high]: [f64; 2], count: usize) -> Vec<f64> {
 
 /// Indices of the coordinates that are small differences.
 fn small_coordinates(model: &impl ComparedForms) -> Vec<usize> {
-    let indices = model.small_differences().into_iter();
+    let indices = model.truncated_sectors().into_iter();
     let indices = indices.flat_map(|small| small.coordinates);
     indices
         .filter(|&index| index < model.coordinates())

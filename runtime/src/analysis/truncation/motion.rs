@@ -1,7 +1,7 @@
 //! Amplitudes of small differences, and all forms of W at a state.
 
 use super::error::TruncationError;
-use super::forms::{ComparedForms, SmallDifferences};
+use super::forms::{ComparedForms, TruncatedSector};
 use crate::model::Transfer;
 use crate::system::{Ode, Workspace};
 use crate::transfer_forms::TransferForm;
@@ -10,7 +10,7 @@ use crate::transfer_forms::TransferForm;
 /// code keeps the digits of small differences, and their cubes are lost.
 const SMALL: f64 = 1e-5;
 
-/// Angular frequency Ω of the [differences](ComparedForms::small_differences) of each sector, in
+/// Angular frequency Ω of the [differences](ComparedForms::truncated_sectors) of each sector, in
 /// rad/s: the root of the mean square over its linear modes about the hanging tree, at
 /// the time zero. Ω² is −tr(∂q̈/∂q)/n over the sector's n differences, by central
 /// differences.
@@ -23,10 +23,10 @@ pub fn sector_frequencies(model: &impl ComparedForms) -> Result<Vec<f64>, Trunca
     let (motion, mut workspace) = (model.motion(), Workspace::new());
     let (mut state, mut state_rates) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
     let mut frequencies = Vec::new();
-    for SmallDifferences {
+    for TruncatedSector {
         sector,
         coordinates,
-    } in model.small_differences()
+    } in model.truncated_sectors()
     {
         let mut sum = 0.0;
         for &index in &coordinates {
@@ -54,7 +54,7 @@ pub fn sector_frequencies(model: &impl ComparedForms) -> Result<Vec<f64>, Trunca
 /// Coordinates that the slices lack count as zero.
 #[must_use]
 pub fn amplitude(
-    small: &[SmallDifferences],
+    small: &[TruncatedSector],
     frequencies: &[f64],
     coordinates: &[f64],
     rates: &[f64],

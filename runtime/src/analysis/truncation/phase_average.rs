@@ -99,7 +99,7 @@ impl PhaseAverage {
         check_bounds("bounds of the angles", n, angles)?;
         check_bounds("bounds of the rates", n, rates)?;
         let frequencies = sector_frequencies(model)?;
-        let (small, sectors) = (small_coordinates(model), model.small_differences());
+        let (small, sectors) = (small_coordinates(model), model.truncated_sectors());
         let mut random = Random::new(self.seed);
         let mut states = Vec::with_capacity(2 * n * self.states);
         for _ in 0..self.states {

@@ -71,7 +71,7 @@ impl AlongTrajectories {
             ..Options::with_tolerance(1e-12)
         };
         let method = Verner98::new(options);
-        let (sectors, small) = (model.small_differences(), small_coordinates(model));
+        let (sectors, small) = (model.truncated_sectors(), small_coordinates(model));
         let motions = Ensemble::new().map(&self.disturbances, |_, &disturbance| {
             let (mut powers, motion) = (Powers::new(model)?, model.motion());
             let mut bins = vec![empty.clone(); self.bins];
