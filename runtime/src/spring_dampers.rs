@@ -64,12 +64,12 @@ impl<T: Scalar> SpringDamper<T> {
 
 /// Spring-dampers of the same constants side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Run<T> {
+struct SpringDamperRun<T> {
     first: SpringDamper<T>,
     count: usize,
 }
 
-impl<T: Scalar> Run<T> {
+impl<T: Scalar> SpringDamperRun<T> {
     /// Returns true if all links are among so many, and none is on both sides or there twice.
     fn fits(&self, links: usize) -> bool {
         let [a, b] = self.first.links;
@@ -118,7 +118,7 @@ impl<T: Scalar> Run<T> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDampers<T> {
     links: usize,
-    runs: Vec<Run<T>>,
+    runs: Vec<SpringDamperRun<T>>,
 }
 
 /// None between no links.
@@ -162,8 +162,10 @@ impl<T: Scalar> SpringDampers<T> {
         links: usize,
         runs: impl IntoIterator<Item = (SpringDamper<T>, usize)>,
     ) -> Option<Self> {
-        let runs = runs.into_iter().map(|(first, count)| Run { first, count });
-        let runs: Vec<Run<T>> = runs.collect();
+        let runs = runs
+            .into_iter()
+            .map(|(first, count)| SpringDamperRun { first, count });
+        let runs: Vec<SpringDamperRun<T>> = runs.collect();
         let fit = runs.iter().all(|run| run.fits(links));
         fit.then_some(Self { links, runs })
     }
@@ -172,7 +174,7 @@ impl<T: Scalar> SpringDampers<T> {
     /// not their value.
     #[must_use]
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SpringDampers<S> {
-        let runs = self.runs.iter().map(|run| Run {
+        let runs = self.runs.iter().map(|run| SpringDamperRun {
             first: run.first.map(&convert),
             count: run.count,
         });

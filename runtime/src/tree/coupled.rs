@@ -1,7 +1,7 @@
 //! Accelerations with springs and friction between links that are not parent and child.
 //!
-//! They are torques that are known from angles and rates, as those from outside are: the
-//! recursion takes both alike.
+//! Angles and rates give their torques before the recursion, which takes them and those from
+//! outside alike.
 
 use super::evaluate::{InBlocks, InOnePiece};
 use super::memory::take;
