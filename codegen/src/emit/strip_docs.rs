@@ -34,11 +34,14 @@ impl Emission<'_> {
             ],
         };
         let between = self.scene.spring_dampers.iter();
+        let between = between.filter(|own| !self.scene.pair_runs(&own.ends).is_empty());
         let between: Vec<String> = between.map(|own| format!("`{}`", own.what)).collect();
-        if self.scene.is_coupled() {
+        if !between.is_empty() {
             lines.push(String::new());
             lines.push(format!(
-                "The torques of {} come as torques from outside do.",
+                "Between two links {} has the torque −k (θ_a − θ_b − ρ) − (c + C/s + q s) w on a and its \
+                 opposite on b, with the spring k, its rest ρ, friction c, C and q, \
+                 w = ω_a − ω_b and s = √(w² + ε²). These torques are among the Q.",
                 between.join(", ")
             ));
         }
