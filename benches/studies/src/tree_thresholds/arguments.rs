@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_name = "G", default_value = "10", value_parser = number(1.1..=1e12, ""))]
     pub level: f64,
     /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are told
+    /// hundredth of it, whose values are reported
     #[arg(
         verbatim_doc_comment,
         long,

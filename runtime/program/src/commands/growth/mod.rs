@@ -83,7 +83,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DEG[,DEG]...", value_parser = numbers(0.0..=180.0, "degrees"))]
     mark: Option<::std::vec::Vec<f64>>,
     /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are told
+    /// hundredth of it, whose values are reported
     #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-9", value_parser = number(1e-12..=1e-3, ""))]
     tolerance: f64,
 }

@@ -83,7 +83,7 @@ pub struct Arguments {
     #[arg(long, value_name = "S", default_value = "15", value_parser = number(1.0..=1000.0, "s"))]
     duration: f64,
     /// relative error of one integration step, 1e-12 to 1e-3; all is repeated with a
-    /// hundredth of it, whose values are told
+    /// hundredth of it, whose values are reported
     #[arg(verbatim_doc_comment, long, value_name = "TOL", default_value = "1e-8", value_parser = number(1e-12..=1e-3, ""))]
     tolerance: f64,
 }
