@@ -72,8 +72,7 @@ impl SectorCoordinate {
 
     /// Writes weight · `value` to the links in which the coordinate shows: what all of them have
     /// where the other coordinates are zero. Links that `links` lacks are left out.
-    #[inline]
-    pub(crate) fn write(&self, value: f64, links: &mut [f64]) {
+    pub fn write(&self, value: f64, links: &mut [f64]) {
         for &(link, weight) in self.weights() {
             if let Some(place) = links.get_mut(link) {
                 *place = weight * value;
