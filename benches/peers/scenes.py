@@ -27,6 +27,23 @@ def tree(generations):
     return links
 
 
+def relative(links, absolute):
+    """Angles of links against their parents, of absolute ones; link by link."""
+    parents = [link[0] for link in links]
+    return np.array(
+        [x if p is None else x - absolute[p] for x, p in zip(absolute, parents)]
+    )
+
+
+def absolute(links, relative):
+    """Absolute angles of links, of those against their parents; link by link."""
+    found = relative.copy()
+    for i, link in enumerate(links):
+        if link[0] is not None:
+            found[i] += found[link[0]]
+    return found
+
+
 def constants(links):
     """Couplings A_ij and weights G_i: docs/physics.md, section 1."""
     n = len(links)

@@ -5,7 +5,6 @@ import ctypes
 import glob
 import os
 import statistics
-import subprocess
 import tempfile
 import time
 
@@ -13,7 +12,8 @@ import casadi as ca
 import mujoco
 import numpy as np
 
-from scenes import GRAVITY, NUMBERS, constants, dense, eliminated, paper, tree
+from native import build, pointer
+from scenes import GRAVITY, NUMBERS, absolute, dense, eliminated, paper, relative, tree
 
 REPEATS = 51
 
@@ -43,17 +43,6 @@ void run_mujoco(Forward f, const void *model, void *data, long states, long n,
     }
 }
 """
-
-
-def build(folder, name, flags=("-O3", "-march=native")):
-    """A shared library from a C file, by the system's compiler."""
-    source, library = (os.path.join(folder, f"{name}.{end}") for end in ("c", "so"))
-    subprocess.run(["cc", *flags, "-shared", "-fPIC", source, "-o", library, "-lm"], check=True)
-    return ctypes.CDLL(library)
-
-
-def pointer(array):
-    return ctypes.c_void_p(array.ctypes.data)
 
 
 def median_ns(function, states, repeats=REPEATS):
@@ -114,7 +103,7 @@ def casadi_ns(function, theta, omega, expected, folder, driver):
     os.chdir(folder)
     function.generate(f"{name}.c")
     os.chdir(here)
-    compiled = build(folder, name).f
+    compiled = build(folder, f"{name}.c").f
     iw = np.zeros(max(1, function.sz_iw()), dtype=np.int64)
     w = np.zeros(max(1, function.sz_w()))
     angles, rates = np.ascontiguousarray(theta.T), np.ascontiguousarray(omega.T)
@@ -150,13 +139,6 @@ def mujoco_model(links):
     )
 
 
-def relative(links, absolute):
-    parents = [link[0] for link in links]
-    return np.array(
-        [x if p is None else x - absolute[p] for x, p in zip(absolute, parents)]
-    )
-
-
 def mujoco_ns(links, theta, omega, expected, driver):
     """`mj_forward`, contacts and constraints off."""
     model = mujoco_model(links)
@@ -172,11 +154,7 @@ def mujoco_ns(links, theta, omega, expected, driver):
     count = (ctypes.c_long(states), ctypes.c_long(n))
     run = lambda: driver.run_mujoco(forward, *addresses, *count, *arguments)
     run()
-    absolute = found.T.copy()
-    for i, link in enumerate(links):
-        if link[0] is not None:
-            absolute[i] += absolute[link[0]]
-    check(absolute, expected)
+    check(absolute(links, found.T), expected)
     return median_ns(run, states)
 
 
@@ -195,7 +173,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "driver.c"), "w") as file:
             file.write(DRIVER)
-        driver = build(folder, "driver")
+        driver = build(folder, "driver.c")
         for links, in_symbols in scenes:
             n = len(links)
             states = (NUMBERS // n + 15) // 16 * 16

@@ -20,3 +20,11 @@ pub struct BranchedDouble;
     emit(taylor),
 )]
 pub struct Rods;
+
+/// Thirty-one rods.
+#[branched_pendulum(
+    gravity = 9.80665,
+    rod: generations(count = 5, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.7),
+)]
+pub struct ThirtyOneRods;

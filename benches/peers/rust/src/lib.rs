@@ -1,5 +1,5 @@
-//! What comparisons with other crates share: our trees as emitted code, the motions of the studies
-//! and their references.
+//! What comparisons with other tools share: our trees as emitted code, the motions of the studies
+//! and their references, and our accelerations for programs in C.
 
 #[rustfmt::skip]
 #[path = "../expanded.rs"]
@@ -7,3 +7,70 @@ pub mod scenes;
 #[path = "../../../studies/src/integration_speed/measure.rs"]
 pub mod measure;
 pub mod work_precision;
+
+use std::slice;
+
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Double;
+use scenes::{BranchedDouble, Rods, ThirtyOneRods};
+
+/// Accelerations of states one after the other.
+fn each<P: Pendulum<f64>>(model: &P, given: [&[f64]; 2], alpha: &mut [f64]) {
+    let n = model.links();
+    let [theta, omega] = given.map(|values| values.chunks_exact(n));
+    for ((theta, omega), alpha) in theta.zip(omega).zip(alpha.chunks_exact_mut(n)) {
+        model.accelerations_into(0.0, theta, omega, alpha);
+    }
+}
+
+/// The same in numbers of 31 digits, rounded.
+fn each_exactly<P: Pendulum<Double>>(model: &P, given: [&[f64]; 2], alpha: &mut [f64]) {
+    let n = model.links();
+    let wide =
+        |values: &[f64]| -> Vec<Double> { values.iter().copied().map(Double::from_f64).collect() };
+    let [theta, omega] = given.map(|values| values.chunks_exact(n));
+    let mut exact = vec![Double::from_f64(0.0); n];
+    for ((theta, omega), alpha) in theta.zip(omega).zip(alpha.chunks_exact_mut(n)) {
+        model.accelerations_into(
+            Double::from_f64(0.0),
+            &wide(theta),
+            &wide(omega),
+            &mut exact,
+        );
+        for (alpha, exact) in alpha.iter_mut().zip(&exact) {
+            *alpha = exact.high();
+        }
+    }
+}
+
+/// Accelerations (rad/s²) of our tree of so many links for `states` states, each with its absolute
+/// angles (rad) and velocities (rad/s) behind those of the one before. Returns 0, or 1 for a number
+/// of links that no tree here has.
+///
+/// # Safety
+/// The three arrays have `states * links` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn accelerations(
+    links: usize,
+    states: usize,
+    theta: *const f64,
+    omega: *const f64,
+    alpha: *mut f64,
+    is_exact: bool,
+) -> i32 {
+    let numbers = links * states;
+    let (given, alpha) = unsafe {
+        let given = [theta, omega].map(|values| slice::from_raw_parts(values, numbers));
+        (given, slice::from_raw_parts_mut(alpha, numbers))
+    };
+    match (links, is_exact) {
+        (3, false) => each(&BranchedDouble::new(), given, alpha),
+        (7, false) => each(&Rods::new(), given, alpha),
+        (31, false) => each(&ThirtyOneRods::new(), given, alpha),
+        (3, true) => each_exactly(&BranchedDouble::<Double>::default(), given, alpha),
+        (7, true) => each_exactly(&Rods::<Double>::default(), given, alpha),
+        (31, true) => each_exactly(&ThirtyOneRods::<Double>::default(), given, alpha),
+        _ => return 1,
+    }
+    0
+}
