@@ -15,6 +15,9 @@
 //! compared up to there, and beyond a quantity that is kept, or means. The advice says
 //! which.
 //!
+//! Where the model is settled, [`WorkPrecision`] has error against time for every method on one motion, and
+//! [`KnownEnd`] where it ends.
+//!
 //! # Examples
 //!
 //! ```
@@ -70,6 +73,7 @@ mod search;
 mod tree;
 mod truth;
 mod wanted;
+mod work_precision;
 
 pub use advisor::Advisor;
 pub use candidate::{Candidate, CandidateName, SettingRange, Visit};
@@ -82,3 +86,4 @@ pub use report::{Advice, Followed};
 #[cfg(feature = "trees")]
 pub use tree::{TreeOutput, TreeScene, UnknownOutput};
 pub use wanted::Wanted;
+pub use work_precision::{KnownEnd, MethodRun, WorkPrecision};

@@ -2,7 +2,6 @@
 
 use branched_pendulum::integrate::{AnyIntegrator, Report};
 use branched_pendulum::prelude::*;
-use branched_pendulum::system::RatesOnly;
 
 use crate::Failure;
 use crate::frame::command_line::number;
@@ -11,7 +10,7 @@ use crate::subject::Subject;
 /// Options that say how motions are integrated.
 #[derive(Clone, Debug, clap::Args, PartialEq)]
 pub struct MethodArguments {
-    /// method: dop853, dopri5, verner98, rk4, gauss2, gauss4, gauss6, gauss8 or animation
+    /// method: dop853, dopri5, verner98, taylor, rk4, gauss2, gauss4, gauss6, gauss8 or animation
     #[arg(long, value_name = "METHOD", default_value = "dop853")]
     pub method: Method,
     /// relative error of one step, 1e-16 to 1e-2, 1e-10 unless it is given; of methods with steps
@@ -61,7 +60,7 @@ pub fn sample(
     let mut states = Vec::with_capacity(times.len());
     let visit = |_: f64, state: &[f64]| states.push(state.to_vec());
     let solution = method
-        .sample(&RatesOnly(&system), start, &times, visit)
+        .sample(&system, start, &times, visit)
         .map_err(|error| Failure::Motion(Box::new(error)))?;
     Ok(Samples {
         times,

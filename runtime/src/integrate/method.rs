@@ -286,6 +286,15 @@ impl<T: Real> AnyIntegrator<T> {
         } = limit;
         self
     }
+
+    /// The method that halves a step whose equations it cannot solve at most so often. Only Gauss
+    /// methods have such equations; the others stay as they are.
+    pub fn with_halvings(mut self, halvings: u32) -> Self {
+        if let Self::Gauss(method) = &mut self {
+            method.halvings = halvings;
+        }
+        self
+    }
 }
 
 impl<T: Real, O: TaylorOde<T> + ?Sized> Integrator<T, O> for AnyIntegrator<T> {

@@ -1,129 +1,36 @@
 //! Error, time and evaluations.
 
-use std::time::{Duration, Instant};
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::TaylorOde;
+use branched_pendulum_advice::WorkPrecision;
 
 use super::reference::{Problem, Tree};
 use crate::scenes::{BranchedDouble, Rods};
 use crate::solvers::configured;
 use branched_pendulum_frame::Progress;
 
-/// The methods that are compared.
-pub const METHODS: [Method; 8] = [
-    Method::Rk4,
-    Method::Dopri5,
-    Method::Dop853,
-    Method::Verner98,
-    Method::Taylor,
-    Method::Gauss(GaussOrder::Four),
-    Method::Gauss(GaussOrder::Six),
-    Method::Gauss(GaussOrder::Eight),
-];
-
-/// One run of a method.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measurement {
-    /// The method.
-    pub method: Method,
-    /// Tolerance or step of the method.
-    pub setting: f64,
-    /// Largest error at the end, rad or rad/s.
-    pub error: f64,
-    /// Time for the run, µs: the shortest of several.
-    pub microseconds: f64,
-    /// Evaluations of the right-hand side; of Taylor series, orders of their
-    /// coefficients.
-    pub evaluations: u64,
-}
-
-/// Tolerances or steps of a method, from loose to tight.
-fn settings(method: Method) -> Vec<f64> {
-    let steps = |longest: f64, count: i32| {
-        let halves = |k| longest * 0.5_f64.powf(0.5 * f64::from(k));
-        (0..count).map(halves).collect()
-    };
-    let tolerances = |last: i32| {
-        let tolerance = |k| 10.0_f64.powf(-0.5 * f64::from(k));
-        (6..=last).map(tolerance).collect()
-    };
-    match method {
-        Method::Taylor => tolerances(32),
-        _ if method.is_adaptive() => tolerances(28),
-        Method::Rk4 => steps(0.02, 14),
-        _ => steps(0.08, 11),
-    }
-}
-
 /// Measures a problem with every method, as one part of `progress`; runs that fail
 /// are left out.
-pub fn measure(problem: &Problem, progress: &Progress) -> Vec<Measurement> {
+pub fn measure(problem: &Problem, progress: &Progress) -> WorkPrecision {
     match problem.tree {
         Tree::Paper => measure_on(&AbsoluteAngles(&BranchedDouble::new()), problem, progress),
         Tree::Rods => measure_on(&AbsoluteAngles(&Rods::new()), problem, progress),
     }
 }
 
-fn measure_on(
-    ode: &impl TaylorOde<f64>,
-    problem: &Problem,
-    progress: &Progress,
-) -> Vec<Measurement> {
+fn measure_on(ode: &impl TaylorOde<f64>, problem: &Problem, progress: &Progress) -> WorkPrecision {
     let start = State::at_rest(0.0, &problem.start);
-    let mut all = Vec::new();
-    for method in METHODS {
-        progress.begin(&format!("{}: {}", problem.name, method.title()));
-        let settings = settings(method);
-        for &setting in &settings {
-            progress.advance(1.0 / (METHODS.len() * settings.len()) as f64);
-            let run = || {
-                let observer = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-                configured(method, setting).integrate(ode, &start, problem.end, observer)
-            };
-            let Ok(solution) = run() else {
-                continue;
-            };
-            let both = solution.state.values.iter().zip(&problem.expected);
-            let error = both.fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
-            all.push(Measurement {
-                method,
-                setting,
-                error,
-                microseconds: shortest(run),
-                evaluations: solution.report.evaluations,
-            });
-        }
-    }
-    all
-}
-
-/// The shortest time of repeated runs, µs: what disturbs a run only lengthens
-/// it.
-fn shortest<R>(run: impl Fn() -> R) -> f64 {
-    let (mut best, mut spent, mut runs) = (Duration::MAX, Duration::ZERO, 0);
-    while runs < 3 || (spent < Duration::from_millis(30) && runs < 1000) {
-        let begin = Instant::now();
-        std::hint::black_box(run());
-        let time = begin.elapsed();
-        best = best.min(time);
-        spent += time;
-        runs += 1;
-    }
-    best.as_secs_f64() * 1e6
-}
-
-/// Time that an error costs with a method, interpolated between its runs, µs;
-/// none where none of them is as good.
-pub fn time_to_error(runs: &[Measurement], method: Method, error: f64) -> Option<f64> {
-    let own: Vec<_> = runs.iter().filter(|run| run.method == method).collect();
-    let good = own.iter().position(|run| run.error <= error)?;
-    let (after, before) = (own[good], own.get(good.wrapping_sub(1)));
-    let share = before.map(|before| {
-        let part = (before.error / error).ln() / (before.error / after.error).ln();
-        before.microseconds * (after.microseconds / before.microseconds).powf(part)
-    });
-    Some(share.unwrap_or(after.microseconds))
+    let mut done = 0.0;
+    let told = |method: Method, part| {
+        progress.tell(&format!("{}: {}", problem.name, method.title()));
+        progress.advance(part - done);
+        done = part;
+    };
+    let (end, expected) = (problem.end, &problem.expected);
+    let methods = WorkPrecision::METHODS;
+    let measured = WorkPrecision::measure(ode, &start, end, expected, &methods, told);
+    progress.advance(1.0 - done);
+    measured
 }
 
 /// Largest relative error of the energy in each of a hundred parts of 1,000 s

@@ -1,9 +1,10 @@
 //! Tables, CSV files and charts.
 
+use branched_pendulum_advice::{MethodRun, WorkPrecision};
 use branched_pendulum_charts::{Axis, Chart, Panel, Series};
 use branched_pendulum_data::{Cell, Column};
 
-use super::measure::{EnergyDrift, METHODS, Measurement, time_to_error};
+use super::measure::EnergyDrift;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
 
@@ -11,31 +12,13 @@ use branched_pendulum_frame::Job;
 const LEVELS: [f64; 5] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14];
 
 /// A problem's name and its runs.
-pub type Runs = (&'static str, Vec<Measurement>);
+pub type Runs = (&'static str, WorkPrecision);
 
 /// The table that the program prints: times, the shortest marked.
 pub fn table(problems: &[Runs], drifts: &[EnergyDrift]) -> String {
     let mut text = String::from("Time in µs to an error at the end; * the shortest.\n");
-    for (name, runs) in problems {
-        text += &format!("\n{name:24}");
-        for level in LEVELS {
-            text += &format!("{level:>10e} ");
-        }
-        text.push('\n');
-        let times = METHODS.map(|method| LEVELS.map(|level| time_to_error(runs, method, level)));
-        for (method, row) in METHODS.iter().zip(&times) {
-            text += &format!("{:24}", method.title());
-            for (column, time) in row.iter().enumerate() {
-                let others = times.iter().filter_map(|row| row[column]);
-                let best = others.fold(f64::INFINITY, f64::min);
-                text += &match *time {
-                    Some(time) if time == best => format!("{time:10.0}*"),
-                    Some(time) => format!("{time:10.0} "),
-                    None => format!("{:>10} ", "-"),
-                };
-            }
-            text.push('\n');
-        }
+    for (name, measured) in problems {
+        text += &format!("\n{name}\n{}", measured.table(&LEVELS));
     }
     text.push_str("\nRelative error of the energy in 1,000 s of regular motion\n\n");
     for drift in drifts {
@@ -64,13 +47,13 @@ pub fn write_runs(job: &Job, problems: &[Runs]) -> Result<(), Failure> {
     ];
     job.csv("work-precision.csv", &columns, |csv| {
         for (problem, runs) in problems {
-            for run in runs {
+            for run in runs.runs() {
                 csv.row([
                     Cell::from(*problem),
                     run.method.title().into(),
                     run.setting.into(),
                     run.error.into(),
-                    run.microseconds.into(),
+                    (run.seconds * 1e6).into(),
                     run.evaluations.into(),
                 ])?;
             }
@@ -78,7 +61,9 @@ pub fn write_runs(job: &Job, problems: &[Runs]) -> Result<(), Failure> {
         Ok(())
     })?;
     let against_time = "Error at the end against time, absolute angles";
-    let time = chart(against_time, "time (µs)", problems, |run| run.microseconds);
+    let time = chart(against_time, "time (µs)", problems, |run| {
+        run.seconds * 1e6
+    });
     job.chart("work-precision-time", &time)?;
     let against_work = "Error at the end against work, absolute angles";
     let axis = "evaluations (of Taylor: orders)";
@@ -108,15 +93,15 @@ pub fn write_drifts(job: &Job, drifts: &[EnergyDrift]) -> Result<(), Failure> {
     job.chart("energy-drift", &drift_chart(drifts))
 }
 
-fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&Measurement) -> f64) -> Chart {
+fn chart(title: &str, x: &str, problems: &[Runs], cost: impl Fn(&MethodRun) -> f64) -> Chart {
     let rows = problems.len().div_ceil(2);
     let chart = Chart::new(title, Axis::log(x))
         .columns(2)
         .size(1100.0, 140.0 + 300.0 * rows as f64);
     problems.iter().fold(chart, |chart, (name, runs)| {
         let panel = Panel::new(Axis::log(format!("error, {name}")).range(1e-14, 10.0));
-        let panel = METHODS.iter().fold(panel, |panel, method| {
-            let own = runs.iter().filter(|run| run.method == *method);
+        let panel = runs.methods().into_iter().fold(panel, |panel, method| {
+            let own = runs.runs_of(method);
             let (x, y): (Vec<f64>, Vec<f64>) = own.map(|run| (cost(run), run.error)).unzip();
             panel.series(Series::line(method.title(), &x, &y).with_symbols())
         });

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use branched_pendulum::integrate::Method;
+
 use super::{Folder, TRIPLE, UNEQUAL, Y};
 
 #[test]
@@ -289,6 +291,32 @@ fn dry_friction_takes_energy_and_methods_are_compared() {
     ]);
     let table = folder.read("results/methods.csv");
     assert!(table.contains("Dormand–Prince 8(5,3)") && table.lines().count() > 40);
+    assert!(table.contains(Method::Taylor.title()), "{table}");
+}
+
+#[test]
+fn taylor_series_go_where_runge_kutta_methods_go() {
+    let folder = Folder::new("taylor");
+    let triple = folder.file("triple.txt", TRIPLE);
+    let [one, other] = ["taylor", "verner98"].map(|method| {
+        let words = [
+            "simulate",
+            "--tree",
+            &triple,
+            "--start",
+            "20",
+            "--duration",
+            "2",
+        ];
+        folder.answer(&[&words[..], &["--method", method, "--tolerance", "1e-13"]].concat());
+        folder.table("motion.csv").1
+    });
+    assert_eq!(one.len(), other.len());
+    let values = one.iter().flatten().zip(other.iter().flatten());
+    let worst = values.fold(0.0_f64, |worst, (one, other)| {
+        worst.max((one - other).abs())
+    });
+    assert!(worst < 1e-9, "{worst:e}");
 }
 
 #[test]
