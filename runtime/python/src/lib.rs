@@ -29,6 +29,7 @@ mod statistics;
 mod stepper;
 mod stepping;
 mod tree;
+mod work_precision;
 
 use pyo3::exceptions::{PyRuntimeError, PyRuntimeWarning, PyValueError};
 use pyo3::prelude::*;

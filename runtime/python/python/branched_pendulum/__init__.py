@@ -28,6 +28,7 @@ from ._results import (
     ScaleBudget,
     SectorBudget,
     Solution,
+    WorkPrecision,
 )
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "Solution",
     "Stepper",
     "Tree",
+    "WorkPrecision",
     "__version__",
     "analysis",
     "data",

@@ -18,6 +18,7 @@ from ._results import (
     ScaleBudget,
     SectorBudget,
     Solution,
+    WorkPrecision,
 )
 
 __all__ = [
@@ -271,6 +272,12 @@ class Tree(Pendulum):
         step_limit: float | None = None,
         sample_limit: float | None = None,
     ) -> Advice: ...
+    def work_precision(
+        self,
+        y0: ArrayLike,
+        t: tuple[float, float],
+        methods: Sequence[_Method] | None = None,
+    ) -> WorkPrecision: ...
     def identify(
         self,
         t: ArrayLike,

@@ -7,6 +7,7 @@ from ._common import Result
 from ._growth import Growth, ReleaseMap
 from ._identification import Estimate, Identification
 from ._motion import Report, Solution
+from ._work_precision import WorkPrecision
 
 __all__ = [
     "Advice",
@@ -21,6 +22,7 @@ __all__ = [
     "ScaleBudget",
     "SectorBudget",
     "Solution",
+    "WorkPrecision",
     "make_tree",
 ]
 
