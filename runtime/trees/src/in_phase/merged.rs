@@ -117,16 +117,18 @@ impl MergedLinks {
     /// Returns the links with their constants: what copies have of mass, stiffness and friction is
     /// added up.
     pub(super) fn numbers(&self, whole: &[LinkNumbers]) -> Vec<LinkNumbers> {
-        let links = self.links.iter().enumerate().filter_map(|(number, link)| {
-            let own = *whole.get(link.first)?;
-            let members = whole.iter().zip(&self.members);
-            let others = members.skip(link.first + 1);
-            let others = others.filter(|(_, member)| member.merged == number);
-            let all = others.fold(own, |sum, (other, _)| with(&sum, other));
-            let parent = own.parent.map(|_| link.parent);
-            Some(LinkNumbers { parent, ..all })
-        });
-        links.collect()
+        let mut sums: Vec<Option<LinkNumbers>> = vec![None; self.links.len()];
+        for (own, member) in whole.iter().zip(&self.members) {
+            let parent = own.parent.and_then(|parent| self.members.get(parent));
+            let parent = parent.map(|member| member.merged);
+            if let Some(sum) = sums.get_mut(member.merged) {
+                *sum = Some(match sum {
+                    None => LinkNumbers { parent, ..*own },
+                    Some(others) => with(others, own),
+                });
+            }
+        }
+        sums.into_iter().flatten().collect()
     }
 
     /// Returns a number by which merged trees of other shapes differ.
@@ -141,13 +143,15 @@ impl MergedLinks {
 
 /// A link and all that hangs from it.
 fn carried(links: &[LinkNumbers], first: usize) -> Vec<usize> {
-    let mut own = vec![first];
+    let mut hangs = vec![false; links.len()];
     for (link, numbers) in links.iter().enumerate() {
-        if numbers.parent.is_some_and(|parent| own.contains(&parent)) {
-            own.push(link);
+        let above = numbers.parent.and_then(|parent| hangs.get(parent));
+        let hangs_too = link == first || above.copied().unwrap_or(false);
+        if let Some(place) = hangs.get_mut(link) {
+            *place = hangs_too;
         }
     }
-    own
+    (0..links.len()).filter(|&link| hangs[link]).collect()
 }
 
 /// A quantity that copies have in the ratio of all their masses, moments of inertia and torques:
