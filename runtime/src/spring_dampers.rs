@@ -50,6 +50,16 @@ impl<T: Scalar> SpringDamper<T> {
         self.spring * (difference - self.rest)
     }
 
+    /// Torque on the first link, or slope of the energy, at a difference of angles or of rates.
+    #[inline(always)]
+    fn summand(&self, summand: Summand, difference: T) -> T {
+        match summand {
+            Summand::SpringSlope => self.pull(difference),
+            Summand::SpringTorque => -self.pull(difference),
+            Summand::FrictionTorque => -self.braking(difference),
+        }
+    }
+
     /// Torque of friction that opposes a difference of the rates.
     #[inline(always)]
     fn braking(&self, rate: T) -> T {
@@ -60,6 +70,18 @@ impl<T: Scalar> SpringDamper<T> {
         let speed = (rate * rate + width * width).sqrt();
         viscous + (coulomb / speed + quadratic * speed) * rate
     }
+}
+
+/// What is added up of spring-dampers. Said by name: closures are functions of their own where
+/// numbers are vector registers.
+#[derive(Clone, Copy, Debug)]
+enum Summand {
+    /// Derivative of the springs' energy by the first angle.
+    SpringSlope,
+    /// Torque of the springs on the first link.
+    SpringTorque,
+    /// Torque of friction on it.
+    FrictionTorque,
 }
 
 /// Spring-dampers of the same constants side by side.
@@ -86,11 +108,18 @@ impl<T: Scalar> SpringDamperRun<T> {
         })
     }
 
+    /// The numbers of the links on both sides; none of too few numbers.
+    #[inline(always)]
+    fn sides<'a>(&self, numbers: &'a [T]) -> [&'a [T]; 2] {
+        let [a, b] = self.first.links;
+        let own = numbers.get(a..a + self.count).unwrap_or_default();
+        [own, numbers.get(b..b + self.count).unwrap_or_default()]
+    }
+
     /// The differences of numbers of the links; none of too few numbers.
     #[inline(always)]
     fn differences(&self, numbers: &[T]) -> impl Iterator<Item = T> {
-        let own = |first: usize| numbers.get(first..first + self.count).unwrap_or_default();
-        let [a, b] = self.first.links.map(own);
+        let [a, b] = self.sides(numbers);
         a.iter().zip(b).map(|(&a, &b)| a - b)
     }
 }
@@ -226,24 +255,24 @@ impl<T: Scalar> SpringDampers<T> {
     /// NaN for slices of another length than there are links.
     #[inline(always)]
     pub fn add_torques(&self, [theta, omega]: [&[T]; 2], torques: &mut [T]) {
-        self.add(theta, torques, |own, difference| -own.pull(difference));
+        self.add(theta, torques, Summand::SpringTorque);
         self.add_friction(omega, torques);
     }
 
     /// Adds the derivatives (N m) of the springs' energy by the angles; NaN likewise.
     #[inline(always)]
     pub fn add_spring_slopes(&self, theta: &[T], slopes: &mut [T]) {
-        self.add(theta, slopes, |own, difference| own.pull(difference));
+        self.add(theta, slopes, Summand::SpringSlope);
     }
 
     /// Adds the torques of friction; NaN likewise.
     #[inline(always)]
     pub fn add_friction(&self, omega: &[T], torques: &mut [T]) {
-        self.add(omega, torques, |own, rate| -own.braking(rate));
+        self.add(omega, torques, Summand::FrictionTorque);
     }
 
     #[inline(always)]
-    fn add(&self, given: &[T], torques: &mut [T], torque: impl Fn(&SpringDamper<T>, T) -> T) {
+    fn add(&self, given: &[T], torques: &mut [T], summand: Summand) {
         if [given.len(), torques.len()] != [self.links; 2] {
             torques.fill(T::from_f64(f64::NAN));
             return;
@@ -253,9 +282,10 @@ impl<T: Scalar> SpringDampers<T> {
             let Ok([own, other]) = torques.get_disjoint_mut(sides) else {
                 continue;
             };
-            let sides = own.iter_mut().zip(other);
-            for ((own, other), difference) in sides.zip(run.differences(given)) {
-                let torque = torque(&run.first, difference);
+            let [a, b] = run.sides(given);
+            let given = a.iter().zip(b);
+            for ((own, other), (&a, &b)) in own.iter_mut().zip(other).zip(given) {
+                let torque = run.first.summand(summand, a - b);
                 *own = *own + torque;
                 *other = *other - torque;
             }
@@ -275,15 +305,16 @@ impl<T: Scalar> SpringDampers<T> {
             torques.fill(V::from_f64(f64::NAN));
             return;
         }
-        for friction in [false, true] {
+        for summand in [Summand::SpringTorque, Summand::FrictionTorque] {
             for run in &self.runs {
                 let (own, [a, b]) = (run.first.map(V::splat), run.first.links);
                 for place in 0..run.count {
                     let [a, b] = [a + place, b + place];
-                    let torque = match friction {
-                        false => -own.pull(theta(a) - theta(b)),
-                        true => -own.braking(omega(a) - omega(b)),
+                    let difference = match summand {
+                        Summand::FrictionTorque => omega(a) - omega(b),
+                        _ => theta(a) - theta(b),
                     };
+                    let torque = own.summand(summand, difference);
                     if let Ok([own, other]) = torques.get_disjoint_mut([a, b]) {
                         *own = *own + torque;
                         *other = *other - torque;

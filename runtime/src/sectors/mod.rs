@@ -70,16 +70,6 @@ impl SectorCoordinate {
         self.weights.iter().map(|(_, weight)| weight * weight).sum()
     }
 
-    /// Writes weight · `value` to the links in which the coordinate shows: what all of them have
-    /// where the other coordinates are zero. Links that `links` lacks are left out.
-    pub fn write(&self, value: f64, links: &mut [f64]) {
-        for &(link, weight) in self.weights() {
-            if let Some(place) = links.get_mut(link) {
-                *place = weight * value;
-            }
-        }
-    }
-
     /// Mean or difference of the links' values: Σ weight · value / norm.
     /// Links that `values` lacks count as zero.
     #[must_use]

@@ -72,6 +72,13 @@ pub enum TreeError {
          that move `in_phase(...)` have no differences"
     )]
     NoCopies,
+    /// A motion in phase of links that do not move alike.
+    #[error(
+        "the links do not move alike when they start alike: name links that are copies of each \
+         other, as those of `child(...) * 2`, with nothing between them and other links that one \
+         of them lacks"
+    )]
+    NotInPhase,
 }
 
 fn quoted(names: &[String]) -> String {

@@ -24,6 +24,7 @@ mod error;
 #[cfg(feature = "identification")]
 mod family;
 mod forms;
+mod in_phase;
 mod model;
 mod numbers;
 mod observables;
@@ -46,6 +47,7 @@ mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
+pub use in_phase::InPhaseTree;
 pub use observables::Observable;
 pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
 pub use tree::PendulumTree;

@@ -11,10 +11,8 @@ mod checked;
 mod copies;
 mod error;
 mod floquet;
-mod in_phase;
 mod record;
 mod rotation;
-mod sector;
 mod transverse;
 
 use std::ops::Range;
@@ -24,16 +22,14 @@ pub use self::checked::Checked;
 pub use self::copies::BetweenCopies;
 pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
-pub use self::in_phase::InPhaseOde;
 use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
-pub use self::sector::SectorDifferences;
 use self::transverse::places;
 pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options};
-use crate::system::{LaneOde, Ode, State};
+use crate::system::{LaneOde, State};
 
 /// Computation of the growth of differences.
 ///
@@ -230,36 +226,23 @@ impl Growth {
             rates: n + rates.start..n + rates.end,
         };
         let both = State::new(start.time, [&start.values, deviation].concat());
-        self.one_by_one(&Variational::new(system, 1), &both, place, |run| {
-            // All of the deviation: parts of it drive each other.
-            let factor = run.record.scale();
-            run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
-        })
-    }
-
-    /// The growth of differences at their places in the state of a system, which `scale` divides
-    /// by their amplitude from time to time.
-    fn one_by_one<O: Ode<f64>>(
-        &self,
-        system: &O,
-        start: &State<f64>,
-        place: DifferenceRanges,
-        scale: impl Fn(&mut GrowthRun),
-    ) -> Result<Grown, GrowthError> {
+        let system = Variational::new(system, 1);
         let [coarse, fine] = self.tolerances().map(|tolerance| {
             let method = Dop853::new(Options::with_tolerance(tolerance));
-            let mut run = self.begin(start.clone(), place.clone())?;
+            let mut run = self.begin(both.clone(), place.clone())?;
             for times in scales(&self.looks(start.time)) {
                 let mut number = 0;
                 let begin = run.state.clone();
-                let end = method.sample(system, &begin, times, |time, state| {
+                let end = method.sample(&system, &begin, times, |time, state| {
                     if number > 0 {
                         run.look(time, state);
                     }
                     number += 1;
                 })?;
                 run.state = end.state;
-                scale(&mut run);
+                // All of the deviation: parts of it drive each other.
+                let factor = run.record.scale();
+                run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
             }
             Ok::<GrowthRun, GrowthError>(run)
         });

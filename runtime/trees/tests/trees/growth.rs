@@ -3,14 +3,13 @@
 
 use branched_pendulum::analysis::SectorModes;
 use branched_pendulum::analysis::growth::{
-    BrakeOrbit, Continuation, Floquet, Grown, Growth, GrowthError, InPhaseOde, SectorDifferences,
-    frequency_at_rest,
+    Continuation, Floquet, Grown, Growth, GrowthError, frequency_at_rest,
 };
-use branched_pendulum::analysis::variational::{Linearised, linearised};
+use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::SymmetricCoordinates;
-use branched_pendulum_trees::{PendulumTree, TreeDescription};
+use branched_pendulum_trees::{InPhaseTree, PendulumTree, TreeDescription};
 
 /// The pendulum of the paper with friction in the children's pivots.
 fn paper(friction: f64) -> PendulumTree {
@@ -25,8 +24,10 @@ fn paper(friction: f64) -> PendulumTree {
 /// Moment of inertia of a child about its pivot, kg m².
 const M_2: f64 = 0.516e-3 + 0.10531 * 0.043 * 0.043;
 
-fn antiphase(tree: &PendulumTree) -> SectorDifferences<impl Linearised<f64>> {
-    SectorDifferences::new(linearised(AbsoluteAngles(tree)), &tree.sectors()[1])
+fn antiphase(tree: &PendulumTree) -> InPhaseTree {
+    tree.in_phase(&tree.all_copies())
+        .unwrap()
+        .with_differences()
 }
 
 fn release(degrees: f64) -> State<f64> {
@@ -34,14 +35,17 @@ fn release(degrees: f64) -> State<f64> {
 }
 
 fn grown(tree: &PendulumTree, degrees: &[f64], horizons: &[f64]) -> Vec<Grown> {
+    let system = antiphase(tree);
     let growth = Growth {
-        frequency_hz: frequency_at_rest(&antiphase(tree)),
+        frequency_hz: frequency_at_rest(&system),
         horizons: horizons.to_vec(),
         tolerance: 1e-10,
     };
-    let grown = Ensemble::new().map(degrees, |_, degrees| {
-        growth.of_sector(&antiphase(tree), &release(*degrees))
-    });
+    let starts = degrees
+        .iter()
+        .map(|degrees| system.start(&release(*degrees)));
+    let releases: Vec<_> = starts.map(|start| (&system, start.unwrap())).collect();
+    let grown = growth.in_lanes(&Ensemble::new(), &releases);
     grown.into_iter().collect::<Result<_, _>>().unwrap()
 }
 
@@ -133,10 +137,10 @@ fn friction_shrinks_the_plane_of_differences() {
         let method = Dop853::new(Options::with_tolerance(1e-12));
         let time = 3.3;
         let column = |angle: f64, rate: f64| {
-            let start = State::new(0.0, vec![0.7, 0.1, 0.1, angle, 0.0, 0.0, 0.0, rate]);
+            let start = State::new(0.0, vec![0.7, 0.1, angle, 0.0, 0.0, rate]);
             let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
             let end = method.integrate(&system, &start, time, go_on).unwrap();
-            [end.state.values[3], end.state.values[7]]
+            [end.state.values[2], end.state.values[5]]
         };
         let ([a, c], [b, d]) = (column(1.0, 0.0), column(0.0, 1.0));
         let expected = (-constant * time / M_2).exp();
@@ -155,7 +159,8 @@ fn nonlinear_normal_modes() {
         .unwrap()
         .blocks;
     let modes = &blocks[0].modes;
-    let system = InPhaseOde::new(linearised(AbsoluteAngles(&tree)), &tree.sectors()[0]);
+    let in_phase = tree.in_phase(&tree.all_copies()).unwrap();
+    let system = linearised(in_phase.clone());
     let differences = antiphase(&tree);
     let continuation = Continuation {
         tolerance: 1e-10,
@@ -181,13 +186,8 @@ fn nonlinear_normal_modes() {
         );
         for orbit in &orbits {
             assert!(orbit.is_symmetric());
-            let whole = BrakeOrbit {
-                release: system.angles(&orbit.release),
-                turn: system.angles(&orbit.turn),
-                period: orbit.period,
-            };
-            // A period leads back to the release.
-            let start = State::at_rest(0.0, &whole.release);
+            // A period leads back to the release, in the whole tree too.
+            let start = State::at_rest(0.0, &in_phase.whole(&orbit.release));
             let method = Dop853::new(Options::with_tolerance(1e-12));
             let end = method.integrate(&AbsoluteAngles(&tree), &start, orbit.period, |_| {
                 ControlFlow::Continue(())
@@ -195,7 +195,7 @@ fn nonlinear_normal_modes() {
             for (end, start) in end.unwrap().state.values.iter().zip(&start.values) {
                 assert!((end - start).abs() < 1e-6, "{orbit:?}");
             }
-            let floquet = Floquet::of_differences(&differences, &whole, 1e-10).unwrap();
+            let floquet = Floquet::of_differences(&differences, orbit, 1e-10).unwrap();
             assert_eq!(floquet.period, orbit.period / 2.0);
             let [[a, b], [c, d]] =
                 [0, 1].map(|row: usize| [0, 1].map(|i: usize| floquet.matrix[row][i]));
@@ -218,7 +218,12 @@ fn requests_without_an_answer() {
         horizons: vec![1.0],
         tolerance: 1e-8,
     };
-    let ask = |growth: &Growth, start: State<f64>| growth.of_sector(&system, &start);
+    let ask = |growth: &Growth, start: State<f64>| {
+        let start = system.start(&start).unwrap();
+        growth
+            .in_lanes(&Ensemble::new(), &[(&system, start)])
+            .remove(0)
+    };
     assert!(ask(&growth, release(20.0)).is_ok());
     for lost in [f64::NAN, f64::INFINITY] {
         let lost = State::at_rest(0.0, &[lost, 0.0, 0.0]);

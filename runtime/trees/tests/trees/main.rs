@@ -4,6 +4,7 @@ mod between;
 mod costs;
 mod forms;
 mod growth;
+mod in_phase;
 mod magnitudes;
 mod mechanics;
 mod plain;

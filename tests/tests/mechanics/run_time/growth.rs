@@ -1,11 +1,9 @@
-//! Growth of small differences beside motions in phase at run time, by dual numbers, against the
-//! derived transverse equations.
+//! Growth of small differences beside motions in phase at run time against the derived transverse
+//! equations.
 
-use branched_pendulum::analysis::growth::{Growth, SectorDifferences, frequency_at_rest};
-use branched_pendulum::analysis::variational::linearised;
+use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
-use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::{Transverse, TransverseOde};
 use branched_pendulum_trees::PendulumTree;
 
@@ -41,7 +39,8 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
     releases: &[[Vec<f64>; 2]],
 ) -> [f64; 2] {
     let tree = PendulumTree::parse(text).expect("it is right");
-    let system = SectorDifferences::new(linearised(AbsoluteAngles(&tree)), &tree.sectors()[1]);
+    let in_phase = tree.in_phase(&tree.all_copies()).expect("it has copies");
+    let system = in_phase.with_differences();
     let ode = TransverseOde::new(model, 0).expect("there is one sector");
     let own = frequency_at_rest(&system);
     let frequency_hz = frequency_at_rest(&ode);
@@ -62,8 +61,12 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
         let [Ok(derived)] = derived.as_slice() else {
             panic!("{derived:?}")
         };
-        let own = growth.of_sector(&system, &State::at_rest(0.0, whole));
-        let own = own.expect("it is in phase");
+        let start = system.start(&State::at_rest(0.0, whole));
+        let start = start.expect("it is in phase");
+        let own = growth.in_lanes(&Ensemble::new(), &[(&system, start)]);
+        let [Ok(own)] = own.as_slice() else {
+            panic!("{own:?}")
+        };
         for (own, derived) in own.factors.iter().zip(&derived.factors) {
             worst = worst.max((own.value / derived.value - 1.0).abs());
             largest = largest.max(own.value);
@@ -95,26 +98,4 @@ fn growth_agrees_with_the_transverse_equations() {
     });
     let [worst, largest] = differences(Arms::new(), arms, &releases);
     assert!(worst < 1e-9 && largest > 1.0, "{worst:e} {largest}");
-}
-
-/// Differences of a start that is not in phase are not small ones beside it.
-#[test]
-fn a_start_out_of_phase_is_refused() {
-    let tree = PendulumTree::parse(
-        "gravity = 9.81, trunk: rod(mass = 0.4, length = 0.3) [
-            twig: rod(mass = 0.1, length = 0.2) * 2
-        ]",
-    );
-    let tree = tree.expect("it is right");
-    let system = SectorDifferences::new(linearised(AbsoluteAngles(&tree)), &tree.sectors()[1]);
-    let growth = Growth {
-        frequency_hz: 1.0,
-        horizons: vec![1.0],
-        tolerance: 1e-9,
-    };
-    for start in [&[0.3, 0.1, 0.2][..], &[0.3, 0.1]] {
-        let refused = growth.of_sector(&system, &State::at_rest(0.0, start));
-        let refused = refused.unwrap_err().to_string();
-        assert!(refused.contains("difference"), "{refused}");
-    }
 }

@@ -1,12 +1,11 @@
 //! Differences between copies beside their motions in phase.
 
 use branched_pendulum::analysis::growth::{
-    Grown, Growth, GrowthError, SectorDifferences, TransverseSystem, frequency_at_rest,
+    Grown, Growth, GrowthError, TransverseSystem, frequency_at_rest,
 };
-use branched_pendulum::analysis::variational::{ByTangents, Copies, linearised};
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::prelude::*;
-use branched_pendulum::scalar::Dual;
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{InPhaseTree, PendulumTree};
 
 use crate::Failure;
 use crate::subject::Subject;
@@ -57,43 +56,47 @@ impl PairArguments {
     }
 }
 
-/// Differences between copies beside a motion in phase, by dual numbers.
-pub(in crate::commands) type DifferencesOf<'a> = SectorDifferences<
-    ByTangents<
-        AbsoluteAngles<&'a PendulumTree>,
-        Dual<f64, 1>,
-        AbsoluteAngles<PendulumTree<Dual<f64, 1>>>,
-    >,
->;
-
-/// Returns the differences between the first two `copies` of a tree, for one thread.
-pub(in crate::commands) fn differences_of<'a>(
-    tree: &'a PendulumTree,
+/// Returns the differences between the first two `copies` of a tree beside its motion in phase.
+///
+/// # Errors
+/// [`Failure::Lacking`] where the copies do not move alike.
+pub(in crate::commands) fn differences_of(
+    tree: &PendulumTree,
     copies: &Copies,
-) -> DifferencesOf<'a> {
-    SectorDifferences::new(linearised(AbsoluteAngles(tree)), &copies.first_difference())
+) -> Result<InPhaseTree, Failure> {
+    let in_phase = tree.in_phase(copies).map_err(|_| out_of_phase())?;
+    Ok(in_phase.with_differences())
+}
+
+fn out_of_phase() -> Failure {
+    Failure::Lacking {
+        what: "the copies do not move alike: give them one angle and one rate by their common \
+               name, as in `--start child=10`, and nothing between them and other links that one \
+               of them lacks"
+            .to_owned(),
+    }
 }
 
 /// Growth of a difference between copies beside the motions in phase of one tree.
-pub(in crate::commands) struct Differences<'a> {
-    tree: &'a PendulumTree,
-    copies: Copies,
+pub(in crate::commands) struct Differences {
+    system: InPhaseTree,
     growth: Growth,
 }
 
-impl<'a> Differences<'a> {
+impl Differences {
     /// Returns the differences between the first two `copies` of a tree.
     ///
     /// # Errors
-    /// [`Failure::Lacking`] where a small difference does not oscillate about the tree at rest
-    /// with all angles zero.
+    /// [`Failure::Lacking`] where the copies do not move alike, and where a small difference does
+    /// not oscillate about the tree at rest with all angles zero.
     pub(in crate::commands) fn new(
-        tree: &'a PendulumTree,
+        tree: &PendulumTree,
         copies: &Copies,
         horizons: Vec<f64>,
         tolerance: f64,
     ) -> Result<Self, Failure> {
-        let frequency_hz = frequency_at_rest(&differences_of(tree, copies));
+        let system = differences_of(tree, copies)?;
+        let frequency_hz = frequency_at_rest(&system);
         if frequency_hz.is_nan() || frequency_hz <= 0.0 {
             return Err(Failure::Lacking {
                 what: "a small difference of the copies does not oscillate about the tree at rest \
@@ -102,8 +105,7 @@ impl<'a> Differences<'a> {
             });
         }
         Ok(Self {
-            tree,
-            copies: copies.clone(),
+            system,
             growth: Growth {
                 frequency_hz,
                 horizons,
@@ -112,29 +114,21 @@ impl<'a> Differences<'a> {
         })
     }
 
-    /// Returns the growth along the motion from each start, on all cores.
+    /// Returns the growth along the motion from each start, in lanes.
     ///
     /// # Errors
     /// [`Failure::Lacking`] where the copies do not start alike.
     pub(in crate::commands) fn along(
         &self,
+        ensemble: &Ensemble<'_>,
         starts: &[State<f64>],
     ) -> Result<Vec<Result<Grown, GrowthError>>, Failure> {
-        let system = AbsoluteAngles(self.tree);
-        let is_in_phase = |start| self.copies.are_in_phase(&system, start);
-        if !starts.iter().all(is_in_phase) {
-            return Err(Failure::Lacking {
-                what: "the copies do not move alike: give them one angle and one rate by their \
-                       common name, as in `--start child=10`, and nothing between them and other \
-                       links that one of them lacks"
-                    .to_owned(),
-            });
-        }
-        // Memory of derivatives is of one thread: each start has its own.
-        Ok(Ensemble::new().map(starts, |_, start| {
-            self.growth
-                .of_sector(&differences_of(self.tree, &self.copies), start)
-        }))
+        let releases = starts.iter().map(|start| {
+            let start = self.system.start(start).ok_or_else(out_of_phase)?;
+            Ok((&self.system, start))
+        });
+        let releases: Vec<_> = releases.collect::<Result<_, Failure>>()?;
+        Ok(self.growth.in_lanes(ensemble, &releases))
     }
 
     pub(in crate::commands) fn frequency_hz(&self) -> f64 {
@@ -143,12 +137,11 @@ impl<'a> Differences<'a> {
 
     /// Returns the rate (1/s) at which friction takes from the rate of a small difference at rest.
     pub(in crate::commands) fn decay(&self) -> f64 {
-        let system = differences_of(self.tree, &self.copies);
-        let (all, own) = (system.dimension() / 2, system.differences());
+        let (all, own) = (self.system.dimension() / 2, self.system.differences());
         let mut state = vec![0.0; 2 * all];
         state[2 * all - own..].fill(1.0);
         let mut rates = state.clone();
-        system.rates(0.0, &state, &mut rates);
+        self.system.rates(0.0, &state, &mut rates);
         -rates[2 * all - own..].iter().sum::<f64>() / own as f64
     }
 }

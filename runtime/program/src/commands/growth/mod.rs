@@ -123,7 +123,7 @@ impl Scan {
         let starts: Vec<State<f64>> = angles.map(|degrees| start(*degrees)).collect();
         let mut grown = Vec::new();
         for block in starts.chunks(BLOCK) {
-            for one in differences.along(block)? {
+            for one in differences.along(&Ensemble::new(), block)? {
                 grown.push(one?);
             }
             progress(grown.len() as f64 / starts.len() as f64);

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use branched_pendulum::analysis::growth::{BrakeOrbit, Continuation, Floquet, InPhaseOde};
+use branched_pendulum::analysis::growth::{BrakeOrbit, Continuation, Floquet, GrowthError};
 use branched_pendulum::analysis::variational::{Copies, linearised};
 use branched_pendulum::analysis::{Modes, SectorModes};
 use branched_pendulum::prelude::*;
@@ -124,14 +124,17 @@ fn axes(plane: &MapPlane<'_>) -> Option<[usize; 2]> {
 /// Returns the modes up to the largest angle of the plane.
 ///
 /// # Errors
-/// [`Failure::SectorModes`] or [`Failure::Growth`].
+/// [`Failure::SectorModes`], [`Failure::Growth`], or [`Failure::Tree`] for copies that do not move
+/// alike.
 pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode>, Failure> {
     let (tree, Some(axes)) = (&plane.subject.tree, axes(plane)) else {
         return Ok(Vec::new());
     };
     let linear = InPhaseModes::of(tree)?;
-    let system = InPhaseOde::new(linearised(AbsoluteAngles(tree)), &linear.sector);
-    let differences = differences_of(tree, copies);
+    let in_phase = tree.in_phase(&tree.all_copies());
+    let in_phase = in_phase.map_err(|source| Failure::tree(&plane.subject.name, source))?;
+    let system = linearised(in_phase.clone());
+    let differences = differences_of(tree, copies)?;
     let continuation = Continuation {
         tolerance: TOLERANCE,
         step: STEP,
@@ -141,13 +144,18 @@ pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode
     let modes = frequencies.map(|(mode, &frequency_hz)| {
         let shape = linear.shape(mode);
         let orbits = continuation.orbits(&system, &linear.rest, &shape, frequency_hz)?;
+        // The copies that differ may be some of those that are in phase.
+        let beside = |own: &[f64]| {
+            let angles = differences.of_whole(&in_phase.whole(own));
+            angles.ok_or(GrowthError::Difference)
+        };
         let floquet = orbits.iter().map(|orbit| {
-            let whole = BrakeOrbit {
-                release: system.angles(&orbit.release),
-                turn: system.angles(&orbit.turn),
+            let orbit = BrakeOrbit {
+                release: beside(&orbit.release)?,
+                turn: beside(&orbit.turn)?,
                 period: orbit.period,
             };
-            Floquet::of_differences(&differences, &whole, TOLERANCE)
+            Floquet::of_differences(&differences, &orbit, TOLERANCE)
         });
         let floquet = floquet.collect::<Result<_, _>>()?;
         let point = |orbit: &BrakeOrbit| axes.map(|axis| orbit.release[axis].to_degrees());

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use branched_pendulum::system::State;
 use branched_pendulum_charts::{Axis, Chart, Color, Panel, Series, Symbol, verbatim};
@@ -245,8 +245,8 @@ impl<'a> MapPlane<'a> {
     ///
     /// # Errors
     /// As [`tree_at`](Self::tree_at).
-    pub(super) fn trees_at(&self, points: &[Point]) -> Result<Vec<Rc<PendulumTree>>, Failure> {
-        let mut known: HashMap<Vec<u64>, Rc<PendulumTree>> = HashMap::new();
+    pub(super) fn trees_at(&self, points: &[Point]) -> Result<Vec<Arc<PendulumTree>>, Failure> {
+        let mut known: HashMap<Vec<u64>, Arc<PendulumTree>> = HashMap::new();
         let tree = |point: &Point| {
             let both = self.quantities.iter().zip(point);
             let parameters =
@@ -254,7 +254,7 @@ impl<'a> MapPlane<'a> {
             let parameters = parameters.map(|(_, value)| value.to_bits()).collect();
             Ok(match known.entry(parameters) {
                 Entry::Occupied(own) => own.get().clone(),
-                Entry::Vacant(place) => place.insert(Rc::new(self.tree_at(point)?)).clone(),
+                Entry::Vacant(place) => place.insert(Arc::new(self.tree_at(point)?)).clone(),
             })
         };
         points.iter().map(tree).collect()

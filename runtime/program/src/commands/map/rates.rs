@@ -1,10 +1,11 @@
 //! Growth rate of a small difference between copies at every point.
 
-use std::rc::Rc;
+use std::num::NonZeroUsize;
+use std::sync::Arc;
 
 use branched_pendulum::analysis::growth::{Grown, GrowthError};
 use branched_pendulum::analysis::variational::Copies;
-use branched_pendulum::system::State;
+use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Series};
 use branched_pendulum_data::{Cell, Column};
 
@@ -46,19 +47,31 @@ impl Rates<'_> {
         points: &[Point],
     ) -> Result<Vec<Option<Grown>>, Failure> {
         let trees = self.plane.trees_at(points)?;
-        let mut grown: Vec<Option<Grown>> = vec![None; points.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
         let mut left: Vec<usize> = (0..points.len()).collect();
         while let Some(&first) = left.first() {
-            let tree = &trees[first];
-            let (own, others) = left
-                .into_iter()
-                .partition(|&place| Rc::ptr_eq(&trees[place], tree));
+            let is_alike = |&place: &usize| Arc::ptr_eq(&trees[place], &trees[first]);
+            let (own, others) = left.into_iter().partition(is_alike);
+            groups.push(own);
             left = others;
-            let differences = Differences::new(tree, &self.copies, vec![duration], self.tolerance)?;
-            let own: Vec<usize> = own;
-            let starts = own.iter().map(|&place| self.plane.start_at(&points[place]));
-            let starts: Vec<State<f64>> = starts.collect();
-            for (place, found) in own.into_iter().zip(differences.along(&starts)?) {
+        }
+        // Starts of one tree are taken to all cores, and so are trees.
+        let ensemble = match groups.len() {
+            1 => Ensemble::new(),
+            _ => Ensemble::new().threads(NonZeroUsize::MIN),
+        };
+        let answers = Ensemble::new().map(&groups, |_, group| {
+            let tree = &trees[group[0]];
+            let horizons = vec![duration];
+            let differences = Differences::new(tree, &self.copies, horizons, self.tolerance)?;
+            let starts = group
+                .iter()
+                .map(|&place| self.plane.start_at(&points[place]));
+            differences.along(&ensemble, &starts.collect::<Vec<_>>())
+        });
+        let mut grown: Vec<Option<Grown>> = vec![None; points.len()];
+        for (group, found) in groups.into_iter().zip(answers) {
+            for (place, found) in group.into_iter().zip(found?) {
                 grown[place] = match found {
                     Ok(found) => Some(found),
                     Err(GrowthError::Integration(_)) => None,
