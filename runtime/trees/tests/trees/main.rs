@@ -10,6 +10,7 @@ mod plain;
 mod prescribed;
 mod scales;
 mod series;
+mod straight;
 mod text;
 mod transfer;
 mod truncation;
