@@ -116,7 +116,8 @@ impl Derivation<'_> {
             let lateral = component(letters::LATERAL_ARM, "across", &arm.lateral);
             arms.push(self.point_at(&along, &lateral, angles[*link]));
         }
-        let pegs = [(letters::PEG_X, "x"), (letters::PEG_Y, "y")];
+        let upwards = if self.scene.stands() { "−y" } else { "y" };
+        let pegs = [(letters::PEG_X, "x"), (letters::PEG_Y, upwards)];
         let mut place = 0;
         let offset = [
             ("offset_x", "Δx", "\\Delta x"),

@@ -1,5 +1,7 @@
 //! What acts between links, whatever it depends on.
 
+use std::hash::Hash;
+
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::translational::{
@@ -35,6 +37,19 @@ impl<T: Scalar> Between<T> {
             torsional: self.torsional.cast(&convert),
             translational: self.translational.cast(convert),
         }
+    }
+
+    /// All that is no constant.
+    pub(crate) fn shape(&self) -> impl Hash + use<T> {
+        let torsional = self.torsional.iter();
+        let torsional: Vec<_> = torsional
+            .map(|own| (own.links, own.law.is_some()))
+            .collect();
+        let translational = self.translational.iter().map(|own| {
+            let links: Vec<usize> = own.arms.iter().map(|arm| arm.link).collect();
+            (links, own.rest.is_some(), own.friction.is_some())
+        });
+        (torsional, translational.collect::<Vec<_>>())
     }
 
     #[inline(always)]

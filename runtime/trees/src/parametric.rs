@@ -158,8 +158,7 @@ impl TreeDescription {
         let of_laws = |of: fn(&PassiveTorques) -> [&Quantity; 2]| {
             passive().any(|own| of(own).map(is_in).contains(&true))
         };
-        let of_straight =
-            |of: &dyn Fn(&TranslationalSpringDamper) -> bool| scene.translational.iter().any(of);
+        let [ties, dampers, springs] = straight_uses(&scene.translational, is_in);
         // Of a drive's signals only constants can be asked for.
         let of_drive = || {
             let found = std::cell::Cell::new(false);
@@ -177,13 +176,12 @@ impl TreeDescription {
                     let offsets = [&link.com, &link.pivot, &link.end];
                     let mut parts = offsets.iter().flat_map(|own| [&own.along, &own.lateral]);
                     parts.any(is_in)
-                }) || of_straight(&|own| own.places().into_iter().any(is_in)),
+                }) || ties,
             ),
             (Inertia, of_links(&|link| is_in(&link.inertia))),
             (
                 ViscousFriction,
-                of_laws(|own| [&own.friction, &own.drag])
-                    || of_straight(&|own| is_in(&own.friction)),
+                of_laws(|own| [&own.friction, &own.drag]) || dampers,
             ),
             (
                 CoulombFriction,
@@ -197,7 +195,7 @@ impl TreeDescription {
                 Joint,
                 of_laws(|own| [&own.spring, &own.rest])
                     || of_laws(|own| own.laws.each_ref().map(|law| &law.width))
-                    || of_straight(&|own| [&own.spring, &own.rest].map(is_in).contains(&true)),
+                    || springs,
             ),
             (Drive, of_drive()),
         ];
@@ -260,4 +258,17 @@ impl TreeDescription {
         let links = numbers::links_as_given(&self.scene, &parameters);
         Ok(PendulumTree::of_links(self.clone(), values, &links))
     }
+}
+
+/// Returns whether quantities of straight springs have that property: where they are tied, what
+/// their dampers take, and what their springs are.
+fn straight_uses(
+    all: &[TranslationalSpringDamper],
+    is_one: impl Fn(&Quantity) -> bool,
+) -> [bool; 3] {
+    [
+        all.iter().any(|own| own.places().into_iter().any(&is_one)),
+        all.iter().any(|own| is_one(&own.friction)),
+        (all.iter()).any(|own| is_one(&own.spring) || is_one(&own.rest)),
+    ]
 }

@@ -159,16 +159,7 @@ impl<T: Scalar> PendulumTree<T> {
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let pairs = between.torsional.iter();
-        let pairs: Vec<_> = pairs.map(|own| (own.links, own.law.is_some())).collect();
-        let lines = between.translational.iter();
-        let lines: Vec<(Vec<usize>, [bool; 2])> = lines
-            .map(|own| {
-                let links = own.arms.iter().map(|arm| arm.link);
-                let parts = [own.rest.is_some(), own.friction.is_some()];
-                (links.collect(), parts)
-            })
-            .collect();
+        let pairs = between.shape();
         let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
@@ -178,7 +169,7 @@ impl<T: Scalar> PendulumTree<T> {
             .map(|set| set.links.iter().map(|link| link.0).collect())
             .collect();
         let mut hasher = DefaultHasher::new();
-        (&parents, form, functions, stands, held_sets, pairs, lines).hash(&mut hasher);
+        (&parents, form, functions, stands, held_sets, pairs).hash(&mut hasher);
         let shape = Shape::Shared(parents.into());
         let described = Described {
             names: numbers::names(scene),

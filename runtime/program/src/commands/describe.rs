@@ -129,7 +129,8 @@ fn between(tree: &PendulumTree) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {a}, {b}: {}", parts.join("; "));
     }
-    text + &straight(tree)
+    text.push_str(&straight(tree));
+    text
 }
 
 /// Straight springs and dampers, a line each.
