@@ -91,7 +91,8 @@
 //!
 //! - `std` (default): all of the crate. Without it, the crate is `no_std` with
 //!   `alloc` and offers [`scalar`], [`system`], [`model`], [`batch`], [`tree`],
-//!   [`taylor`], [`sectors`], [`transfer`], [`transfer_forms`], [`integrate`] and [`approximate`].
+//!   [`taylor`], [`sectors`], [`transfer`], [`transfer_forms`], [`translational`], [`integrate`] and
+//!   [`approximate`].
 //! - `libm`: elementary functions for builds without `std`; one of the two is
 //!   needed.
 //! - `macros` (default): the attribute `branched_pendulum`.
@@ -125,6 +126,7 @@ pub mod system;
 pub mod taylor;
 pub mod transfer;
 pub mod transfer_forms;
+pub mod translational;
 pub mod tree;
 
 // What emitted code names, at the shortest path.

@@ -14,7 +14,7 @@
 //!             | "in_phase" "(" [ name { "," name } [ "," ] ] ")"
 //!             | "locked" "(" name "," expression ")"
 //!             | "prescribed" "(" name { "," name } [ "," ] ")"
-//!             | ( "between" | "siblings" ) "(" name { "," name } { "," property } [ "," ] ")"
+//!             | ( "between" | "siblings" | "guy" ) "(" name { "," name } { "," property } [ "," ] ")"
 //!             | link
 //! link        = name [ ":" shape ] "(" [ property { "," property } [ "," ] ] ")"
 //!               [ "[" [ link { "," link } [ "," ] ] "]" ] [ "*" integer ]
@@ -90,7 +90,7 @@ pub struct Description {
     pub reductions: Reductions,
     /// `prescribed(...)`, each by itself.
     pub prescribed: Vec<PrescribedClause>,
-    /// `between(...)` and `siblings(...)`, each by itself.
+    /// `between(...)`, `siblings(...)` and `guy(...)`, each by itself.
     pub spring_dampers: Vec<SpringDamperClause>,
     /// True if part of it was unreadable, which is reported already: anything
     /// that is missing may have stood there.
@@ -108,10 +108,10 @@ pub struct PrescribedClause {
     pub damaged: bool,
 }
 
-/// A spring and friction between links that are not parent and child.
+/// A spring and friction between links, or between a link and the ground.
 #[derive(Debug, Clone)]
 pub struct SpringDamperClause {
-    /// The word `between` or `siblings`.
+    /// The word `between`, `siblings` or `guy`.
     pub name: Ident,
     /// The links, or the node whose copies are meant.
     pub links: Vec<Ident>,
@@ -119,6 +119,26 @@ pub struct SpringDamperClause {
     pub properties: Vec<Property>,
     /// True if part of it was unreadable, which is reported already.
     pub damaged: bool,
+}
+
+/// Words of spring-damper clauses: between two links, between the copies of a node, and between a
+/// link and the ground.
+pub(crate) const BETWEEN: &str = "between";
+pub(crate) const SIBLINGS: &str = "siblings";
+pub(crate) const GUY: &str = "guy";
+
+impl SpringDamperClause {
+    /// Returns true if spring and damper are straight, along the line between two points.
+    pub fn is_straight(&self) -> bool {
+        self.name == GUY || self.gives("at")
+    }
+
+    /// Returns true if it has a property of that name.
+    pub fn gives(&self, name: &str) -> bool {
+        self.properties
+            .iter()
+            .any(|property| property.key() == name)
+    }
 }
 
 /// Links that get no coordinate of their own.

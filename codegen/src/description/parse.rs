@@ -17,9 +17,9 @@ use super::misread::{lone_name, not_a_link, not_an_entry, shape_by_equals};
 use super::properties;
 use super::requests::{observable, request};
 use super::{
-    CratePath, Description, DriveClause, Expression, LockedClause, Node, ObservableClause,
-    ParameterClause, PrescribedClause, Property, Reductions, Request, SpringDamperClause,
-    StructItem,
+    BETWEEN, CratePath, Description, DriveClause, Expression, GUY, LockedClause, Node,
+    ObservableClause, ParameterClause, PrescribedClause, Property, Reductions, Request, SIBLINGS,
+    SpringDamperClause, StructItem,
 };
 use crate::report::{Diagnostic, Faults, SceneSetting, SyntaxMessage};
 
@@ -222,7 +222,8 @@ fn entry(input: ParseStream<'_>, report: &mut Faults) -> Result<Member, ListFaul
             damaged: links.damaged,
         }));
     }
-    if (name == "between" || name == "siblings") && declares(input) {
+    let is_spring_damper = [BETWEEN, SIBLINGS, GUY].iter().any(|word| name == word);
+    if is_spring_damper && declares(input) {
         return spring_damper(name, input, report).map(Member::SpringDamper);
     }
     if name == "gravity" || name == "crate" {

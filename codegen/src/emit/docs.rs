@@ -8,10 +8,10 @@ use crate::scene::{Reduction, Solve};
 use proc_macro2::TokenStream;
 
 impl Emission<'_> {
-    /// Returns true if a spring is at rest beside its parent's line.
+    /// Returns true if a spring is at rest beside its parent's line, or along a line.
     pub(super) fn has_rest_angles(&self) -> bool {
         let mut torques = self.scene.passive_torques();
-        torques.any(|torques| !torques.rest.is_zero())
+        torques.any(|torques| !torques.rest.is_zero()) || !self.scene.translational.is_empty()
     }
 
     /// The state of potential energy zero, for docs.

@@ -3,7 +3,7 @@
 use super::Emission;
 use crate::functions::{Cause, Purpose};
 use crate::mechanics::expression::{Expr, NamedFormula, Role, SymbolId};
-use crate::mechanics::{BrakingTorque, EnergyParts, Frame, WrittenOut};
+use crate::mechanics::{BrakingTorque, EnergyParts, Frame, LineMeaning, WrittenOut};
 use std::collections::BTreeSet;
 
 impl Emission<'_> {
@@ -22,7 +22,38 @@ impl Emission<'_> {
             let joint = self.mechanics.joints.get(&symbol)?;
             Some(NamedFormula::of_symbol(symbols, symbol, &joint.formula()))
         }));
+        self.add_lines(&mut formulas);
         formulas
+    }
+
+    /// Adds what symbols of straight springs' lines are, those before them that stand in them.
+    fn add_lines(&self, formulas: &mut Vec<NamedFormula>) {
+        let (symbols, mut known, mut next) = (&self.mechanics.symbols, BTreeSet::new(), 0);
+        while let Some(formula) = formulas.get(next) {
+            let mut found = BTreeSet::new();
+            formula.right.for_each_symbol(&mut |symbol| {
+                found.insert(symbol);
+                // A root that is spelt out stands for the components.
+                let roots = self.mechanics.lines.values();
+                for meaning in roots {
+                    if let LineMeaning::Root { square, shown } = meaning
+                        && *shown == symbol
+                    {
+                        square.for_each_symbol(&mut |symbol| {
+                            found.insert(symbol);
+                        });
+                    }
+                }
+            });
+            let found = found.into_iter().filter(|symbol| known.insert(*symbol));
+            let lines = found.filter_map(|symbol| {
+                let line = self.mechanics.lines.get(&symbol)?;
+                Some(NamedFormula::of_symbol(symbols, symbol, &line.formula()))
+            });
+            let lines: Vec<NamedFormula> = lines.collect();
+            formulas.extend(lines);
+            next += 1;
+        }
     }
 
     fn own_formulas(&self, purpose: Purpose) -> Vec<NamedFormula> {

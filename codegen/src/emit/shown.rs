@@ -46,8 +46,11 @@ impl Emission<'_> {
     /// The rates of the momenta, with the torques that the scene has.
     pub(super) fn momentum_rates_in_words(&self) -> String {
         let passive = || self.scene.passive_torques();
+        let mut straight = self.scene.translational.iter();
+        let dampers = straight.any(|own| !own.friction.is_zero());
+        let friction = dampers || passive().any(PassiveTorques::has_friction);
         let present = [
-            (passive().any(PassiveTorques::has_friction), "friction"),
+            (friction, "friction"),
             (passive().any(PassiveTorques::has_drag), "drag"),
             (self.mechanics.drive.is_some(), "drive"),
         ];

@@ -18,6 +18,8 @@ pub struct Signature {
 pub struct Naming {
     /// True if there is a drive: functions of all forces take the time then.
     pub driven: bool,
+    /// True if there are straight dampers: the power of friction depends on the angles then.
+    pub damped_by_angle: bool,
     /// Number of links.
     pub links: usize,
     /// Number of sectors.
@@ -39,6 +41,7 @@ impl Naming {
         let star = || "*".to_owned();
         Self {
             driven: false,
+            damped_by_angle: false,
             links: 0,
             sectors: 0,
             places: vec![star()],

@@ -161,7 +161,11 @@ purposes! { naming:
     /// Power of the drive on the whole tree.
     DrivePower => plain("drive_power", &[Time, Theta, Omega], Scalar);
     /// Power of friction and drag on the whole tree.
-    TotalFrictionPower => plain("friction_power", &[Omega], Scalar);
+    TotalFrictionPower => {
+        let arguments = [Theta, Omega];
+        let rates_alone = usize::from(!naming.damped_by_angle);
+        plain("friction_power", &arguments[rates_alone..], Scalar)
+    };
     /// Power of torques from outside on the whole tree.
     OutsidePower => plain("outside_power", &[Omega, Torques], Scalar);
     /// The observable with that number.

@@ -5,6 +5,7 @@ use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::Expr;
 use super::frame::DerivedFrame;
+use super::lines::LineTorque;
 use super::link_pairs::PairElement;
 use crate::scene::{LinkId, PassiveTorques};
 
@@ -45,6 +46,8 @@ pub struct Articulation {
     pub joints: Vec<Joint>,
     /// Springs and friction between links that are not parent and child, two by two.
     pub pairs: Vec<PairElement>,
+    /// Torques of straight springs and dampers.
+    pub lines: Vec<LineTorque>,
 }
 
 impl Derivation<'_> {
@@ -74,6 +77,7 @@ impl Derivation<'_> {
             gravity: expr(self.quantity(&scene.gravity).expand()),
             joints: joints.collect(),
             pairs: self.plain_pairs(),
+            lines: self.line_torques(),
         }
     }
 }

@@ -3,9 +3,11 @@
 
 use super::algebra::Formula;
 use super::expression::{Role, SymbolId, Symbols};
-use super::meaning::{CompositeObservable, DerivedDrive, JointDifference, PairDifferences};
+use super::meaning::{
+    CompositeObservable, DerivedDrive, DerivedLines, JointDifference, LineMeaning, PairDifferences,
+};
 use super::observables::EnergySymbols;
-use super::print::latex_name;
+use super::print::{Index, latex_name};
 use crate::scene::Scene;
 use std::collections::BTreeMap;
 
@@ -33,25 +35,6 @@ pub enum Trigonometric {
     SinBetween(SymbolId, SymbolId),
 }
 
-/// Names as the index of a letter, in code, in text and in LaTeX.
-pub(super) struct Index {
-    pub(super) code: String,
-    pub(super) text: String,
-    pub(super) latex: String,
-}
-
-impl Index {
-    pub(super) fn of(names: &[impl AsRef<str>]) -> Self {
-        let plain: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
-        let latex: Vec<String> = plain.iter().map(|name| latex_name(name)).collect();
-        Self {
-            code: plain.join("_"),
-            text: plain.join(","),
-            latex: latex.join(","),
-        }
-    }
-}
-
 /// A constant while it is derived.
 pub(super) struct ConstantEntry {
     pub(super) value: Formula,
@@ -74,6 +57,7 @@ pub(super) struct Derivation<'s> {
     pub(super) joints: BTreeMap<SymbolId, JointDifference<Formula>>,
     /// Differences of links that are not parent and child, pair by pair.
     pub(super) pairs: Vec<PairDifferences>,
+    pub(super) lines: DerivedLines,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
@@ -108,6 +92,7 @@ impl<'s> Derivation<'s> {
             drive: DerivedDrive::default(),
             joints: BTreeMap::new(),
             pairs: Vec::new(),
+            lines: DerivedLines::default(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
             composites: BTreeMap::new(),
@@ -293,6 +278,13 @@ impl<'s> Derivation<'s> {
         if let Some(joint) = self.joints.get(&symbol) {
             return joint.slope(coordinate);
         }
+        if let Some(line) = self.lines.symbols.get(&symbol) {
+            return match &line.meaning {
+                LineMeaning::Formula(formula) => Some(self.partial(formula, coordinate)),
+                // Slopes of lengths are given.
+                LineMeaning::Root { .. } => None,
+            };
+        }
         if let Some(composite) = self.composites.get(&symbol) {
             return Some(self.composite_slope(symbol, composite, coordinate));
         }
@@ -360,6 +352,10 @@ impl<'s> Derivation<'s> {
     pub(super) fn coordinates_of(&self, formula: &Formula) -> Vec<SymbolId> {
         let mut found = Vec::new();
         for symbol in formula.symbols() {
+            if let Some(line) = self.lines.symbols.get(&symbol) {
+                found.extend(&line.coordinates);
+                continue;
+            }
             match self.trigonometry.get(&symbol) {
                 Some(Trigonometric::Cos(a) | Trigonometric::Sin(a)) => found.push(*a),
                 Some(Trigonometric::VersineOf(id) | Trigonometric::SineOf(id)) => {

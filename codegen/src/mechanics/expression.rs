@@ -31,6 +31,8 @@ pub enum Role {
     Velocity,
     /// The angle or the rate of a joint.
     Joint,
+    /// Of the line of a straight spring: its components, its length, slopes and rate of that.
+    Line,
     /// A generalized acceleration; appears in the rates of observables only.
     Acceleration,
     /// A generalized momentum.

@@ -96,6 +96,7 @@ impl Derivation<'_> {
                 unit: entry.unit,
             })
             .collect();
+        mechanics.lines = self.plain_lines();
         let joints = self.joints.iter();
         mechanics.joints = joints
             .map(|(&symbol, joint)| {

@@ -23,6 +23,7 @@ impl Derivation<'_> {
                 gravity: self.expr(&gravity.expand()),
                 joints: Vec::new(),
                 pairs: Vec::new(),
+                lines: Vec::new(),
             },
             link: Some(link),
             joint_forces: Some(self.plain_forces(&forces)),

@@ -2,12 +2,13 @@
 //! stand in the equations of motion as viscous torques do.
 
 use super::algebra::Formula;
-use super::derivation::{Derivation, Index};
+use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId, Symbols};
 use super::force_elements::{ElementLinks, ElementWords};
 use super::frame::DerivedFrame;
 use super::letters;
 use super::meaning::{DerivedSource, DerivedTorque};
+use super::print::Index;
 use crate::scene::{Coordinate, FrictionLaw, FrictionPlace, LinkId, PassiveTorques};
 
 /// A torque (C/s + q s) w of friction, by which a link or its joint is braked.

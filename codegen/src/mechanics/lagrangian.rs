@@ -22,10 +22,12 @@ impl Derivation<'_> {
         let velocities: Vec<SymbolId> = names.iter().map(|n| self.velocity(n)).collect();
         let momenta: Vec<SymbolId> = names.iter().map(|n| self.momentum(n)).collect();
         self.prepare_pairs();
+        self.prepare_lines(&coordinates, &velocities);
         let mass = self.mass_matrix(&coordinates);
         let potential = self.potential(&coordinates);
         let springs = self.springs(&coordinates);
-        let dissipation = self.dissipation(&velocities);
+        let mut dissipation = self.dissipation(&velocities);
+        dissipation.extend(self.lines.losses.iter().cloned());
         let torques = self.braking_torques(&velocities);
         let work: Vec<Formula> = torques.iter().filter_map(DerivedTorque::work).collect();
         self.drive.note_friction(&dissipation, &work);
@@ -35,7 +37,7 @@ impl Derivation<'_> {
             velocities,
             momenta,
             mass,
-            potential: &potential + &springs,
+            potential: &(&potential + &springs) + &self.lines.energy,
             springs,
             dissipation: dissipation.into_iter().chain(work).sum(),
             torques,

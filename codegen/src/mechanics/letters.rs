@@ -1,7 +1,8 @@
 //! Letters of the constants of links.
 
 use super::algebra::Formula;
-use super::derivation::{Derivation, Index};
+use super::derivation::Derivation;
+use super::print::Index;
 
 /// A letter of constants, in code, in text and in LaTeX, and their unit.
 #[derive(Clone, Copy)]
@@ -37,6 +38,13 @@ pub(super) const MOMENT: Letter = letter("moment", "h", "h", "kg m");
 pub(super) const LATERAL_MOMENT: Letter = letter("lateral_moment", "e", "e", "kg m");
 pub(super) const COUPLING: Letter = letter("coupling", "μ", "\\mu", "kg m²");
 pub(super) const LATERAL_COUPLING: Letter = letter("lateral_coupling", "ν", "\\nu", "kg m²");
+pub(super) const ARM: Letter = letter("arm", "r", "r", "m");
+pub(super) const LATERAL_ARM: Letter = letter("lateral_arm", "r⊥", "r^{\\perp}", "m");
+pub(super) const PEG_X: Letter = letter("peg_x", "X", "X", "m");
+pub(super) const PEG_Y: Letter = letter("peg_y", "Y", "Y", "m");
+pub(super) const STRAIGHT_SPRING: Letter = letter("straight_spring", "K", "K", "N/m");
+pub(super) const REST_LENGTH: Letter = letter("rest_length", "L", "L", "m");
+pub(super) const STRAIGHT_FRICTION: Letter = letter("straight_friction", "γ", "\\gamma", "N s/m");
 
 impl Derivation<'_> {
     /// A constant of an orbit, of one and another above it, or of what acts between links,

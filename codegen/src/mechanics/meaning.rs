@@ -1,9 +1,9 @@
 //! Meanings of symbols in a derivation, beside constants and sines and cosines: functions of
-//! time, differences in joints, functions of whole expressions, braking torques.
+//! time, differences in joints, lines of straight springs, functions of whole expressions, braking torques.
 
 use super::algebra::Formula;
 use super::expression::{Expr, SymbolId};
-use crate::scene::{FrictionPlace, Function, LinkId, LinkPair};
+use crate::scene::{FrictionPlace, Function, Line, LinkId, LinkPair};
 use std::collections::BTreeMap;
 
 /// Meaning of a symbol that depends on time alone.
@@ -130,6 +130,74 @@ impl PairDifferences {
             pair,
             angle: None,
             rate: None,
+        }
+    }
+}
+
+/// Meaning of a symbol of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LineMeaning<F = Expr> {
+    /// A formula in other symbols.
+    Formula(F),
+    /// The root of a formula.
+    Root {
+        /// The formula.
+        square: F,
+        /// A symbol that is spelt as the root, for formulas alone.
+        shown: SymbolId,
+    },
+}
+
+/// A symbol of a line while it is derived.
+pub(super) struct DerivedLineSymbol {
+    pub(super) meaning: LineMeaning<Formula>,
+    /// The coordinates that it depends on.
+    pub(super) coordinates: Vec<SymbolId>,
+}
+
+/// A line while it is derived.
+pub(super) struct DerivedLine {
+    pub(super) line: Line,
+    pub(super) names: Vec<String>,
+    pub(super) offset: [SymbolId; 2],
+    /// The coordinates of the links that have arms.
+    pub(super) coordinates: Vec<SymbolId>,
+    /// N_i of the arms.
+    pub(super) moments: Vec<SymbolId>,
+    /// ℓ, and J_i of the arms.
+    pub(super) length: Option<(SymbolId, Vec<SymbolId>)>,
+    /// Pull and slopes of the spring, and of the damper.
+    pub(super) pulls: Vec<(Formula, Vec<SymbolId>)>,
+}
+
+/// Lines of straight springs while they are derived.
+pub(super) struct DerivedLines {
+    pub(super) list: Vec<DerivedLine>,
+    pub(super) symbols: BTreeMap<SymbolId, DerivedLineSymbol>,
+    /// Energy of all straight springs.
+    pub(super) energy: Formula,
+    /// Terms of Rayleigh's function of straight dampers.
+    pub(super) losses: Vec<Formula>,
+}
+
+/// None.
+impl Default for DerivedLines {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            symbols: BTreeMap::new(),
+            energy: Formula::zero(),
+            losses: Vec::new(),
+        }
+    }
+}
+
+impl LineMeaning {
+    /// The meaning as a formula for people.
+    pub fn formula(&self) -> Expr {
+        match self {
+            Self::Formula(formula) => formula.clone(),
+            Self::Root { shown, .. } => Expr::Symbol(*shown),
         }
     }
 }

@@ -24,6 +24,7 @@ mod joint_forces;
 mod lagrangian;
 mod laws;
 mod letters;
+mod lines;
 mod link;
 mod link_pairs;
 mod lock;
@@ -55,10 +56,11 @@ pub use differences::{SmallFormulas, SmallMechanics, TransverseFormulas, Transve
 pub use drive::{DriveTerms, PivotMotion};
 pub use friction::{BrakingTorque, TorqueSource};
 pub use joint_forces::{JointForces, JointSymbols};
+pub use lines::LineTorque;
 pub use link::{Composite, LinkBalance, LinkSymbols};
 pub use link_pairs::PairElement;
 pub use lock::LockError;
-pub use meaning::{JointDifference, Temporal};
+pub use meaning::{JointDifference, LineMeaning, Temporal};
 pub use observables::{
     AppliedFunction, CanonicalRate, EnergySymbols, LinearSystem, NestedSymbols, ObservableFormulas,
     ObservableFrame, Observables,
@@ -264,6 +266,8 @@ pub struct Mechanics {
     pub parameters: Vec<SymbolId>,
     /// Meaning of the angles and rates of joints.
     pub joints: BTreeMap<SymbolId, JointDifference>,
+    /// Meaning of the symbols of straight springs' lines.
+    pub lines: BTreeMap<SymbolId, LineMeaning>,
     /// Meaning of every trigonometric symbol.
     pub trigonometry: BTreeMap<SymbolId, Trigonometric>,
     /// Combinations of differences whose sine and versine appear.

@@ -177,3 +177,22 @@ pub(crate) fn superscript(number: impl Into<i64>) -> String {
 pub(super) fn latex_name(name: &str) -> String {
     name.replace('_', "\\_")
 }
+
+/// Names as the index of a letter, in code, in text and in LaTeX.
+pub(super) struct Index {
+    pub(super) code: String,
+    pub(super) text: String,
+    pub(super) latex: String,
+}
+
+impl Index {
+    pub(super) fn of(names: &[impl AsRef<str>]) -> Self {
+        let plain: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+        let latex: Vec<String> = plain.iter().map(|name| latex_name(name)).collect();
+        Self {
+            code: plain.join("_"),
+            text: plain.join(","),
+            latex: latex.join(","),
+        }
+    }
+}

@@ -17,6 +17,12 @@ impl fmt::Display for Mechanics {
         for (&symbol, joint) in &self.joints {
             self.line(f, &self.name(symbol), &joint.formula())?;
         }
+        if !self.lines.is_empty() {
+            writeln!(f, "lines of straight springs")?;
+        }
+        for (&symbol, line) in &self.lines {
+            self.line(f, &self.name(symbol), &line.formula())?;
+        }
         if let Some(drive) = &self.drive {
             self.drive(f, drive)?;
         }

@@ -53,6 +53,10 @@ impl Naming {
         let transverse = mechanics.transverse.iter().flat_map(|all| &all.sectors);
         Self {
             driven: mechanics.drive.is_some(),
+            damped_by_angle: scene
+                .translational
+                .iter()
+                .any(|own| !own.friction.is_zero()),
             links: scene.links.len(),
             sectors: mechanics
                 .sectors

@@ -12,8 +12,8 @@ use super::symmetric::OrbitLinks;
 use crate::functions::Argument;
 use crate::mechanics::expression::{Expr, Role, SymbolId};
 use crate::mechanics::{
-    Frame, JointDifference, LinearSystem, MassExpansion, MatrixEntry, MeanTree, Mechanics,
-    ObservableFrame,
+    Frame, JointDifference, LineMeaning, LinearSystem, MassExpansion, MatrixEntry, MeanTree,
+    Mechanics, ObservableFrame,
 };
 use std::collections::BTreeMap;
 
@@ -137,6 +137,16 @@ impl<'a> Lowering<'a> {
                 }
                 let rest = self.expr(environment, rest);
                 let value = self.builder.sub(value, rest);
+                self.builder.name(value, &entry.code)
+            }
+            Role::Line => {
+                let value = match &self.mechanics.lines[&symbol] {
+                    LineMeaning::Formula(formula) => self.expr(environment, formula),
+                    LineMeaning::Root { square, .. } => {
+                        let square = self.expr(environment, square);
+                        self.builder.sqrt(square)
+                    }
+                };
                 self.builder.name(value, &entry.code)
             }
             Role::Momentum => {

@@ -85,7 +85,7 @@ const fn required(name: &'static str, unit: &'static str, sign: Sign) -> Dimensi
     }
 }
 
-const fn optional(name: &'static str, unit: &'static str, sign: Sign) -> Dimension {
+pub(super) const fn optional(name: &'static str, unit: &'static str, sign: Sign) -> Dimension {
     Dimension {
         name,
         unit,

@@ -50,7 +50,7 @@ pub struct PairRun {
 
 impl PairRun {
     /// All pairs.
-    fn pairs(self) -> impl Iterator<Item = [usize; 2]> {
+    pub(super) fn pairs(self) -> impl Iterator<Item = [usize; 2]> {
         (0..self.count).map(move |place| self.first.map(|link| link + place))
     }
 }

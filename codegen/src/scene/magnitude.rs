@@ -40,6 +40,8 @@ impl Magnitudes {
             ("rad", _) => (0.0, 1e30, "of a magnitude up to 1e30 rad"),
             // Widths of friction, which divide.
             ("rad/s", _) => (1e-30, 1e30, "of a magnitude from 1e-30 to 1e30 rad/s"),
+            ("N/m", _) => (0.0, 1e100, "of a magnitude up to 1e100 N/m"),
+            ("N s/m", _) => (0.0, 1e100, "of a magnitude up to 1e100 N s/m"),
             ("N m", _) => (0.0, 1e100, "of a magnitude up to 1e100 N m"),
             ("N m s", _) => (0.0, 1e100, "of a magnitude up to 1e100 N m s"),
             ("N m s²", _) => (0.0, 1e100, "of a magnitude up to 1e100 N m s²"),

@@ -45,6 +45,7 @@ mod spring_dampers;
 mod symbols;
 mod template;
 mod text;
+mod translational;
 mod transverse;
 mod tree_reader;
 mod unequal;
@@ -67,6 +68,7 @@ pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
 pub use spring_dampers::DescribedSpringDamper;
+pub use translational::{Line, LineEnds, TranslationalSpringDamper};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
@@ -121,6 +123,8 @@ pub struct Scene {
     pub prescribed: Vec<PrescribedSet>,
     /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<DescribedSpringDamper>,
+    /// Straight springs and dampers between points of links, and guys.
+    pub translational: Vec<TranslationalSpringDamper>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,

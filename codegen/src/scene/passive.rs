@@ -194,16 +194,26 @@ impl PassiveTorques {
     }
 }
 
+/// Checks that what is at rest is a spring, whose stiffness has this unit.
+pub(super) fn check_rest(
+    properties: &[Property],
+    owner: &str,
+    unit: &'static str,
+    report: &mut Faults,
+) {
+    let find = |name: &str| properties.iter().find(|p| p.key() == name);
+    if let (Some(rest), None) = (find("rest"), find("spring")) {
+        let link = owner.to_owned();
+        let message = TreeMessage::RestWithoutSpring { link, unit };
+        report.error(rest.name.span(), message);
+    }
+}
+
 /// Checks that a rest angle is that of a spring, and a width that of a law.
 pub(super) fn check_idle(properties: &[Property], owner: &str, report: &mut Faults) {
+    check_rest(properties, owner, "N m", report);
     let find = |name: &str| properties.iter().find(|p| p.key() == name);
     let link = || owner.to_owned();
-    if let (Some(rest), None) = (find("rest"), find("spring")) {
-        report.error(
-            rest.name.span(),
-            TreeMessage::RestWithoutSpring { link: link() },
-        );
-    }
     for force in ["friction", "drag"] {
         let member = |member: &str| find(&format!("{force}({member})"));
         if let (Some(width), None, None) = (member("width"), member("coulomb"), member("quadratic"))

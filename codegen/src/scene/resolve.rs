@@ -11,11 +11,11 @@ use super::requests::{check_symmetry, resolve_requests};
 use super::rule::{Code, resolve_code};
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
-use super::spring_dampers::{resolve_spring_dampers, torques_of_spring_dampers};
+use super::spring_dampers::{SceneSpringDampers, forces_of_spring_dampers, resolve_spring_dampers};
 use super::symbols::check_meanings;
 use super::template::{Template, TreeBuilder, WholeRule};
 use super::values::{Usage, Values, check_used};
-use super::{Quantity, Scene, Sign, Solve};
+use super::{Line, Quantity, Scene, Sign, Solve};
 use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::{Ident, Span};
@@ -28,6 +28,7 @@ use std::collections::BTreeMap;
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
     let scene = resolve_scene(description, report)?;
     check_coupling(description, &scene, report);
+    check_straight_in_loops(description, &scene, report);
     report.is_empty().then_some(scene)
 }
 
@@ -43,8 +44,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
         builder.add_root(root, report);
     }
     let drive = resolve_drive(description.drive.as_ref(), &mut builder.values, report);
-    let torques =
-        torques_of_spring_dampers(&description.spring_dampers, &mut builder.values, report);
+    let forces = forces_of_spring_dampers(&description.spring_dampers, &mut builder.values, report);
     let mut resolved = resolve_requests(&description.requests, report);
     resolved.requests.solve = resolve_solve(description.solve.as_ref(), report);
     resolved.requests.forces |= !description.prescribed.is_empty();
@@ -84,14 +84,14 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     let owners = check_names(&expansion, &templates, report);
     check_parameter_names(&values, &owners, report);
     // Copies may have stood where the tree was unreadable.
-    let (mut prescribed, mut spring_dampers) = (Vec::new(), Vec::new());
+    let (mut prescribed, mut spring_dampers) = (Vec::new(), SceneSpringDampers::default());
     if readable {
         check_symmetry(&mut resolved, &expansion, report);
         let names = LinkNames::of(&expansion, layout);
         prescribed = resolve_prescribed(&description.prescribed, &names, report);
         let whole = reduction.as_ref();
         spring_dampers =
-            resolve_spring_dampers(description, torques, &expansion, whole, &names, report);
+            resolve_spring_dampers(description, forces, &expansion, whole, &names, report);
     }
     let mut scene = Scene {
         name: description.item.ident.to_string(),
@@ -107,7 +107,8 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
         requests: resolved.requests,
         observables: Vec::new(),
         prescribed,
-        spring_dampers,
+        spring_dampers: spring_dampers.torsional,
+        translational: spring_dampers.translational,
         reduction,
         layout,
     };
@@ -118,6 +119,7 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
             resolve_small(&resolved.small, &mut scene, report);
         }
         resolve_observables(&description.observables, &mut scene, &owners, report);
+        check_straight(description, &scene, report);
     }
     check_meanings(&scene, &values.spans, report);
     check_derives(&description.item, &scene, report);
@@ -176,10 +178,55 @@ fn check_coupling(description: &Description, scene: &Scene, report: &mut Faults)
     }
     let coupling = scene.coupling_spring(&symmetric_coordinates(scene));
     let Some(index) = coupling else { return };
-    let clause = description.spring_dampers.get(index);
+    let clauses = description.spring_dampers.iter();
+    let clause = clauses.filter(|own| !own.is_straight()).nth(index);
     if let (Some(clause), Some(own)) = (clause, scene.spring_dampers.get(index)) {
         let what = own.what.clone();
         report.error(clause.name.span(), OutputMessage::CoupledSectors { what });
+    }
+}
+
+/// Reports straight springs between points that keep their distance, and what they are asked for
+/// and not part of.
+fn check_straight(description: &Description, scene: &Scene, report: &mut Faults) {
+    let requests = &scene.requests;
+    let refused = [
+        (requests.budget.is_some(), "budget"),
+        (requests.transfer.is_some(), "transfer"),
+        (requests.symmetric, "symmetric"),
+        (requests.transverse, "transverse"),
+    ];
+    let clauses = description.spring_dampers.iter();
+    let clauses: Vec<_> = clauses.filter(|own| own.is_straight()).collect();
+    // What is wrong with one that there is not is reported.
+    if clauses.len() != scene.translational.len() {
+        return;
+    }
+    let lines = scene.lines();
+    for (index, (clause, own)) in clauses.into_iter().zip(&scene.translational).enumerate() {
+        let (span, what) = (clause.name.span(), || own.what.clone());
+        if let Some((_, request)) = refused.iter().find(|(is_wanted, _)| *is_wanted) {
+            let (what, request) = (what(), *request);
+            report.error(span, OutputMessage::StraightSpring { what, request });
+        }
+        let mut lines = lines.iter().filter(|line| line.spring_damper == index);
+        if lines.any(Line::is_rigid) {
+            report.error(span, TreeMessage::RigidLine { what: what() });
+        }
+    }
+}
+
+/// Reports straight springs in loops.
+fn check_straight_in_loops(description: &Description, scene: &Scene, report: &mut Faults) {
+    let mut clauses = description.spring_dampers.iter();
+    let clause = clauses.find(|own| own.is_straight());
+    if let (Some(clause), Some(own), true) = (clause, scene.translational.first(), scene.in_loops())
+    {
+        let what = own.what.clone();
+        report.error(
+            clause.name.span(),
+            OutputMessage::StraightSpringInLoops { what },
+        );
     }
 }
 

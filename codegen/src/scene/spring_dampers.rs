@@ -9,9 +9,12 @@ use super::link_pairs::{LinkPair, SpringDamperEnds};
 use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
+use super::translational::{LineProperties, TranslationalSpringDamper, line_properties};
 use super::values::Values;
 use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
-use crate::description::{Description, Property, SpringDamperClause, Value};
+use crate::description::{
+    BETWEEN, Description, GUY, Property, SIBLINGS, SpringDamperClause, Value,
+};
 use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 
 /// A torsion spring and friction between two links, or between all copies of a node under one
@@ -145,10 +148,6 @@ impl Scene {
     }
 }
 
-/// Word of the clause that names two links, and of the one that names a node.
-const BETWEEN: &str = "between";
-const SIBLINGS: &str = "siblings";
-
 /// Properties of a spring-damper.
 fn dimensions(word: &str) -> impl Iterator<Item = &'static Dimension> {
     // Copies do not differ where they are at rest.
@@ -165,14 +164,26 @@ fn in_words(clause: &SpringDamperClause) -> String {
     format!("{}({})", clause.name, links.join(", "))
 }
 
+/// What a clause says of springs and friction.
+pub(super) enum ClauseForces {
+    /// On the difference of two angles.
+    Torsional(Box<PassiveTorques>),
+    /// Along the line between two points.
+    Translational(Box<LineProperties>),
+}
+
 /// Reads the springs and the friction of all clauses; what is wrong goes to `report`.
-pub(super) fn torques_of_spring_dampers(
+pub(super) fn forces_of_spring_dampers(
     clauses: &[SpringDamperClause],
     values: &mut Values,
     report: &mut Faults,
-) -> Vec<PassiveTorques> {
+) -> Vec<ClauseForces> {
     let mut own = |clause: &SpringDamperClause| {
         let (word, what) = (clause.name.to_string(), in_words(clause));
+        if clause.is_straight() {
+            let line = line_properties(clause, &what, values, report);
+            return ClauseForces::Translational(Box::new(line));
+        }
         if !clause.damaged {
             check_idle(&clause.properties, &what, report);
         }
@@ -203,7 +214,7 @@ pub(super) fn torques_of_spring_dampers(
         if clause.properties.is_empty() && !clause.damaged {
             report.error(clause.name.span(), TreeMessage::IdleSpringDamper { what });
         }
-        PassiveTorques::of(&given)
+        ClauseForces::Torsional(Box::new(PassiveTorques::of(&given)))
     };
     clauses.iter().map(&mut own).collect()
 }
@@ -219,19 +230,34 @@ fn unknown(word: &str, property: &Property) -> TreeMessage {
     }
 }
 
-/// Finds the links of all clauses, whose torques are these; what is wrong goes to `report`.
+/// Spring-dampers of a scene.
+#[derive(Default)]
+pub(super) struct SceneSpringDampers {
+    pub(super) torsional: Vec<DescribedSpringDamper>,
+    pub(super) translational: Vec<TranslationalSpringDamper>,
+}
+
+/// Finds the links of all clauses, whose forces are these; what is wrong goes to `report`.
 pub(super) fn resolve_spring_dampers(
     description: &Description,
-    torques: Vec<PassiveTorques<Quantity>>,
+    forces: Vec<ClauseForces>,
     expansion: &ExpandedTree,
     reduction: Option<&Reduction>,
     names: &LinkNames<'_>,
     report: &mut Faults,
-) -> Vec<DescribedSpringDamper> {
+) -> SceneSpringDampers {
     let (clauses, reductions) = (&description.spring_dampers, &description.reductions);
-    let mut spring_dampers = Vec::new();
-    for (clause, mut torques) in clauses.iter().zip(torques) {
+    let mut found = SceneSpringDampers::default();
+    for (clause, forces) in clauses.iter().zip(forces) {
         let what = in_words(clause);
+        let mut torques = match forces {
+            ClauseForces::Torsional(torques) => *torques,
+            ClauseForces::Translational(line) => {
+                let line = straight(clause, *line, description, (expansion, names), report);
+                found.translational.extend(line);
+                continue;
+            }
+        };
         let is_of_siblings = clause.name == SIBLINGS;
         if !reductions.in_phase.is_empty() && !is_of_siblings {
             report.error(
@@ -252,14 +278,53 @@ pub(super) fn resolve_spring_dampers(
             torques.times(reduction.copies_above(node));
         }
         if let Some(ends) = ends {
-            spring_dampers.push(DescribedSpringDamper {
+            found.torsional.push(DescribedSpringDamper {
                 what,
                 ends,
                 torques,
             });
         }
     }
-    spring_dampers
+    found
+}
+
+/// Finds the points of a straight spring and damper.
+fn straight(
+    clause: &SpringDamperClause,
+    line: LineProperties,
+    description: &Description,
+    (expansion, names): (&ExpandedTree, &LinkNames<'_>),
+    report: &mut Faults,
+) -> Option<TranslationalSpringDamper> {
+    let (what, reductions) = (in_words(clause), &description.reductions);
+    let merged = [
+        (!reductions.in_phase.is_empty(), "in_phase"),
+        (!reductions.locked.is_empty(), "locked"),
+    ];
+    if let Some((_, reduction)) = merged.into_iter().find(|(is_there, _)| *is_there) {
+        let message = TreeMessage::StraightSpringInReduction { what, reduction };
+        report.error(clause.name.span(), message);
+        return None;
+    }
+    if clause.name == GUY {
+        let [link] = clause.links.as_slice() else {
+            if !clause.damaged {
+                report.error(clause.name.span(), TreeMessage::NotOneLink);
+            }
+            return None;
+        };
+        let mut motion = description.drive.iter().flat_map(|drive| &drive.parts);
+        if motion.any(|part| part.name == "x" || part.name == "y") {
+            let what = what.clone();
+            report.error(clause.name.span(), TreeMessage::GuyBesideMotion { what });
+        }
+        return line.guy(what, names.find(link, report)?);
+    }
+    let ends = match clause.name == SIBLINGS {
+        true => siblings(clause, expansion, None, names.layout, report),
+        false => two_links(clause, names, report),
+    };
+    line.between(what, ends?)
 }
 
 fn two_links(

@@ -3,9 +3,9 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, Drive, Group, Layout, Link, NodeMotion, Observable, Offset, Orbit, Parameter,
-    PassiveTorques, Reduction, Requests, Requirement, Scene, Sign, TransferRequest, WholeNode,
-    WholeOrder,
+    BudgetRequest, Drive, Group, Layout, LineEnds, Link, NodeMotion, Observable, Offset, Orbit,
+    Parameter, PassiveTorques, Quantity, Reduction, Requests, Requirement, Scene, Sign,
+    TransferRequest, TranslationalSpringDamper, WholeNode, WholeOrder,
 };
 
 impl Display for Scene {
@@ -24,6 +24,7 @@ impl Display for Scene {
             observables,
             prescribed,
             spring_dampers,
+            translational,
             reduction,
             layout,
         } = self;
@@ -101,6 +102,9 @@ impl Display for Scene {
             writeln!(f, "{}", spring_damper.what)?;
             self.write_passive(&spring_damper.torques, f)?;
         }
+        for own in translational {
+            self.write_straight(own, f)?;
+        }
         writeln!(f, "requests {requests}")?;
         for Observable { name, value } in observables {
             writeln!(f, "observable {name} = {}", value.display(parameters))?;
@@ -124,6 +128,48 @@ impl Display for WholeNode {
 }
 
 impl Scene {
+    /// Writes a straight spring and damper.
+    fn write_straight(
+        &self,
+        own: &TranslationalSpringDamper,
+        f: &mut Formatter<'_>,
+    ) -> fmt::Result {
+        let TranslationalSpringDamper {
+            what,
+            ends,
+            spring,
+            rest,
+            friction,
+        } = own;
+        let shown = |quantity: &Quantity| quantity.display(&self.parameters).to_string();
+        let point = |at: &Offset| format!("({}, {})", shown(&at.along), shown(&at.lateral));
+        write!(f, "straight {what}")?;
+        match ends {
+            LineEnds::Links(_, [first, second]) => {
+                write!(f, ", from {} to {} m", point(first), point(second))?;
+            }
+            LineEnds::Guy(_, at, [x, y]) => {
+                write!(
+                    f,
+                    ", from {} m to ({}, {}) m",
+                    point(at),
+                    shown(x),
+                    shown(y)
+                )?;
+            }
+        }
+        for (name, value, unit) in [
+            ("spring", spring, "N/m"),
+            ("rest", rest, "m"),
+            ("friction", friction, "N s/m"),
+        ] {
+            if !value.is_zero() {
+                write!(f, ", {name} {} {unit}", shown(value))?;
+            }
+        }
+        writeln!(f)
+    }
+
     /// Writes a link and, indented, its properties.
     fn write_link(&self, link: &Link, f: &mut Formatter<'_>) -> fmt::Result {
         let Link {

@@ -214,7 +214,11 @@ impl TreeScene {
 fn is_conservative(tree: &PendulumTree) -> bool {
     // Rates of which no two are equal: friction in every pivot takes power from them.
     let rates: Vec<f64> = (1..=tree.links()).map(|link| link as f64).collect();
-    tree.drive(0.0).is_none() && tree.friction_power(&rates) == 0.0
+    // A straight damper between points that keep their distance at these rates takes none.
+    let mut straight = tree.translational_spring_dampers().iter();
+    let is_damped = straight.any(|own| own.friction.is_some_and(|friction| friction != 0.0));
+    let angles = vec![0.0; rates.len()];
+    tree.drive(0.0).is_none() && !is_damped && tree.friction_power(&angles, &rates) == 0.0
 }
 
 fn transfer(symmetric: &SymmetricTree<f64>, tolerance: f64) -> Wanted<'_> {

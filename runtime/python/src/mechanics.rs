@@ -168,7 +168,8 @@ impl Tree {
     fn friction_power<'py>(&self, py: Python<'py>, y: Numbers<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (tree, n) = (self.tree(), self.tree().links());
         by_state(py, &y, 2 * n, |state| {
-            [tree.friction_power(state.get(n..).unwrap_or_default())]
+            let (theta, omega) = state.split_at_checked(n).unwrap_or_default();
+            [tree.friction_power(theta, omega)]
         })
     }
 

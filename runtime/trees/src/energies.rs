@@ -4,22 +4,34 @@ use branched_pendulum::analysis::{EquilibriumError, Modes, ModesError, equilibri
 use branched_pendulum::scalar::{Dual, Scalar};
 use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{Model, Slopes, Workspace, gradient};
+use branched_pendulum::translational::TranslationalSpringDampers;
 
+use crate::between::Between;
 use crate::bodies::FormBodies;
 use crate::tree::PendulumTree;
 
 impl<T: Scalar> PendulumTree<T> {
-    /// Returns what acts between links that are not parent and child.
+    /// Returns the torsion springs and the friction between links that are not parent and child.
     pub fn spring_dampers(&self) -> &SpringDampers<T> {
-        self.equations.spring_dampers()
+        &self.between().torsional
     }
 
-    /// Returns the power (W) of friction and drag, never positive.
+    /// Returns the straight springs and dampers between points of links, and those to the ground.
+    pub fn translational_spring_dampers(&self) -> &TranslationalSpringDampers<T> {
+        &self.between().translational
+    }
+
+    pub(crate) fn between(&self) -> &Between<T> {
+        self.equations.between()
+    }
+
+    /// Returns the power (W) of friction and drag, never positive. The angles matter to straight
+    /// dampers alone; NaN where the points of one meet.
     #[must_use]
-    pub fn friction_power(&self, omega: &[T]) -> T {
-        match self.spring_dampers().is_empty() {
+    pub fn friction_power(&self, theta: &[T], omega: &[T]) -> T {
+        match self.between().is_empty() {
             true => self.bodies.friction_power(omega),
-            false => self.bodies.friction_power(omega) + self.spring_dampers().power(omega),
+            false => self.bodies.friction_power(omega) + self.between().power(theta, omega),
         }
     }
 
@@ -91,14 +103,14 @@ impl<T: Scalar> PendulumTree<T> {
             return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
         }
         let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
-        let (bodies, spring_dampers) = (self.bodies.cast(lift), self.spring_dampers().cast(lift));
+        let (bodies, between) = (self.bodies.cast(lift), self.between().cast(lift));
         let row = |link: usize| {
             let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
             if let Some(own) = point.get_mut(link) {
                 *own = Dual::variable(own.value, 0);
             }
             let slopes = gradient_of(self.links(), &point, |theta, workspace| {
-                potential_energy(&bodies, &spring_dampers, workspace, theta)
+                potential_energy(&bodies, &between, workspace, theta)
             });
             slopes.into_iter().map(|slope| slope.tangents[0]).collect()
         };
@@ -164,9 +176,9 @@ impl PendulumTree<f64> {
     /// The torques −∂U/∂θ on the links.
     fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
         let bodies = self.bodies.cast(Slopes::<f64>::constant);
-        let spring_dampers = self.spring_dampers().cast(Slopes::<f64>::constant);
+        let between = self.between().cast(Slopes::<f64>::constant);
         let slopes = gradient_of(self.links(), theta, |theta, workspace| {
-            potential_energy(&bodies, &spring_dampers, workspace, theta)
+            potential_energy(&bodies, &between, workspace, theta)
         });
         slopes.into_iter().map(|slope| -slope).collect()
     }
@@ -175,14 +187,14 @@ impl PendulumTree<f64> {
 /// Energy of gravity and of all springs.
 pub(crate) fn potential_energy<T: Scalar>(
     bodies: &FormBodies<T>,
-    spring_dampers: &SpringDampers<T>,
+    between: &Between<T>,
     workspace: &mut Workspace<T>,
     theta: &[T],
 ) -> T {
     let energy = bodies.potential_energy(workspace, theta);
-    match spring_dampers.is_empty() {
+    match between.is_empty() {
         true => energy,
-        false => energy + spring_dampers.energy(theta),
+        false => energy + between.energy(theta),
     }
 }
 

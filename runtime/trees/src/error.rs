@@ -65,6 +65,16 @@ pub enum TreeError {
          node under one link, or watch an energy of your own by `observe(...)`"
     )]
     CoupledSectors,
+    /// Energies of sectors, or what is made of them, of a tree with straight springs.
+    #[error(
+        "symmetric coordinates know no lengths between points, and the tree has the straight spring \
+         `{what}`: write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or \
+         watch an energy of your own by `observe(...)`"
+    )]
+    StraightSpring {
+        /// The clause, as in `between(a, b)`.
+        what: String,
+    },
     /// Symmetric coordinates, or what is made of them, of a tree without copies.
     #[error(
         "the tree has no copies, between which there are differences to transfer energy to: \

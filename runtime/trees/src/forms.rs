@@ -2,10 +2,10 @@
 
 use branched_pendulum::emitted::Simd;
 use branched_pendulum::scalar::Scalar;
-use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, RootDrive};
 
+use crate::between::Between;
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 use crate::rows::Form;
 use crate::ways::Ways;
@@ -128,8 +128,9 @@ impl<T: Scalar> FormEquations<T> {
 /// The equations of a tree, with the springs and the friction between its links.
 #[derive(Clone, Debug)]
 pub(crate) struct Equations<T> {
+    links: usize,
     form: FormEquations<T>,
-    spring_dampers: SpringDampers<T>,
+    between: Between<T>,
 }
 
 impl<T: Scalar> Equations<T> {
@@ -138,25 +139,27 @@ impl<T: Scalar> Equations<T> {
         parents: &[u32],
         rows: Vec<T>,
         gravity: T,
-        spring_dampers: SpringDampers<T>,
+        between: Between<T>,
     ) -> Self {
         let form = FormEquations::new(form, parents, rows, gravity);
         Self {
+            links: parents.len(),
             form,
-            spring_dampers,
+            between,
         }
     }
 
     pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         Equations {
+            links: self.links,
             form: self.form.cast(&convert),
-            spring_dampers: self.spring_dampers.cast(convert),
+            between: self.between.cast(convert),
         }
     }
 
     /// What acts between links.
-    pub(crate) fn spring_dampers(&self) -> &SpringDampers<T> {
-        &self.spring_dampers
+    pub(crate) fn between(&self) -> &Between<T> {
+        &self.between
     }
 
     /// Returns what acts, with the torques between links among those from outside; they stand in
@@ -168,12 +171,11 @@ impl<T: Scalar> Equations<T> {
         given: [&[T]; 2],
         numbers: &'a mut Vec<T>,
     ) -> Acting<'a, T> {
-        if self.spring_dampers.is_empty() {
+        if self.between.is_empty() {
             return acting;
         }
         numbers.resize(given[0].len(), T::from_f64(0.0));
-        self.spring_dampers
-            .write_torques(acting.torques, given, numbers);
+        self.between.write_torques(acting.torques, given, numbers);
         let torques = Some(&**numbers);
         Acting { torques, ..acting }
     }
@@ -187,12 +189,11 @@ impl<T: Scalar> Equations<T> {
         given: [&[T]; 2],
         alpha: &mut [T],
     ) {
-        let (acting, workspace) = match self.spring_dampers.is_empty() {
+        let (acting, workspace) = match self.between.is_empty() {
             true => (acting, workspace),
             false => {
                 let (torques, inner) = workspace.with_inner(given[0].len());
-                self.spring_dampers
-                    .write_torques(acting.torques, given, torques);
+                self.between.write_torques(acting.torques, given, torques);
                 let torques = Some(&*torques);
                 (Acting { torques, ..acting }, inner)
             }
@@ -210,7 +211,7 @@ impl<T: Scalar> Equations<T> {
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     ) {
-        match self.spring_dampers.is_empty() {
+        match self.between.is_empty() {
             true => self.form.evaluate(drive, theta, omega, alpha),
             false => self.evaluate_coupled(drive, theta, omega, alpha),
         }
@@ -236,7 +237,7 @@ impl<T: Scalar> Equations<T> {
         drive: Option<RootDrive<T>>,
         room: &mut [T],
     ) -> impl InRegisters<R> {
-        match self.spring_dampers.is_empty() {
+        match self.between.is_empty() {
             true => OneOf::First(self.form.in_registers(drive, room)),
             false => OneOf::Second(CoupledAtOneTime {
                 equations: self.cast(R::splat),
@@ -254,7 +255,7 @@ impl<T: Scalar> Equations<T> {
         omega: impl Fn(usize) -> T,
         mut alpha: impl FnMut(usize, T),
     ) {
-        let links = self.spring_dampers.links();
+        let links = self.links;
         let theta: Vec<T> = (0..links).map(theta).collect();
         let omega: Vec<T> = (0..links).map(omega).collect();
         let mut results = vec![T::from_f64(f64::NAN); links];

@@ -13,6 +13,7 @@
 //! symmetric coordinates and the energy transfer W in all its forms ([`PendulumTree::symmetric`]).
 //! The speed of code that is written out stays with compiled models: `docs/run-time-trees.md`.
 
+mod between;
 mod bodies;
 mod canonical;
 mod carried;

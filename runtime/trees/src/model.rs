@@ -117,7 +117,7 @@ impl<T: Scalar> Energy<T> for PendulumTree<T> {
     }
 
     fn potential_energy_with(&self, workspace: &mut Workspace<T>, theta: &[T]) -> T {
-        potential_energy(&self.bodies, self.spring_dampers(), workspace, theta)
+        potential_energy(&self.bodies, self.between(), workspace, theta)
     }
 }
 

@@ -6,6 +6,7 @@ use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
+use branched_pendulum::translational::TranslationalSpringDampers;
 use branched_pendulum_codegen::scene::{
     CoordinateIndex, Function, LinkId, Observed, ObservedAtom, Scene, Variable, VariableKind,
 };
@@ -51,6 +52,7 @@ pub struct Observable {
     tree: PendulumTree<f64>,
     symmetric: SymmetricTree<f64>,
     moving: SymmetricTree<Dual<f64, 1>>,
+    moving_springs: TranslationalSpringDampers<Dual<f64, 1>>,
     value: Observed,
     parameters: Vec<Double>,
     constants: BTreeMap<String, f64>,
@@ -89,6 +91,7 @@ impl PendulumTree<f64> {
         }
         Ok(Observable {
             tree: self.clone(),
+            moving_springs: self.translational_spring_dampers().cast(Dual::constant),
             moving: symmetric.cast(Dual::constant),
             symmetric,
             value: found.value.clone(),
@@ -105,7 +108,8 @@ impl Observable {
         let Some([theta, omega]) = self.absolute(given) else {
             return f64::NAN;
         };
-        self.at(&self.symmetric, [&theta, &omega])
+        let springs = self.tree.translational_spring_dampers();
+        self.at((&self.symmetric, springs), [&theta, &omega])
     }
 
     /// Returns the rate along the motion under all forces, at a time of the drive: the part of
@@ -116,9 +120,7 @@ impl Observable {
             return f64::NAN;
         };
         let alpha = self.tree.accelerations(time, &theta, &omega);
-        let moving = [along(&theta, &omega), along(&omega, &alpha)];
-        let [rate] = self.at(&self.moving, [&moving[0], &moving[1]]).tangents;
-        rate
+        self.changing([along(&theta, &omega), along(&omega, &alpha)])
     }
 
     /// Returns the part of the rate that is due to friction and drag.
@@ -132,8 +134,23 @@ impl Observable {
         let symmetric = &self.symmetric;
         symmetric.accelerations_by(workspace, NonConservative::Friction, given, &mut alpha);
         let still = vec![0.0; theta.len()];
-        let moving = [along(&theta, &still), along(&omega, &alpha)];
-        let [rate] = self.at(&self.moving, [&moving[0], &moving[1]]).tangents;
+        let dampers = self.tree.translational_spring_dampers();
+        if !dampers.is_empty() {
+            let [mut torques, mut own] = [(); 2].map(|()| still.clone());
+            dampers.add_friction([&theta, &omega], &mut torques);
+            self.tree.solve_mass(workspace, &theta, &torques, &mut own);
+            for (alpha, own) in alpha.iter_mut().zip(own) {
+                *alpha += own;
+            }
+        }
+        self.changing([along(&theta, &still), along(&omega, &alpha)])
+    }
+
+    /// The part of first order.
+    fn changing(&self, [theta, omega]: [Vec<Dual<f64, 1>>; 2]) -> f64 {
+        let [rate] = self
+            .at((&self.moving, &self.moving_springs), [&theta, &omega])
+            .tangents;
         rate
     }
 
@@ -150,7 +167,12 @@ impl Observable {
             .then_some(found)
     }
 
-    fn at<S: Scalar>(&self, tree: &SymmetricTree<S>, [theta, omega]: [&[S]; 2]) -> S {
+    /// The value of a tree with its straight springs.
+    fn at<S: Scalar>(
+        &self,
+        (tree, springs): (&SymmetricTree<S>, &TranslationalSpringDampers<S>),
+        [theta, omega]: [&[S]; 2],
+    ) -> S {
         let (workspace, plain) = (&mut Workspace::new(), Normalisation::Plain);
         let given = Given::Absolute { theta, omega };
         let zeros = vec![S::from_f64(0.0); theta.len()];
@@ -160,7 +182,10 @@ impl Observable {
         tree.rates(workspace, given, &mut rates);
         tree.momenta(workspace, given, &mut momenta);
         tree.absolute_momenta_from_symmetric(plain, &momenta, &mut absolute);
-        let [kinetic, potential] = tree.kinetic_and_potential_energy(workspace, given);
+        let [kinetic, mut potential] = tree.kinetic_and_potential_energy(workspace, given);
+        if !springs.is_empty() {
+            potential = potential + springs.energy(theta);
+        }
         let values = Values {
             absolute: [theta, omega, &absolute],
             symmetric: [&coordinates, &rates, &momenta],

@@ -4,16 +4,17 @@
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Ode, Workspace};
 use branched_pendulum_codegen::scene::{
-    Link, ParameterId, PassiveTorques, Quantity, QuantityAtom, Scene,
+    Link, ParameterId, PassiveTorques, Quantity, QuantityAtom, Scene, TranslationalSpringDamper,
 };
 
+use crate::between::Between;
 use crate::description::TreeDescription;
 use crate::drive::Courses;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 use crate::rows::{self, Form};
-use crate::tree::{PendulumTree, spring_dampers};
+use crate::tree::PendulumTree;
 
 /// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
 /// (rad), followed by the angular velocities (rad/s).
@@ -56,7 +57,7 @@ pub enum ParameterUse {
     Gravity,
     /// A mass.
     Mass,
-    /// A place of a centre of mass, of a pivot or of an end.
+    /// A place of a centre of mass, of a pivot, of an end, or where a straight spring is tied.
     Place,
     /// A moment of inertia.
     Inertia,
@@ -66,7 +67,7 @@ pub enum ParameterUse {
     CoulombFriction,
     /// Friction that grows with the square of the rate.
     QuadraticFriction,
-    /// A spring's stiffness or angle of rest, or the width of a law of friction.
+    /// A spring's stiffness, or its angle or length at rest, or the width of a law of friction.
     Joint,
     /// The drive.
     Drive,
@@ -113,6 +114,17 @@ impl TreeDescription {
         nodes
     }
 
+    /// Returns the clauses of straight springs, as in `between(a, b)`, one for each of
+    /// [`translational_spring_dampers`](PendulumTree::translational_spring_dampers): that of
+    /// siblings as often as there are two of them.
+    pub fn straight_springs(&self) -> impl Iterator<Item = &str> {
+        let lines = self.scene.lines().into_iter();
+        lines.filter_map(|line| {
+            let own = self.scene.translational.get(line.spring_damper)?;
+            Some(own.what.as_str())
+        })
+    }
+
     /// Returns the names of the links, in the order of the angles.
     pub fn links(&self) -> Vec<String> {
         numbers::names(&self.scene)
@@ -146,6 +158,7 @@ impl TreeDescription {
         let of_laws = |of: fn(&PassiveTorques) -> [&Quantity; 2]| {
             passive().any(|own| of(own).map(is_in).contains(&true))
         };
+        let [ties, dampers, springs] = straight_uses(&scene.translational, is_in);
         // Of a drive's signals only constants can be asked for.
         let of_drive = || {
             let found = std::cell::Cell::new(false);
@@ -163,10 +176,13 @@ impl TreeDescription {
                     let offsets = [&link.com, &link.pivot, &link.end];
                     let mut parts = offsets.iter().flat_map(|own| [&own.along, &own.lateral]);
                     parts.any(is_in)
-                }),
+                }) || ties,
             ),
             (Inertia, of_links(&|link| is_in(&link.inertia))),
-            (ViscousFriction, of_laws(|own| [&own.friction, &own.drag])),
+            (
+                ViscousFriction,
+                of_laws(|own| [&own.friction, &own.drag]) || dampers,
+            ),
             (
                 CoulombFriction,
                 of_laws(|own| own.laws.each_ref().map(|law| &law.coulomb)),
@@ -178,7 +194,8 @@ impl TreeDescription {
             (
                 Joint,
                 of_laws(|own| [&own.spring, &own.rest])
-                    || of_laws(|own| own.laws.each_ref().map(|law| &law.width)),
+                    || of_laws(|own| own.laws.each_ref().map(|law| &law.width))
+                    || springs,
             ),
             (Drive, of_drive()),
         ];
@@ -221,10 +238,10 @@ impl TreeDescription {
         let (parents, carries) = rows::parents(&links);
         let rows = form.rows(&links, &carries);
         let above = -numbers::value(&scene.gravity, values);
-        let spring_dampers = spring_dampers(scene, links.len(), values);
+        let between = Between::of(scene, links.len(), values);
         EquationsOfMotion {
             links: links.len(),
-            equations: Equations::new(form, &parents, rows, above, spring_dampers),
+            equations: Equations::new(form, &parents, rows, above, between),
             drive: Courses::of(scene, &|quantity| numbers::value(quantity, values)),
         }
     }
@@ -241,4 +258,17 @@ impl TreeDescription {
         let links = numbers::links_as_given(&self.scene, &parameters);
         Ok(PendulumTree::of_links(self.clone(), values, &links))
     }
+}
+
+/// Returns whether quantities of straight springs have that property: where they are tied, what
+/// their dampers take, and what their springs are.
+fn straight_uses(
+    all: &[TranslationalSpringDamper],
+    is_one: impl Fn(&Quantity) -> bool,
+) -> [bool; 3] {
+    [
+        all.iter().any(|own| own.places().into_iter().any(&is_one)),
+        all.iter().any(|own| is_one(&own.friction)),
+        (all.iter()).any(|own| is_one(&own.spring) || is_one(&own.rest)),
+    ]
 }

@@ -36,7 +36,8 @@ impl<T: Scalar> ByRule<T> {
         let is_of_siblings = |own: &DescribedSpringDamper| {
             matches!(own.ends, SpringDamperEnds::Siblings(_)) || own.torques.spring.is_zero()
         };
-        if !scene.spring_dampers.iter().all(is_of_siblings) {
+        // A straight spring's length depends on several scales.
+        if !scene.spring_dampers.iter().all(is_of_siblings) || !scene.translational.is_empty() {
             return None;
         }
         let mut children = vec![Vec::new(); links.len()];

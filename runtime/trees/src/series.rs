@@ -85,6 +85,11 @@ pub(crate) fn series_of<T: Scalar>(
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
+    /// The recurrences know nothing of the length of a straight spring.
+    fn has_taylor_coefficients(&self) -> bool {
+        self.between().translational.is_empty()
+    }
+
     fn taylor_workspace(&self, order: usize) -> usize {
         let drive = self.drive.as_ref().map_or(0, |drive| drive.room(order));
         self.series.workspace(order) + drive
@@ -99,6 +104,9 @@ impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
         coefficients: &mut [T],
         work: &mut [Quad<T>],
     ) {
+        if !self.has_taylor_coefficients() {
+            return coefficients.fill(T::from_f64(f64::NAN));
+        }
         let order = (coefficients.len() / (2 * self.names().len()).max(1)).saturating_sub(1);
         let (mut orders, mut rest) = (None, work);
         if let Some(drive) = &self.drive {

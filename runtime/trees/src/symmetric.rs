@@ -9,10 +9,11 @@ use branched_pendulum::transfer::{RigidLink, SymmetricTree};
 use branched_pendulum_codegen::scene::coordinates::symmetric_coordinates;
 use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit, OrbitId, Scene};
 
+use crate::between::Between;
 use crate::description::TreeDescription;
 use crate::error::TreeError;
 use crate::numbers::{self, LinkNumbers, Place};
-use crate::tree::{PendulumTree, spring_dampers};
+use crate::tree::PendulumTree;
 
 /// What copies make of a tree, whatever its constants.
 #[derive(Debug)]
@@ -101,7 +102,8 @@ impl TreeDescription {
     /// numbers: energies of its sectors, and the transfers W between them.
     ///
     /// # Errors
-    /// As [`tree`](Self::tree), and [`TreeError::NoCopies`].
+    /// As [`tree`](Self::tree), [`TreeError::NoCopies`], [`TreeError::CoupledSectors`] and
+    /// [`TreeError::StraightSpring`].
     pub fn symmetric<T: Scalar>(
         &self,
         values: &[(&str, f64)],
@@ -115,13 +117,17 @@ fn symmetric<T: Scalar>(
     values: &[f64],
     symmetry: &Symmetry,
 ) -> Result<SymmetricTree<T>, TreeError> {
-    match symmetry.has_copies {
-        true => unchecked(description, values, symmetry),
-        false => Err(TreeError::NoCopies),
+    match (symmetry.has_copies, description.scene.translational.first()) {
+        (false, _) => Err(TreeError::NoCopies),
+        (true, Some(own)) => Err(TreeError::StraightSpring {
+            what: own.what.clone(),
+        }),
+        (true, None) => unchecked(description, values, symmetry),
     }
 }
 
-/// The tree with the sectors that it has, be they that of the means alone.
+/// The tree with the sectors that it has, be they that of the means alone, but for its straight
+/// springs.
 pub(crate) fn unchecked<T: Scalar>(
     description: &TreeDescription,
     values: &[f64],
@@ -140,9 +146,9 @@ pub(crate) fn unchecked<T: Scalar>(
     } = symmetry;
     let tree = SymmetricTree::with_unequal_copies(&links, gravity, sectors, unequal);
     let tree = tree.ok_or(TreeError::NoCopies)?;
-    let spring_dampers = spring_dampers(scene, links.len(), &parameters);
+    let between = Between::of(scene, links.len(), &parameters);
     let tree = tree
-        .with_spring_dampers(spring_dampers)
+        .with_spring_dampers(between.torsional)
         .ok_or(TreeError::CoupledSectors)?;
     Ok(tree.standing(scene.stands()))
 }
@@ -175,7 +181,9 @@ impl PendulumTree<f64> {
     /// W between them, exact, by orders of the amplitude, as published.
     ///
     /// # Errors
-    /// [`TreeError::NoCopies`] where nothing in the tree is a copy of anything.
+    /// [`TreeError::NoCopies`] where nothing in the tree is a copy of anything,
+    /// [`TreeError::CoupledSectors`] and [`TreeError::StraightSpring`] where springs leave sectors
+    /// no energies of their own.
     ///
     /// # Examples
     ///

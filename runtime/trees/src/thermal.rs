@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use branched_pendulum::ScaleBudget;
 use branched_pendulum::system::{Forced, LinkPoint, Model, Positions, Workspace};
+use branched_pendulum_codegen::scene::Quantity;
 
 use crate::description::TreeDescription;
 use crate::error::TreeError;
@@ -32,6 +33,10 @@ impl PendulumTree<f64> {
         scene
             .spring_dampers
             .retain(|own| !own.torques.spring.is_zero());
+        for own in &mut scene.translational {
+            own.friction = Quantity::zero();
+        }
+        scene.translational.retain(|own| !own.spring.is_zero());
         let scene = Arc::new(scene);
         Self::of(TreeDescription { scene }, self.described.values().to_vec())
     }
@@ -82,7 +87,7 @@ impl PendulumTree<f64> {
     }
 
     /// Writes M⁻¹ p: what torques p accelerate at rest, less what there is without.
-    fn solve_mass(
+    pub(crate) fn solve_mass(
         &self,
         workspace: &mut Workspace<f64>,
         theta: &[f64],

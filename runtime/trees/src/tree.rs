@@ -5,12 +5,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{Model, Pendulum, Workspace};
 use branched_pendulum::taylor::SeriesTree;
 use branched_pendulum::tree::{PropertyTable, Shape};
-use branched_pendulum_codegen::scene::Scene;
 
+use crate::between::Between;
 use crate::bodies::FormBodies;
 use crate::description::TreeDescription;
 use crate::drive::Courses;
@@ -154,15 +153,14 @@ impl<T: Scalar> PendulumTree<T> {
         let form = Form::of(links, drive.is_some());
         let rows = in_numbers(&form.rows(links, &carries));
         let rule = ByRule::of(scene, links, &carries, gravity);
-        let spring_dampers = spring_dampers(scene, links.len(), &parameters);
-        let series = series_of(links, &spring_dampers, gravity, drive.is_some());
+        let between = Between::of(scene, links.len(), &parameters);
+        let series = series_of(links, &between.torsional, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))
         });
-        let pairs = spring_dampers.iter();
-        let pairs: Vec<_> = pairs.map(|own| (own.links, own.law.is_some())).collect();
-        let equations = Equations::new(form, &parents, rows, above, spring_dampers.cast(constant));
+        let pairs = between.shape();
+        let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
         let held_sets: Vec<Vec<usize>> = scene
@@ -275,16 +273,6 @@ impl<T: Scalar> PendulumTree<T> {
         let drive = self.drive.as_ref().map(|drive| drive.root(time));
         Acting { drive, torques }
     }
-}
-
-/// Springs and friction between the links of a scene.
-pub(crate) fn spring_dampers<S: Scalar>(
-    scene: &Scene,
-    links: usize,
-    parameters: &[S],
-) -> SpringDampers<S> {
-    // A scene names links that it has.
-    SpringDampers::of_runs(links, numbers::spring_dampers(scene, parameters)).unwrap_or_default()
 }
 
 /// A constant in the numbers of a tree.

@@ -57,7 +57,7 @@ impl Ode<f64> for Swing {
         }
         let (velocities, alpha) = motion.split_at_mut(n);
         velocities.copy_from_slice(omega);
-        *power = tree.friction_power(omega) + tree.drive_power(time, theta, omega);
+        *power = tree.friction_power(theta, omega) + tree.drive_power(time, theta, omega);
         match self.torques(theta, omega) {
             None => tree.accelerations_with(workspace, time, theta, omega, alpha),
             Some(torques) => {

@@ -130,8 +130,10 @@ fn naming(description: &Description) -> Naming {
         (links.join("_and_"), links.len())
     });
     let observables = description.observables.iter();
+    let mut springs = description.spring_dampers.iter();
     Naming {
         driven: description.drive.is_some(),
+        damped_by_angle: springs.any(|own| own.is_straight() && own.gives("friction")),
         links: LINKS,
         sectors: sector_count(description),
         places: std::iter::once(String::new()).chain(places).collect(),

@@ -1,7 +1,7 @@
 //! Torques in the joints, against the ground and on the root.
 
 use super::reduced_units::Units;
-use crate::mechanics::{PairElement, TorqueSource};
+use crate::mechanics::{LineTorque, PairElement, TorqueSource};
 use crate::program::ValueId;
 use crate::program::lower::{Environment, Lowering};
 use crate::scene::{LinkId, Scene};
@@ -51,6 +51,7 @@ impl Lowering<'_> {
             }
         }
         self.pair_torques(scene, units, environment, &mut torques);
+        self.line_torques(scene, units, environment, &mut torques);
         let builder = &mut self.builder;
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
@@ -100,6 +101,22 @@ impl Lowering<'_> {
             }
         }
         torques
+    }
+
+    /// Adds −(K s + γ ℓ̇) ∂ℓ/∂θ_i of each line.
+    fn line_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        environment: &mut Environment<'_>,
+        torques: &mut [ValueId],
+    ) {
+        for LineTorque { link, torque } in &self.mechanics.articulation.lines {
+            let torque = self.expr(environment, torque);
+            let unit = &units.links[scene.links[link.0].orbit.0];
+            let own = self.builder.mul(unit.per_torque, torque);
+            torques[link.0] = self.builder.sub(torques[link.0], own);
+        }
     }
 
     /// Adds −κ (θ_a − θ_b − ρ) − c (ω_a − ω_b) to the first link of each pair, and its opposite to

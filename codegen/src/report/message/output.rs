@@ -46,6 +46,22 @@ messages! {
         "write `siblings(NODE, spring = ...)` for springs between all copies of a node under \
          one link, or watch an energy of your own by `observe(...)`",
     ),
+    /// An output that straight springs are not part of.
+    StraightSpring { what: String, request: &'static str } => (
+        format!("`{request}` beside the straight spring `{what}`"),
+        format!("not part of `{request}`"),
+        format!(
+            "leave `{request}` out, since symmetric coordinates know no lengths between points; or \
+             write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or hand \
+             over the spring's forces by `emit(positions, forces)`"
+        ),
+    ),
+    /// A straight spring in loops.
+    StraightSpringInLoops { what: String } => (
+        format!("the straight spring `{what}` in a tree that is taken through loops"),
+        "loops know no points of other links",
+        "write `code = unrolled`, or hand over the spring's forces by `emit(positions, forces)`",
+    ),
     /// A form of the budget beside `scales` that loops do not have.
     BesideScales => (
         "budgets by scale are those of Parseval's energies alone",

@@ -105,11 +105,14 @@ messages! {
         "`at` is a place on the parent",
         "leave it out: the root's pivot is the origin",
     ),
-    /// A rest angle without a spring.
-    RestWithoutSpring { link: String } => (
-        format!("`{link}` has a rest angle, but no spring"),
+    /// A rest angle, or a length at rest, without a spring.
+    RestWithoutSpring { link: String, unit: &'static str } => (
+        match *unit {
+            "N/m" => format!("`{link}` has a length at rest, but no spring"),
+            _ => format!("`{link}` has a rest angle, but no spring"),
+        },
         "nothing is at rest here",
-        "add `spring = ...`, the spring's stiffness in N m, or leave `rest` out",
+        format!("add `spring = ...`, the spring's stiffness in {unit}, or leave `rest` out"),
     ),
     /// A width of friction without a law that has one.
     IdleWidth { link: String } => (
@@ -213,6 +216,54 @@ messages! {
         format!("`{what}` has neither spring nor friction"),
         "nothing acts",
         "write `spring = ...` in N m or `friction = ...` in N m s behind the links",
+    ),
+    /// A straight spring-damper with neither spring nor friction.
+    IdleStraightSpring { what: String } => (
+        format!("`{what}` has neither spring nor friction"),
+        "nothing acts",
+        "write `spring = ...` in N/m or `friction = ...` in N s/m behind the links",
+    ),
+    /// Points of a straight spring that are not one for each link.
+    NotTwoPoints { what: String } => (
+        format!("`each(...)` does not name a point of each link of `{what}`"),
+        "not a point for each link",
+        "write `at = 0.3` for the same place on all links, or in `between(a, b, ...)` \
+         `at = each(0.3, 0.2)`: a distance along `a`, then one along `b`",
+    ),
+    /// A guy that is tied to no place.
+    NotAPeg => (
+        "`to` is not a place",
+        "not a pair",
+        "write `to = (0.4, 0)`: x and y in m from the root's pivot, y upwards",
+    ),
+    /// Not one link that a guy holds.
+    NotOneLink => (
+        "`guy(...)` does not name one link",
+        "not one link",
+        "write the link, then what holds it, as in \
+         `guy(mast, at = 0.3, to = (0.4, 0), spring = 60, rest = 0.5)`",
+    ),
+    /// A straight spring beside links that do not move by themselves.
+    StraightSpringInReduction { what: String, reduction: &'static str } => (
+        format!("`{what}` between points beside `{reduction}(...)`"),
+        "no points of links that are merged",
+        format!(
+            "leave `{reduction}(...)` out, or hand over the spring's forces by \
+             `emit(positions, forces)`"
+        ),
+    ),
+    /// A guy beside a pivot that the drive moves.
+    GuyBesideMotion { what: String } => (
+        format!("`{what}` beside a drive that moves the pivot"),
+        "the peg stays where it is",
+        "leave `x` and `y` out of `drive(...)`, or hand over the guy's force by \
+         `emit(positions, forces)`",
+    ),
+    /// A straight spring between points that keep their distance.
+    RigidLine { what: String } => (
+        format!("the points of `{what}` keep their distance"),
+        "nothing stretches",
+        "write another `at = ...`: no angle moves these points against each other",
     ),
     /// The root as a joint that does not move.
     LockedRoot => (

@@ -98,7 +98,7 @@ fn links(subject: &Subject) -> String {
     text
 }
 
-/// Springs and friction between links, a line each.
+/// Springs and friction between links and between points, a line each.
 fn between(tree: &PendulumTree) -> String {
     let mut text = String::new();
     let name = |link: usize| tree.names().get(link).map_or("", String::as_str);
@@ -128,6 +128,37 @@ fn between(tree: &PendulumTree) -> String {
         }
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {a}, {b}: {}", parts.join("; "));
+    }
+    text.push_str(&straight(tree));
+    text
+}
+
+/// Straight springs and dampers, a line each.
+fn straight(tree: &PendulumTree) -> String {
+    let mut text = String::new();
+    let clauses = tree.description().straight_springs();
+    for (place, (own, what)) in tree
+        .translational_spring_dampers()
+        .iter()
+        .zip(clauses)
+        .enumerate()
+    {
+        if place == 0 {
+            text.push_str("\nbetween points\n");
+        }
+        let mut parts = Vec::new();
+        if own.spring != 0.0 {
+            let rest = own.rest.unwrap_or(0.0);
+            parts.push(format!("spring {} N/m, at rest at {rest} m", own.spring));
+        }
+        if let Some(friction) = own.friction.filter(|friction| *friction != 0.0) {
+            parts.push(format!("friction {friction} N s/m"));
+        }
+        if parts.is_empty() {
+            parts.push("nothing at these values".to_owned());
+        }
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {what}: {}", parts.join("; "));
     }
     text
 }

@@ -76,7 +76,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     job.print(&report(arguments, &subject, &samples, &energies))?;
     write(job, &subject, &samples, &energies)?;
     charts(job, &subject, &samples, &energies)?;
-    if let Err(error @ TreeError::CoupledSectors) = subject.tree.symmetric() {
+    if let Err(error @ (TreeError::CoupledSectors | TreeError::StraightSpring { .. })) =
+        subject.tree.symmetric()
+    {
         job.print(&format!("no H_d and no W: {error}\n"))?;
     }
     if let Some(sectors) = &sectors {
@@ -138,7 +140,7 @@ impl Energies {
         Self {
             kinetic: each(&|_, theta, omega| tree.kinetic_energy_of(theta, omega)),
             potential: each(&|_, theta, _| tree.potential_energy_of(theta)),
-            friction_power: each(&|_, _, omega| tree.friction_power(omega)),
+            friction_power: each(&|_, theta, omega| tree.friction_power(theta, omega)),
             drive_power: each(&|time, theta, omega| tree.drive_power(time, theta, omega)),
         }
     }

@@ -44,6 +44,30 @@ fn springs_between_links_are_described_with_their_numbers() {
     );
 }
 
+/// Straight springs are described, `simulate` takes them, and says why there is no W.
+#[test]
+fn straight_springs_are_described_and_taken() {
+    let folder = Folder::new("describe-straight");
+    let text =
+        "gravity = 9.8, a: rod(mass = 0.1, length = 0.2) [b: rod(mass = 0.1, length = 0.2) * 2],
+        guy(a, at = 0.2, to = (0.3, 0), spring = k, rest = 0.1, friction = 0.2),
+        siblings(b, at = 0.1, spring = 2)";
+    let tree = folder.file("tree.txt", text);
+    let tree = ["--tree", &tree, "--set", "k=3"];
+    let printed = folder.answer(&[&["describe"][..], &tree].concat());
+    for line in [
+        "between points\n  guy(a): spring 3 N/m, at rest at 0.1 m; friction 0.2 N s/m\n",
+        "  siblings(b): spring 2 N/m, at rest at 0 m\n",
+        "k = 3: spring of `guy(a)`, N/m",
+    ] {
+        assert!(printed.contains(line), "{line}: {printed}");
+    }
+    let words = ["--start", "20,40,-10", "--duration", "1"];
+    let printed = folder.answer(&[&["simulate"][..], &tree, &words].concat());
+    assert!(printed.contains("no H_d and no W"), "{printed}");
+    assert!(printed.contains("straight spring `guy(a)`"), "{printed}");
+}
+
 /// Energy is kept, and the motion is the same by another method.
 #[test]
 fn a_chain_of_three_moves() {

@@ -11,12 +11,12 @@ use branched_pendulum::analysis::growth::TransverseSystem;
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::Sectors;
-use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, State, Workspace};
 use branched_pendulum::tree::LinkEquations;
 
 use self::merged::{Member, MergedLinks};
 use self::sweep::Sweep;
+use crate::between::Between;
 use crate::drive::Courses;
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 use crate::error::TreeError;
@@ -86,7 +86,7 @@ pub struct InPhaseTree<T = f64> {
     above: T,
     drive: Option<Courses<T>>,
     /// Of the whole tree, in numbers with their changes.
-    spring_dampers: SpringDampers<Dual<T, 1>>,
+    between: Between<Dual<T, 1>>,
 }
 
 /// What merged trees on all scalars share.
@@ -140,7 +140,7 @@ impl PendulumTree<f64> {
             rows: in_numbers(&form.rows(&one_of_each, &carries)),
             above: constant(-gravity),
             drive: self.drive.clone(),
-            spring_dampers: self.spring_dampers().cast(Dual::constant),
+            between: self.between().cast(Dual::constant),
             structure: Arc::new(Structure {
                 merged,
                 copies: copies.clone(),
@@ -193,7 +193,7 @@ impl<T: Scalar> InPhaseTree<T> {
             rows: self.rows.iter().map(|&number| convert(number)).collect(),
             above: convert(self.above),
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
-            spring_dampers: (self.spring_dampers).cast(|own| Dual::constant(convert(own.value))),
+            between: (self.between).cast(|own| Dual::constant(convert(own.value))),
         }
     }
 
@@ -235,7 +235,7 @@ impl<T: Scalar> InPhaseTree<T> {
         alpha: &mut [T],
     ) {
         let merged = &self.structure.merged.links;
-        let torques = match self.spring_dampers.is_empty() {
+        let torques = match self.between.is_empty() {
             true => Vec::new(),
             false => self.torques(angles, velocities),
         };
@@ -288,7 +288,7 @@ impl<T: Scalar> InPhaseTree<T> {
                 *number = Dual { value, tangents };
             }
         }
-        self.spring_dampers.add_torques([theta, omega], on_whole);
+        self.between.write_torques(None, [theta, omega], on_whole);
         let mut torques = vec![[zero.value; 2]; self.links()];
         for (member, Dual { value, tangents }) in members.iter().zip(on_whole) {
             let [sum, change] = &mut torques[member.merged];

@@ -181,7 +181,7 @@ impl Ode<f64> for WithLoss<'_> {
         let (theta, omega) = (&state[..links], &state[links..2 * links]);
         rates[..links].copy_from_slice(omega);
         rates[links..2 * links].copy_from_slice(&self.0.accelerations(time, theta, omega));
-        rates[2 * links..].copy_from_slice(&[self.0.friction_power(omega), 0.0]);
+        rates[2 * links..].copy_from_slice(&[self.0.friction_power(theta, omega), 0.0]);
     }
 }
 

@@ -11,6 +11,7 @@ mod plain;
 mod prescribed;
 mod scales;
 mod series;
+mod straight;
 mod text;
 mod transfer;
 mod truncation;

@@ -54,7 +54,7 @@ fn the_rate_of_the_energy_is_the_power_of_all_forces() {
         .zip(rates)
         .map(|(slope, rate)| slope * rate)
         .sum();
-    let power = tree.friction_power(&OMEGA)
+    let power = tree.friction_power(&THETA, &OMEGA)
         + tree.outside_power(&OMEGA, &torques)
         + tree.drive_power(time, &THETA, &OMEGA);
     near(rate, power, 1e-12);

@@ -16,7 +16,7 @@ impl Numbers {
         low + (high - low) * self.next()
     }
 
-    fn below(&mut self, end: usize) -> usize {
+    pub(super) fn below(&mut self, end: usize) -> usize {
         (self.next() * end as f64) as usize
     }
 }

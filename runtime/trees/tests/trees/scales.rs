@@ -69,7 +69,7 @@ fn energies_change_as_the_budget_tells() {
     let whole = |power: &dyn Fn(usize) -> f64| (0..3).map(power).sum::<f64>();
     let near = |own: f64, other: f64| assert!((own - other).abs() < 1e-13, "{own} {other}");
     let friction = |scale| budget.friction_power(scale) + budget.drag_power(scale);
-    near(whole(&friction), tree.friction_power(&omega));
+    near(whole(&friction), tree.friction_power(&theta, &omega));
     near(
         whole(&|scale| budget.drive_power(scale)),
         tree.drive_power(time, &theta, &omega),

@@ -144,7 +144,10 @@ fn energies_by_parseval_sum_up() {
         tree.energy_of(&theta, &omega),
     );
     near(parseval.transfers.iter().sum(), 0.0);
-    near(parseval.powers.iter().sum(), tree.friction_power(&omega));
+    near(
+        parseval.powers.iter().sum(),
+        tree.friction_power(&theta, &omega),
+    );
     let given = Given::Absolute {
         theta: &theta,
         omega: &omega,

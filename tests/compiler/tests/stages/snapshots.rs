@@ -208,6 +208,25 @@ fn coupled() {
     }
 }
 
+/// A straight spring and damper between points of two links, one without length at rest, and a
+/// guy.
+#[test]
+fn guyed() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         mast: rod(mass = 1, length = 1) [ arm: rod(mass = 0.5, length = 0.5) ], \
+         between(mast, arm, at = each(0.3, (0.4, 0.1)), spring = k, rest = 0.5, friction = c), \
+         guy(arm, at = 0.5, to = (0.8, 0), spring = 3), \
+         emit(energies, forces))] struct Guyed;",
+    );
+    insta::assert_snapshot!("guyed_description", stages.description.to_string());
+    insta::assert_snapshot!("guyed_scene", stages.scene.to_string());
+    insta::assert_snapshot!("guyed_mechanics", stages.mechanics.to_string());
+    for name in ["accelerations", "potential_energy", "friction_power"] {
+        insta::assert_snapshot!(format!("guyed_code_{name}"), function(&stages.tokens, name));
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {

@@ -131,7 +131,10 @@ fn a_rule_agrees_with_the_tree_at_run_time() {
                 assert!((own - other).abs() < 1e-11 * size, "{own} {other}");
             }
         }
-        let (own, other) = (model.friction_power(&own_omega), tree.friction_power(omega));
+        let (own, other) = (
+            model.friction_power(&own_omega),
+            tree.friction_power(theta, omega),
+        );
         assert!((own / other - 1.0).abs() < 1e-13, "{own} {other}");
         let (own, other) = (
             model.potential_energy_of(&own_theta),

@@ -3,6 +3,7 @@
 
 mod motion;
 mod sectors;
+mod straight;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
@@ -151,7 +152,7 @@ fn functions_are_those_of_trees_at_run_time() {
             energies.note(error, motion.potential_terms, place);
             if compiled.program.entry("friction_power").is_some() {
                 let power = compiled.evaluate("friction_power", &[&omega])[0];
-                powers.note(tree.friction_power(&omega) - power, power, place);
+                powers.note(tree.friction_power(&theta, &omega) - power, power, place);
                 assert!(power < 0.0, "{}", place());
             }
             let pairs = [

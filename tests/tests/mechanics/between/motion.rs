@@ -150,7 +150,10 @@ fn emitted_code_agrees_with_the_tree_at_run_time() {
         for (own, emitted) in own.iter().zip(emitted) {
             assert!((own - emitted).abs() < 1e-11 * size, "{own} {emitted}");
         }
-        let (own, emitted) = (tree.friction_power(&omega), model.friction_power(&omega));
+        let (own, emitted) = (
+            tree.friction_power(&theta, &omega),
+            model.friction_power(&omega),
+        );
         assert!((own / emitted - 1.0).abs() < 1e-13, "{own} {emitted}");
         let (own, emitted) = (
             tree.potential_energy_of(&theta),

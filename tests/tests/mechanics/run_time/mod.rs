@@ -125,7 +125,7 @@ fn rough_trees_agree_with_their_programs() {
             assert!((own - derived).abs() < 1e-12 * size, "{own} {derived}");
         }
         let power = compiled.evaluate("friction_power", &[&omega])[0];
-        let own = tree.friction_power(&omega);
+        let own = tree.friction_power(&theta, &omega);
         assert!((own - power).abs() < 1e-14 * power.abs(), "{own} {power}");
         let power = compiled.evaluate("outside_power", &[&omega, &torques])[0];
         let own = tree.outside_power(&omega, &torques);

@@ -1,0 +1,306 @@
+//! Lines of straight springs and dampers (physics §19): their length, its slopes and its rate are
+//! symbols of their own, so that no small stretch is formed of large products.
+//!
+//! ```text
+//! Δ = d₀ + Σ R(θ_i) r_i      N_i = Δ·∂Δ/∂θ_i      ℓ = |Δ|      J_i = ∂ℓ/∂θ_i = N_i/ℓ
+//! U = ½ K s², s = ℓ − L      R = ½ γ ℓ̇², ℓ̇ = Σ J_i ω_i
+//! ```
+//!
+//! A spring without length at rest has U = K q with q = ½ Δ·Δ, whose slopes are N_i: no root.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::{Expr, Role, SymbolId};
+use super::laws::{dissipated, stored};
+use super::letters;
+use super::meaning::{DerivedLine, DerivedLineSymbol, LineMeaning};
+use crate::scene::{Line, LineEnds, LinkId, Scene, SpringDamperEnds, TranslationalSpringDamper};
+use std::collections::BTreeMap;
+
+/// Torque by which a line pulls a link back, of its spring and of its damper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineTorque {
+    /// The link.
+    pub link: LinkId,
+    /// The torque, to be subtracted.
+    pub torque: Expr,
+}
+
+impl Scene {
+    /// Names of what a straight spring is between, by which its constants are called; a number
+    /// besides where one before is between the same.
+    fn straight_names(&self, index: usize) -> Vec<String> {
+        let name = |LinkId(link): &LinkId| self.links[*link].name.clone();
+        let ends = |own: &TranslationalSpringDamper| match &own.ends {
+            LineEnds::Links(SpringDamperEnds::Links(links), _) => links.each_ref().map(name),
+            LineEnds::Links(SpringDamperEnds::Siblings(node), _) => [node.clone(), node.clone()],
+            LineEnds::Guy(link, ..) => [name(link), GROUND.to_owned()],
+        };
+        let own = ends(&self.translational[index]);
+        let before = self.translational[..index].iter();
+        numbered(
+            own.to_vec(),
+            before.filter(|other| ends(other) == own).count(),
+        )
+    }
+}
+
+/// The ground in names.
+const GROUND: &str = "ground";
+
+/// Names, and a number behind those that are there already.
+fn numbered(mut names: Vec<String>, before: usize) -> Vec<String> {
+    if before > 0 {
+        names.push((before + 1).to_string());
+    }
+    names
+}
+
+impl Derivation<'_> {
+    /// Names the lines of all straight springs, and what depends on them.
+    pub(super) fn prepare_lines(&mut self, angles: &[SymbolId], velocities: &[SymbolId]) {
+        for line in self.scene.lines() {
+            let mut names: Vec<String> = line
+                .links
+                .iter()
+                .map(|LinkId(link)| self.scene.links[*link].name.clone())
+                .collect();
+            if line.links.len() == 1 {
+                names.push(GROUND.to_owned());
+            }
+            let before = self
+                .lines
+                .list
+                .iter()
+                .filter(|own| own.line.links == line.links);
+            let names = numbered(names, before.count());
+            let mut line = self.line(line, names, angles);
+            self.pull_of_spring(&mut line);
+            self.pull_of_damper(&mut line, velocities);
+            self.lines.list.push(line);
+        }
+    }
+
+    /// A symbol of a line with its meaning.
+    fn line_symbol(
+        &mut self,
+        letters: [&str; 3],
+        names: &[String],
+        meaning: LineMeaning<Formula>,
+        coordinates: &[SymbolId],
+    ) -> SymbolId {
+        let symbol = self.indexed_by(Role::Line, letters, names);
+        let coordinates = coordinates.to_vec();
+        let derived = DerivedLineSymbol {
+            meaning,
+            coordinates,
+        };
+        self.lines.symbols.insert(symbol, derived);
+        symbol
+    }
+
+    /// Δ and N_i.
+    fn line(&mut self, line: Line, names: Vec<String>, angles: &[SymbolId]) -> DerivedLine {
+        let coordinates: Vec<SymbolId> = line.arms.iter().map(|(link, _)| angles[link.0]).collect();
+        let what = self.scene.translational[line.spring_damper].what.clone();
+        let mut arms = Vec::new();
+        for (LinkId(link), arm) in &line.arms {
+            let owner = self.scene.links[*link].name.clone();
+            let of_link = with(&names, *link, self.scene);
+            let mut component = |letter, way: &str, value| {
+                let meaning = format!("part of the line of `{what}` {way} `{owner}`");
+                let value = self.quantity(value);
+                self.lettered(letter, &of_link, &meaning, value)
+            };
+            let along = component(letters::ARM, "along", &arm.along);
+            let lateral = component(letters::LATERAL_ARM, "across", &arm.lateral);
+            arms.push(self.point_at(&along, &lateral, angles[*link]));
+        }
+        let upwards = if self.scene.stands() { "−y" } else { "y" };
+        let pegs = [(letters::PEG_X, "x"), (letters::PEG_Y, upwards)];
+        let mut place = 0;
+        let offset = [
+            ("offset_x", "Δx", "\\Delta x"),
+            ("offset_y", "Δy", "\\Delta y"),
+        ];
+        let offset = offset.map(|(code, text, latex)| {
+            let (letter, axis) = pegs[place];
+            let value = self.quantity(&line.offset[place]);
+            let meaning = format!("place {axis} of the peg of `{what}`");
+            let peg = self.lettered(letter, &names, &meaning, value);
+            let sum = arms.iter().map(|arm| arm[place].clone()).sum::<Formula>();
+            place += 1;
+            let meaning = LineMeaning::Formula(&peg + &sum);
+            self.line_symbol([code, text, latex], &names, meaning, &coordinates)
+        });
+        let [dx, dy] = offset.map(Formula::symbol);
+        let moments = line
+            .arms
+            .iter()
+            .zip(&arms)
+            .map(|((LinkId(link), _), [x, y])| {
+                // ∂Δ/∂θ_i is the arm turned by a right angle.
+                let moment = LineMeaning::Formula(&(&dy * x) - &(&dx * y));
+                let of_link = with(&names, *link, self.scene);
+                self.line_symbol(["line_moment", "N", "N"], &of_link, moment, &coordinates)
+            });
+        let moments = moments.collect();
+        DerivedLine {
+            line,
+            names,
+            offset,
+            coordinates,
+            moments,
+            length: None,
+            pulls: Vec::new(),
+        }
+    }
+
+    /// ℓ and J_i, named when they are asked for first.
+    fn length(&mut self, line: &mut DerivedLine) -> (SymbolId, Vec<SymbolId>) {
+        if let Some(known) = &line.length {
+            return known.clone();
+        }
+        let [dx, dy] = line.offset;
+        let spelt = |print: fn(&super::expression::Symbol) -> &str| {
+            [dx, dy].map(|id| print(self.symbols.get(id)).to_owned())
+        };
+        let [x, y] = spelt(|symbol| &symbol.text);
+        let [latex_x, latex_y] = spelt(|symbol| &symbol.latex);
+        let shown = self.symbols.intern(
+            Role::Derived,
+            &format!("length_of_{}", line.names.join("_")),
+            &format!("√({x}² + {y}²)"),
+            &format!("\\sqrt{{{latex_x}^2 + {latex_y}^2}}"),
+        );
+        let square = &Formula::symbol(dx).pow(2) + &Formula::symbol(dy).pow(2);
+        let root = LineMeaning::Root { square, shown };
+        let coordinates = line.coordinates.clone();
+        let letters = ["length", "ℓ", "\\ell"];
+        let length = self.line_symbol(letters, &line.names, root, &coordinates);
+        let mut slopes = Vec::new();
+        for ((LinkId(link), _), &moment) in line.line.arms.iter().zip(&line.moments) {
+            let slope = &Formula::symbol(moment) / &Formula::symbol(length);
+            let slope = LineMeaning::Formula(slope);
+            let of_link = with(&line.names, *link, self.scene);
+            let slope = self.line_symbol(["length_slope", "J", "J"], &of_link, slope, &coordinates);
+            slopes.push(slope);
+        }
+        self.give_slopes(length, &coordinates, &slopes);
+        line.length = Some((length, slopes.clone()));
+        (length, slopes)
+    }
+
+    /// Notes the derivatives of a symbol that are symbols of their own.
+    fn give_slopes(&mut self, symbol: SymbolId, variables: &[SymbolId], slopes: &[SymbolId]) {
+        for (&variable, &slope) in variables.iter().zip(slopes) {
+            self.given_slopes.insert((symbol, variable), slope);
+        }
+    }
+
+    fn pull_of_spring(&mut self, line: &mut DerivedLine) {
+        let (scene, index) = (self.scene, line.line.spring_damper);
+        let own = &scene.translational[index];
+        if own.spring.is_zero() {
+            return;
+        }
+        let constants = scene.straight_names(index);
+        let meaning = format!("stiffness of the straight spring of `{}`", own.what);
+        let value = self.quantity(&own.spring);
+        let stiffness = self.lettered(letters::STRAIGHT_SPRING, &constants, &meaning, value);
+        let coordinates = line.coordinates.clone();
+        let (strain, slopes) = match own.rest.is_zero() {
+            true => {
+                let [dx, dy] = line.offset.map(Formula::symbol);
+                let square = &dx.pow(2) + &dy.pow(2);
+                let half = &Formula::integer(2).pow(-1) * &square;
+                (("half_square", "q", "q", half), line.moments.clone())
+            }
+            false => {
+                let (length, slopes) = self.length(line);
+                let meaning = format!("length at rest of the spring of `{}`", own.what);
+                let value = self.quantity(&own.rest);
+                let rest = self.lettered(letters::REST_LENGTH, &constants, &meaning, value);
+                (
+                    ("stretch", "s", "s", &Formula::symbol(length) - &rest),
+                    slopes,
+                )
+            }
+        };
+        let (code, text, latex, strain) = strain;
+        let strain = LineMeaning::Formula(strain);
+        let strain = self.line_symbol([code, text, latex], &line.names, strain, &coordinates);
+        self.give_slopes(strain, &coordinates, &slopes);
+        let strain = Formula::symbol(strain);
+        let (energy, pull) = match own.rest.is_zero() {
+            true => (&stiffness * &strain, stiffness),
+            false => (stored(&stiffness, &strain), &stiffness * &strain),
+        };
+        self.lines.energy = &self.lines.energy + &energy;
+        line.pulls.push((pull, slopes));
+    }
+
+    fn pull_of_damper(&mut self, line: &mut DerivedLine, velocities: &[SymbolId]) {
+        let (scene, index) = (self.scene, line.line.spring_damper);
+        let own = &scene.translational[index];
+        if own.friction.is_zero() {
+            return;
+        }
+        let meaning = format!("viscous friction of the straight damper of `{}`", own.what);
+        let value = self.quantity(&own.friction);
+        let constants = scene.straight_names(index);
+        let friction = self.lettered(letters::STRAIGHT_FRICTION, &constants, &meaning, value);
+        let (_, slopes) = self.length(line);
+        let rates: Vec<SymbolId> = (line.line.arms.iter())
+            .map(|(link, _)| velocities[link.0])
+            .collect();
+        let terms = slopes.iter().zip(&rates);
+        let rate = terms.map(|(&slope, &rate)| &Formula::symbol(slope) * &Formula::symbol(rate));
+        let rate = LineMeaning::Formula(rate.sum());
+        let coordinates = line.coordinates.clone();
+        let letters = ["length_rate", "ℓ̇", "\\dot\\ell"];
+        let rate = self.line_symbol(letters, &line.names, rate, &coordinates);
+        self.give_slopes(rate, &rates, &slopes);
+        let rate = Formula::symbol(rate);
+        self.lines.losses.push(dissipated(&friction, &rate));
+        line.pulls.push((&friction * &rate, slopes));
+    }
+
+    /// The torques of all lines as plain data.
+    pub(super) fn line_torques(&self) -> Vec<LineTorque> {
+        let mut torques = Vec::new();
+        for DerivedLine { line, pulls, .. } in &self.lines.list {
+            for (place, (link, _)) in line.arms.iter().enumerate() {
+                let torque = |(pull, slopes): &(Formula, Vec<SymbolId>)| {
+                    self.expr(&(pull * &Formula::symbol(slopes[place])))
+                };
+                torques.extend(pulls.iter().map(|pull| LineTorque {
+                    link: *link,
+                    torque: torque(pull),
+                }));
+            }
+        }
+        torques
+    }
+
+    /// The meaning of all symbols of lines as plain data.
+    pub(super) fn plain_lines(&self) -> BTreeMap<SymbolId, LineMeaning> {
+        let plain = |meaning: &LineMeaning<Formula>| match meaning {
+            LineMeaning::Formula(formula) => LineMeaning::Formula(self.expr(formula)),
+            LineMeaning::Root { square, shown } => LineMeaning::Root {
+                square: self.expr(square),
+                shown: *shown,
+            },
+        };
+        let symbols = self.lines.symbols.iter();
+        symbols
+            .map(|(&symbol, own)| (symbol, plain(&own.meaning)))
+            .collect()
+    }
+}
+
+/// Names with that of a link behind them.
+fn with(names: &[String], link: usize, scene: &Scene) -> Vec<String> {
+    let link = std::iter::once(scene.links[link].name.clone());
+    names.iter().cloned().chain(link).collect()
+}

@@ -1,0 +1,107 @@
+//! What acts between links, whatever it depends on.
+
+use std::hash::Hash;
+
+use branched_pendulum::scalar::Scalar;
+use branched_pendulum::spring_dampers::SpringDampers;
+use branched_pendulum::translational::{
+    LineArm, TranslationalSpringDamper, TranslationalSpringDampers,
+};
+use branched_pendulum_codegen::scene::{LinkId, Quantity, Scene};
+
+use crate::numbers::{self, value};
+
+/// Springs and dampers between links and to the ground: those on differences of angles, and
+/// straight ones.
+#[derive(Clone, Debug)]
+pub(crate) struct Between<T> {
+    pub(crate) torsional: SpringDampers<T>,
+    pub(crate) translational: TranslationalSpringDampers<T>,
+}
+
+impl<T: Scalar> Between<T> {
+    /// Those of a scene of so many links, in numbers that are taken as they are.
+    pub(crate) fn of(scene: &Scene, links: usize, parameters: &[T]) -> Self {
+        let torsional = numbers::spring_dampers(scene, parameters);
+        let translational = straight(scene, parameters);
+        // A scene names links that it has.
+        Self {
+            torsional: SpringDampers::of_runs(links, torsional).unwrap_or_default(),
+            translational: TranslationalSpringDampers::new(links, translational)
+                .unwrap_or_default(),
+        }
+    }
+
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Between<S> {
+        Between {
+            torsional: self.torsional.cast(&convert),
+            translational: self.translational.cast(convert),
+        }
+    }
+
+    /// All that is no constant.
+    pub(crate) fn shape(&self) -> impl Hash + use<T> {
+        let torsional = self.torsional.iter();
+        let torsional: Vec<_> = torsional
+            .map(|own| (own.links, own.law.is_some()))
+            .collect();
+        let translational = self.translational.iter().map(|own| {
+            let links: Vec<usize> = own.arms.iter().map(|arm| arm.link).collect();
+            (links, own.rest.is_some(), own.friction.is_some())
+        });
+        (torsional, translational.collect::<Vec<_>>())
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_empty(&self) -> bool {
+        self.torsional.is_empty() && self.translational.is_empty()
+    }
+
+    /// Writes all torques: those from `outside`, and those between links. NaN for slices of another
+    /// length than there are links.
+    #[inline(always)]
+    pub(crate) fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
+        self.torsional.write_torques(outside, given, torques);
+        if !self.translational.is_empty() {
+            self.translational.add_torques(given, torques);
+        }
+    }
+
+    pub(crate) fn energy(&self, theta: &[T]) -> T {
+        let torsional = self.torsional.energy(theta);
+        match self.translational.is_empty() {
+            true => torsional,
+            false => torsional + self.translational.energy(theta),
+        }
+    }
+
+    pub(crate) fn power(&self, theta: &[T], omega: &[T]) -> T {
+        let torsional = self.torsional.power(omega);
+        match self.translational.is_empty() {
+            true => torsional,
+            false => torsional + self.translational.power(theta, omega),
+        }
+    }
+}
+
+/// The straight springs and dampers of a scene.
+fn straight<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<TranslationalSpringDamper<S>> {
+    let at = |quantity: &Quantity| value(quantity, parameters);
+    let given = |quantity: &Quantity| (!quantity.is_zero()).then(|| at(quantity));
+    let lines = scene.lines().into_iter().filter_map(|line| {
+        let own = scene.translational.get(line.spring_damper)?;
+        let arms = line.arms.iter().map(|(LinkId(link), arm)| LineArm {
+            link: *link,
+            along: at(&arm.along),
+            lateral: at(&arm.lateral),
+        });
+        Some(TranslationalSpringDamper {
+            arms: arms.collect(),
+            offset: line.offset.each_ref().map(at),
+            spring: at(&own.spring),
+            rest: given(&own.rest),
+            friction: given(&own.friction),
+        })
+    });
+    lines.collect()
+}

@@ -1,0 +1,176 @@
+//! Observables, parameters and refusals of straight springs.
+
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::prelude::*;
+use branched_pendulum::scalar::Dual;
+use branched_pendulum::system::TaylorPendulum;
+use branched_pendulum::taylor::Quad;
+use branched_pendulum::transfer::Given;
+use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
+
+use super::{GUYED, go_on};
+
+/// Observables know the energy of straight springs, and their rates what dampers take.
+#[test]
+fn observables_know_straight_springs() {
+    let text = GUYED.replace("rest = 0.3)", "rest = 0.3, friction = 0.2)");
+    let tree = format!("{text}, observe(energy = kinetic_energy + potential_energy)");
+    let tree = PendulumTree::parse(&tree).unwrap();
+    let energy = tree.observable("energy").unwrap();
+    let theta = [0.3, 0.8, -0.4, 0.2, 1.1, -0.7, 0.5];
+    let omega = [1.0, -2.0, 0.5, 1.5, -0.3, 2.0, -1.0];
+    let given = Given::Absolute {
+        theta: &theta,
+        omega: &omega,
+    };
+    assert!((energy.value(given) - tree.energy_of(&theta, &omega)).abs() < 1e-13);
+    let power = tree.friction_power(&theta, &omega);
+    assert!(power < -0.01);
+    assert!(
+        (energy.rate(0.0, given) - power).abs() < 1e-12,
+        "{}",
+        energy.rate(0.0, given)
+    );
+    assert!((energy.friction_rate(given) - power).abs() < 1e-12);
+}
+
+/// Parameters are those of any quantity of a straight spring, and derivatives by them come of dual
+/// numbers.
+#[test]
+fn parameters_of_straight_springs_have_derivatives() {
+    let text = "gravity = 9.81, rod: rod(mass = 0.2, length = 0.3),
+        guy(rod, at = p, to = (x, 0), spring = k, rest = l, friction = c)";
+    let description = TreeDescription::parse(text).unwrap();
+    let values = [0.25, 0.4, 20.0, 0.1, 0.3];
+    let state = [0.5, 2.0];
+    let rates = |values: [Dual<f64, 1>; 5]| {
+        let mut rates = [Dual::constant(0.0); 2];
+        let state = state.map(Dual::constant);
+        description
+            .equations(&values)
+            .rates(Dual::constant(0.0), &state, &mut rates);
+        rates[1]
+    };
+    for place in 0..5 {
+        let mut dual = values.map(Dual::constant);
+        dual[place] = Dual::variable(values[place], 0);
+        let step = 1e-5;
+        let [high, low] = [step, -step].map(|step| {
+            let mut moved = values.map(Dual::constant);
+            moved[place] = Dual::constant(values[place] + step);
+            rates(moved).value
+        });
+        let (found, expected) = (rates(dual).tangents[0], (high - low) / (2.0 * step));
+        assert!(
+            (found - expected).abs() < 1e-5 * (1.0 + expected.abs()),
+            "{found} {expected}"
+        );
+    }
+    let refused = [0.25, 0.4, -20.0, 0.1, 0.3];
+    let names = description.parameters().map(str::to_owned);
+    let named: Vec<(String, f64)> = names.zip(refused).collect();
+    let named: Vec<(&str, f64)> = named
+        .iter()
+        .map(|(name, value)| (name.as_str(), *value))
+        .collect();
+    let error = description.tree::<f64>(&named).unwrap_err();
+    assert!(
+        error.to_string().contains("spring of `guy(rod)`"),
+        "{error}"
+    );
+}
+
+/// What knows nothing of straight springs refuses them.
+#[test]
+fn forms_without_straight_springs_refuse_them() {
+    let tree = PendulumTree::parse(GUYED).unwrap();
+    let refused = tree.symmetric().unwrap_err();
+    assert!(
+        matches!(refused, TreeError::StraightSpring { .. }),
+        "{refused}"
+    );
+    assert!(tree.copies().is_none());
+    let mut coefficients = vec![0.0; 2 * tree.links() * 3];
+    let mut work = vec![Quad([0.0; 4]); tree.taylor_workspace(2)];
+    let zeros = vec![0.0; tree.links()];
+    tree.taylor_coefficients_into(0.0, &zeros, &zeros, &mut coefficients, &mut work);
+    assert!(coefficients.iter().all(|own| own.is_nan()));
+    let start = State::at_rest(0.0, &zeros);
+    let series = Taylor::new(Options::with_tolerance(1e-10));
+    let refused = series.integrate(&AbsoluteAngles(&tree), &start, 1.0, go_on);
+    let refused = refused.unwrap_err().to_string();
+    assert!(refused.contains("straight springs"), "{refused}");
+    let lanes = vec![(AbsoluteAngles(&tree), start); 3];
+    let moved = Ensemble::new().integrate_models_in_lanes(&series, &lanes, 1.0);
+    assert!(moved.iter().all(Result::is_err));
+}
+
+#[test]
+fn clauses_that_say_nothing_are_refused() {
+    let tree = "gravity = 9.81, a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2]";
+    for (clause, message) in [
+        ("between(a, b_1, at = 0.3)", "neither spring nor friction"),
+        (
+            "between(a, b_1, at = 0.3, spring = 1, rest = -1)",
+            "rest of `between(a, b_1)`",
+        ),
+        (
+            "between(a, b_1, at = 0.3, rest = 1, friction = 1)",
+            "length at rest, but no spring",
+        ),
+        (
+            "between(a, b_1, at = each(1, 0), spring = 1)",
+            "keep their distance",
+        ),
+        (
+            "between(a, b_1, at = each(1, 0.5), spring = 1)",
+            "keep their distance",
+        ),
+        (
+            "between(a, b_1, at = each(1, 0, 2), spring = 1)",
+            "does not name a point of each link",
+        ),
+        (
+            "siblings(b, at = each(1, 2), spring = 1)",
+            "does not name a point of each link",
+        ),
+        (
+            "between(a, b_1, at = 1, spring = 1, friction(coulomb = 1))",
+            "no property `friction(coulomb)`",
+        ),
+        (
+            "between(a, b_1, at = 1, to = (1, 1), spring = 1)",
+            "no property `to`",
+        ),
+        ("guy(a, at = 1, spring = 1)", "has no `to`"),
+        ("guy(a, to = (1, 1), spring = 1)", "has no `at`"),
+        ("guy(a, at = 1, to = 1, spring = 1)", "`to` is not a place"),
+        (
+            "guy(a, b_1, at = 1, to = (1, 0), spring = 1)",
+            "does not name one link",
+        ),
+        (
+            "guy(a, at = 0, to = (1, 0), spring = 1)",
+            "keep their distance",
+        ),
+        (
+            "guy(a, at = 1, to = (1, 0), spring = 1), drive(x = t)",
+            "a drive that moves the pivot",
+        ),
+        (
+            "siblings(b, at = 1, spring = 1), in_phase(b)",
+            "beside `in_phase(...)`",
+        ),
+        (
+            "between(a, b_1, at = 1, spring = 1), emit(symmetric)",
+            "`symmetric` beside the straight spring",
+        ),
+    ] {
+        let found = PendulumTree::parse(&format!("{tree}, {clause}"))
+            .unwrap_err()
+            .to_string();
+        assert!(found.contains(message), "{clause}: {found}");
+    }
+    // A link may be called so.
+    assert!(PendulumTree::parse("gravity = 9.81, guy(mass = 1, com = 1, inertia = 0)").is_ok());
+}

@@ -1,0 +1,254 @@
+//! Motions, modes and configurations of trees with straight springs.
+
+use branched_pendulum::analysis::Modes;
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::prelude::*;
+use branched_pendulum::system::CanonicalVariables;
+use branched_pendulum_trees::PendulumTree;
+
+use super::super::plain::Numbers;
+use super::{GUYED, go_on};
+
+/// A tree, and the work of friction as one more number of the state.
+struct WithLoss<'a>(&'a PendulumTree);
+
+impl Ode<f64> for WithLoss<'_> {
+    fn dimension(&self) -> usize {
+        2 * self.0.links() + 2
+    }
+
+    fn rates(&self, time: f64, state: &[f64], rates: &mut [f64]) {
+        let links = self.0.links();
+        let (theta, omega) = state[..2 * links].split_at(links);
+        rates[..links].copy_from_slice(omega);
+        rates[links..2 * links].copy_from_slice(&self.0.accelerations(time, theta, omega));
+        rates[2 * links..].copy_from_slice(&[self.0.friction_power(theta, omega), 0.0]);
+    }
+}
+
+/// Springs alone keep the energy in every form of the equations, and dampers take what their
+/// power says.
+#[test]
+fn energy_is_balanced_in_every_form() {
+    let tree = PendulumTree::parse(GUYED).unwrap();
+    let links = tree.links();
+    let mut numbers = Numbers(5);
+    let values: Vec<f64> = (0..2 * links)
+        .map(|place| numbers.between(-1.0, 1.0) * if place < links { 1.5 } else { 4.0 })
+        .collect();
+    let start = State::new(0.0, values.clone());
+    let first = tree.energy_of(start.positions(), start.velocities());
+    let drift =
+        |state: &State<f64>| (tree.energy_of(state.positions(), state.velocities()) - first).abs();
+    let method = Dop853::new(Options::with_tolerance(1e-14));
+    let end = method.integrate(&AbsoluteAngles(&tree), &start, 10.0, go_on);
+    let end = end.unwrap().state;
+    assert!(drift(&end) < 1e-10, "{:e}", drift(&end));
+    let momenta = tree.momenta(start.positions(), start.velocities());
+    let canonical = State::new(0.0, [start.positions(), &momenta].concat());
+    let system = CanonicalVariables(&tree);
+    let end = method.integrate(&system, &canonical, 10.0, go_on).unwrap();
+    let (theta, momenta) = end.state.values.split_at(links);
+    let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
+    tree.canonical_rates(0.0, theta, momenta, &mut omega, &mut rates);
+    let moved = State::new(0.0, [theta, &omega].concat());
+    assert!(drift(&moved) < 1e-10, "{:e}", drift(&moved));
+    let lanes = vec![(AbsoluteAngles(&tree), start.clone()); 5];
+    for moved in Ensemble::new().integrate_models_in_lanes(&method, &lanes, 10.0) {
+        let state = moved.unwrap().state;
+        assert!(drift(&state) < 1e-10, "{:e}", drift(&state));
+    }
+    let braked = GUYED.replace("rest = 0.3)", "rest = 0.3, friction = 0.2)");
+    let braked = braked.replace("spring = 5)", "friction = 0.05)");
+    let tree = PendulumTree::parse(&braked).unwrap();
+    let start = State::new(0.0, [values, vec![0.0; 2]].concat());
+    let first = tree.energy_of(&start.values[..links], &start.values[links..2 * links]);
+    let end = method.integrate(&WithLoss(&tree), &start, 10.0, go_on);
+    let end = end.unwrap().state.values;
+    let energy = tree.energy_of(&end[..links], &end[links..2 * links]);
+    let lost = end[2 * links];
+    assert!(
+        lost < -0.1 && (energy - first - lost).abs() < 1e-10,
+        "{lost} {energy} {first}"
+    );
+    // Without dampers it is the tree that keeps its energy.
+    let conservative = tree.conservative().unwrap();
+    assert!(
+        conservative
+            .translational_spring_dampers()
+            .iter()
+            .all(|own| own.friction.is_none())
+    );
+    let (theta, omega) = (&end[..links], &end[links..2 * links]);
+    assert_eq!(conservative.friction_power(theta, omega), 0.0);
+    assert_eq!(
+        conservative.potential_energy_of(theta),
+        tree.potential_energy_of(theta)
+    );
+}
+
+/// Two equal rods side by side, whose ends a spring joins, by the equations of docs/limits.md.
+struct Coupled {
+    stiffness: f64,
+    apart: f64,
+}
+
+const MASS: f64 = 0.12;
+const LENGTH: f64 = 0.3;
+
+impl Ode<f64> for Coupled {
+    fn dimension(&self) -> usize {
+        4
+    }
+
+    fn rates(&self, _: f64, state: &[f64], rates: &mut [f64]) {
+        let &[a, b, left, right] = state else {
+            unreachable!()
+        };
+        let [x, y] = [
+            self.apart + LENGTH * (b.sin() - a.sin()),
+            LENGTH * (a.cos() - b.cos()),
+        ];
+        let length = x.hypot(y);
+        let pull = self.stiffness * (length - self.apart) / length;
+        let slopes = [
+            LENGTH * (-x * a.cos() - y * a.sin()),
+            LENGTH * (x * b.cos() + y * b.sin()),
+        ];
+        let inertia = MASS * LENGTH * LENGTH / 3.0;
+        rates[..2].copy_from_slice(&[left, right]);
+        for (place, angle) in [a, b].into_iter().enumerate() {
+            let weight = MASS * 9.81 * LENGTH / 2.0 * angle.sin();
+            rates[2 + place] = (-weight - pull * slopes[place]) / inertia;
+        }
+    }
+}
+
+/// The rods hang from a frame that nothing moves.
+fn rods(apart: f64, more: &str) -> String {
+    let [left, right] = [-apart / 2.0, apart / 2.0];
+    format!(
+        "gravity = 9.81, frame(mass = 1, com = 0.1, inertia = 1e30) [
+            left: rod(mass = {MASS}, length = {LENGTH}, at = (0, {left})),
+            right: rod(mass = {MASS}, length = {LENGTH}, at = (0, {right}))
+        ], between(left, right, at = {LENGTH}{more})"
+    )
+}
+
+#[test]
+fn two_coupled_rods_move_as_their_own_equations_say() {
+    let (stiffness, apart) = (4.0, 0.25);
+    let tree = rods(apart, &format!(", spring = {stiffness}, rest = {apart}"));
+    let tree = PendulumTree::parse(&tree).unwrap();
+    let own = Coupled { stiffness, apart };
+    let mut numbers = Numbers(8);
+    for _ in 0..100 {
+        let state = [2.0, 2.0, 5.0, 5.0].map(|size| numbers.between(-size, size));
+        let [a, b, left, right] = state;
+        let mut expected = [0.0; 4];
+        own.rates(0.0, &state, &mut expected);
+        let found = tree.accelerations(0.0, &[0.0, a, b], &[0.0, left, right]);
+        for (found, expected) in found[1..].iter().zip(&expected[2..]) {
+            assert!(
+                (found - expected).abs() < 1e-12 * (100.0 + expected.abs()),
+                "{found} {expected}"
+            );
+        }
+    }
+    let method = Dop853::new(Options::with_tolerance(1e-13));
+    let start = [0.7, -0.4, 1.0, 2.0];
+    let expected = method.integrate(&own, &State::new(0.0, start.to_vec()), 3.0, go_on);
+    let expected = expected.unwrap().state.values;
+    let start = State::new(0.0, vec![0.0, 0.7, -0.4, 0.0, 1.0, 2.0]);
+    let found = method.integrate(&AbsoluteAngles(&tree), &start, 3.0, go_on);
+    let found = found.unwrap().state.values;
+    let found = [1, 2, 4, 5].map(|place| found[place]);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-10, "{found} {expected}");
+    }
+}
+
+/// Against each other the rods have the stiffness m g ℓ/2 + 2 κ ℓ², in phase m g ℓ/2.
+#[test]
+fn modes_of_two_coupled_rods_are_the_closed_form() {
+    let (stiffness, apart) = (4.0, 0.25);
+    let tree = rods(apart, &format!(", spring = {stiffness}, rest = {apart}"));
+    let tree = PendulumTree::parse(&tree).unwrap();
+    let modes: Modes = tree.modes(&[0.0; 3]).unwrap();
+    let inertia = MASS * LENGTH * LENGTH / 3.0;
+    let weight = MASS * 9.81 * LENGTH / 2.0;
+    for coupling in [0.0, 2.0 * stiffness * LENGTH * LENGTH] {
+        let expected = f64::sqrt((weight + coupling) / inertia) / std::f64::consts::TAU;
+        let found = modes.frequencies_hz.iter();
+        let apart = found.fold(1.0, |least: f64, own| {
+            least.min((own / expected - 1.0).abs())
+        });
+        assert!(apart < 1e-12, "{expected}: {:?}", modes.frequencies_hz);
+    }
+}
+
+/// Where points meet a spring without length at rest pulls at nothing, and others have no
+/// direction.
+#[test]
+fn points_may_meet_where_no_length_is_at_rest() {
+    let tree = |more: &str| {
+        PendulumTree::parse(&format!(
+            "gravity = 9.81, a: rod(mass = 0.4, length = 0.5) [b: rod(mass = 0.2, length = 0.3) * 2],
+            siblings(b, at = 0.3{more})"
+        ))
+        .unwrap()
+    };
+    let (theta, omega) = ([0.4, 0.2, 0.2], [1.0, -1.0, -1.0]);
+    let free = tree(", spring = 0, friction = 0").accelerations(0.0, &theta, &omega);
+    assert!(free.iter().all(|alpha| alpha.is_finite()));
+    assert_eq!(
+        tree(", spring = 7").accelerations(0.0, &theta, &omega),
+        free
+    );
+    assert_eq!(
+        tree(", spring = 7").potential_energy_of(&theta),
+        tree(", spring = 0").potential_energy_of(&theta)
+    );
+    for more in [", spring = 7, rest = 0.1", ", friction = 0.1"] {
+        let found = tree(more).accelerations(0.0, &theta, &omega);
+        assert!(
+            found.iter().any(|alpha| alpha.is_nan()),
+            "{more}: {found:?}"
+        );
+    }
+}
+
+/// Siblings are all copies two by two, in trees by rule too.
+#[test]
+fn siblings_are_pairs() {
+    let rule = "gravity = 9.81, a: generations(count = 3, branching = 2, shape = rod, mass = 0.2,
+        length = 0.3, mass_ratio = 0.5, length_ratio = 0.7, CODE)";
+    let springs = ", siblings(a_3, at = 0.1, spring = 3, rest = 0.02, friction = 0.01)";
+    let own = ", between(a_3_1_1, a_3_1_2, at = 0.1, spring = 3, rest = 0.02, friction = 0.01)";
+    let other = own.replace("a_3_1_1, a_3_1_2", "a_3_2_1, a_3_2_2");
+    let mut states = Vec::new();
+    for (code, clauses) in [
+        ("code = loops", springs.to_owned()),
+        ("code = loops", format!("{own}{other}")),
+        ("code = unrolled", springs.to_owned()),
+    ] {
+        let tree = format!("{}{clauses}", rule.replace("CODE", code));
+        let tree = PendulumTree::parse(&tree).unwrap();
+        assert!(tree.copies().is_none(), "{code}");
+        // By name: links of loops stand by generations.
+        let value = |name: &String| {
+            name.bytes().map(f64::from).sum::<f64>().sin() + name.len() as f64 * 0.01
+        };
+        let theta: Vec<f64> = tree.names().iter().map(value).collect();
+        let omega: Vec<f64> = theta.iter().map(|angle| 2.0 * angle.cos()).collect();
+        let alpha = tree.accelerations(0.0, &theta, &omega);
+        let mut named: Vec<(String, f64)> = tree.names().iter().cloned().zip(alpha).collect();
+        named.sort_by(|a, b| a.0.cmp(&b.0));
+        states.push(named);
+    }
+    assert_eq!(states[0], states[1]);
+    for ((name, own), (other, unrolled)) in states[0].iter().zip(&states[2]) {
+        assert_eq!(name, other);
+        assert!((own - unrolled).abs() < 1e-10, "{name}: {own} {unrolled}");
+    }
+}
