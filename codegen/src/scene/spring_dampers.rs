@@ -187,29 +187,16 @@ pub(super) fn forces_of_spring_dampers(
         if !clause.damaged {
             check_idle(&clause.properties, &what, report);
         }
+        let known: Vec<&Dimension> = dimensions(&word).collect();
         let mut given = GivenProperties::default();
-        let mut seen: Vec<String> = Vec::new();
-        for property in &clause.properties {
-            let name = property.key();
-            if seen.contains(&name) {
-                let message = SyntaxMessage::duplicate_property(&name);
-                report.error(property.name.span(), message);
-                continue;
-            }
-            match (
-                dimensions(&word).find(|known| known.name == name),
-                &property.value,
-            ) {
-                (Some(_), Value::Each { span, .. }) => {
-                    report.error(*span, ValueMessage::EachWithoutCopies);
-                }
-                (Some(known), _) => {
+        for (known, property) in known_once(clause, &known, format!("`{word}`"), report) {
+            match &property.value {
+                Value::Each { span, .. } => report.error(*span, ValueMessage::EachWithoutCopies),
+                _ => {
                     let value = evaluate(known, property, &what, values, report);
                     given.0.extend(value.map(|value| (known.name, value)));
                 }
-                (None, _) => report.error(property.name.span(), unknown(&word, property)),
             }
-            seen.push(name);
         }
         if clause.properties.is_empty() && !clause.damaged {
             report.error(clause.name.span(), TreeMessage::IdleSpringDamper { what });
@@ -219,15 +206,36 @@ pub(super) fn forces_of_spring_dampers(
     clauses.iter().map(&mut own).collect()
 }
 
-fn unknown(word: &str, property: &Property) -> TreeMessage {
-    let known: Vec<&'static str> = dimensions(word).map(|known| known.name).collect();
-    let name = property.key();
-    TreeMessage::UnknownProperty {
-        nearest: nearest(&name, &known),
-        name,
-        body: format!("`{word}`"),
-        known,
+/// The properties of a clause that are among the known ones, each once; others go to `report`.
+pub(super) fn known_once<'c>(
+    clause: &'c SpringDamperClause,
+    known: &[&'static Dimension],
+    body: String,
+    report: &mut Faults,
+) -> Vec<(&'static Dimension, &'c Property)> {
+    let names: Vec<&'static str> = known.iter().map(|known| known.name).collect();
+    let mut seen: Vec<String> = Vec::new();
+    let mut found = Vec::new();
+    for property in &clause.properties {
+        let (name, span) = (property.key(), property.name.span());
+        match known.iter().find(|known| known.name == name) {
+            _ if seen.contains(&name) => {
+                report.error(span, SyntaxMessage::duplicate_property(&name))
+            }
+            Some(known) => found.push((*known, property)),
+            None => {
+                let message = TreeMessage::UnknownProperty {
+                    nearest: nearest(&name, &names),
+                    name: name.clone(),
+                    body: body.clone(),
+                    known: names.clone(),
+                };
+                report.error(span, message);
+            }
+        }
+        seen.push(name);
     }
+    found
 }
 
 /// Spring-dampers of a scene.

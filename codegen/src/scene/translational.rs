@@ -7,10 +7,11 @@ use super::bodies::{Dimension, optional};
 use super::link_pairs::SpringDamperEnds;
 use super::passive::check_rest;
 use super::properties::evaluate;
+use super::spring_dampers::known_once;
 use super::values::{Usage, Values};
 use super::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
 use crate::description::{BETWEEN, GUY, Property, SpringDamperClause, Value};
-use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
+use crate::report::{Faults, TreeMessage, ValueMessage};
 
 /// A straight spring and a viscous damper along the line between two points.
 #[derive(Debug, Clone, PartialEq)]
@@ -227,19 +228,9 @@ pub(super) fn line_properties(
     report: &mut Faults,
 ) -> LineProperties {
     let mut given = LineProperties::default();
-    let mut seen: Vec<String> = Vec::new();
-    for property in &clause.properties {
-        let name = property.key();
-        if seen.contains(&name) {
-            let message = SyntaxMessage::duplicate_property(&name);
-            report.error(property.name.span(), message);
-            continue;
-        }
-        let Some(known) = dimensions(clause).find(|known| known.name == name) else {
-            report.error(property.name.span(), unknown(clause, property));
-            seen.push(name);
-            continue;
-        };
+    let known: Vec<&Dimension> = dimensions(clause).collect();
+    let body = format!("a straight `{}`", clause.name);
+    for (known, property) in known_once(clause, &known, body, report) {
         let one = |property: &Property, values: &mut Values, report: &mut Faults| {
             if let Value::Each { span, .. } = &property.value {
                 report.error(*span, ValueMessage::EachWithoutCopies);
@@ -254,7 +245,6 @@ pub(super) fn line_properties(
             "rest" => given.rest = one(property, values, report).map(|own| own.along),
             _ => given.friction = one(property, values, report).map(|own| own.along),
         }
-        seen.push(name);
     }
     if clause.damaged {
         return given;
@@ -326,17 +316,6 @@ fn peg(
     };
     let (x, y) = (at("x", x), at("y", y));
     Some([x?, y?])
-}
-
-fn unknown(clause: &SpringDamperClause, property: &Property) -> TreeMessage {
-    let known: Vec<&'static str> = dimensions(clause).map(|known| known.name).collect();
-    let name = property.key();
-    TreeMessage::UnknownProperty {
-        nearest: nearest(&name, &known),
-        name,
-        body: format!("a straight `{}`", clause.name),
-        known,
-    }
 }
 
 impl LineProperties {
