@@ -8,14 +8,12 @@ use super::layout::Layout;
 use super::link_pairs::{LinkPair, SpringDamperEnds};
 use super::passive::{PassiveTorques, check_idle};
 use super::prescribed::LinkNames;
-use super::properties::evaluate;
+use super::properties::{evaluate, known_once};
 use super::translational::{LineProperties, TranslationalSpringDamper, line_properties};
 use super::values::Values;
 use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
-use crate::description::{
-    BETWEEN, Description, GUY, Property, SIBLINGS, SpringDamperClause, Value,
-};
-use crate::report::{Faults, SyntaxMessage, TreeMessage, ValueMessage, nearest};
+use crate::description::{BETWEEN, Description, GUY, SIBLINGS, SpringDamperClause, Value};
+use crate::report::{Faults, TreeMessage, ValueMessage, nearest};
 
 /// A torsion spring and friction between two links, or between all copies of a node under one
 /// link, on the difference of their angles.
@@ -189,7 +187,8 @@ pub(super) fn forces_of_spring_dampers(
         }
         let known: Vec<&Dimension> = dimensions(&word).collect();
         let mut given = GivenProperties::default();
-        for (known, property) in known_once(clause, &known, format!("`{word}`"), report) {
+        for (known, property) in known_once(&clause.properties, &known, format!("`{word}`"), report)
+        {
             match &property.value {
                 Value::Each { span, .. } => report.error(*span, ValueMessage::EachWithoutCopies),
                 _ => {
@@ -204,38 +203,6 @@ pub(super) fn forces_of_spring_dampers(
         ClauseForces::Torsional(Box::new(PassiveTorques::of(&given)))
     };
     clauses.iter().map(&mut own).collect()
-}
-
-/// The properties of a clause that are among the known ones, each once; others go to `report`.
-pub(super) fn known_once<'c>(
-    clause: &'c SpringDamperClause,
-    known: &[&'static Dimension],
-    body: String,
-    report: &mut Faults,
-) -> Vec<(&'static Dimension, &'c Property)> {
-    let names: Vec<&'static str> = known.iter().map(|known| known.name).collect();
-    let mut seen: Vec<String> = Vec::new();
-    let mut found = Vec::new();
-    for property in &clause.properties {
-        let (name, span) = (property.key(), property.name.span());
-        match known.iter().find(|known| known.name == name) {
-            _ if seen.contains(&name) => {
-                report.error(span, SyntaxMessage::duplicate_property(&name))
-            }
-            Some(known) => found.push((*known, property)),
-            None => {
-                let message = TreeMessage::UnknownProperty {
-                    nearest: nearest(&name, &names),
-                    name: name.clone(),
-                    body: body.clone(),
-                    known: names.clone(),
-                };
-                report.error(span, message);
-            }
-        }
-        seen.push(name);
-    }
-    found
 }
 
 /// Spring-dampers of a scene.

@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use super::bodies::{Dimension, optional};
 use super::link_pairs::SpringDamperEnds;
 use super::passive::check_rest;
-use super::properties::evaluate;
-use super::spring_dampers::known_once;
+use super::properties::{evaluate, known_once};
 use super::values::{Usage, Values};
 use super::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
 use crate::description::{BETWEEN, GUY, Property, SpringDamperClause, Value};
@@ -230,7 +229,7 @@ pub(super) fn line_properties(
     let mut given = LineProperties::default();
     let known: Vec<&Dimension> = dimensions(clause).collect();
     let body = format!("a straight `{}`", clause.name);
-    for (known, property) in known_once(clause, &known, body, report) {
+    for (known, property) in known_once(&clause.properties, &known, body, report) {
         let one = |property: &Property, values: &mut Values, report: &mut Faults| {
             if let Value::Each { span, .. } = &property.value {
                 report.error(*span, ValueMessage::EachWithoutCopies);

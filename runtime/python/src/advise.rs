@@ -84,7 +84,7 @@ fn limit(step: Option<f64>, sample: Option<f64>) -> PyResult<Option<TimeLimit>> 
     }
 }
 
-fn refused(py: Python<'_>, error: AdviceError) -> PyErr {
+pub(crate) fn refused(py: Python<'_>, error: AdviceError) -> PyErr {
     match error {
         AdviceError::Tree(error) => wrong(py, error),
         AdviceError::Reference(cause) => {

@@ -47,8 +47,11 @@ pub(crate) fn scale_budget<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let links = tree.links();
     let Some(copies) = tree.copies() else {
-        let text = "links of one generation differ: such a tree has no scales";
-        return Err(PyValueError::new_err(text));
+        let mut springs = tree.description().springs_across_scales();
+        return Err(PyValueError::new_err(match springs.next() {
+            Some(what) => format!("the spring `{what}` belongs to no scale"),
+            None => "links of one generation differ: such a tree has no scales".to_owned(),
+        }));
     };
     let scales = copies.len();
     if scales > MOST_GENERATIONS {

@@ -1,13 +1,13 @@
 //! Error against time of every method: `Tree.work_precision`.
 
-use branched_pendulum::integrate::{IntegrationError as Fault, Method};
+use branched_pendulum::integrate::Method;
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{AbsoluteAngles, Model, State};
-use branched_pendulum_advice::{KnownEnd, MethodRun, WorkPrecision};
+use branched_pendulum_advice::{AdviceError, KnownEnd, MethodRun, WorkPrecision};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::IntegrationError;
+use crate::advise::refused;
 use crate::arrays::Numbers;
 use crate::interrupts::detached;
 use crate::results::{array, result};
@@ -121,12 +121,9 @@ impl Tree {
             let expected = &known.values;
             let measured =
                 WorkPrecision::measure(&system, &start, end, expected, &methods, |_, _| {});
-            Ok((known, measured))
+            Ok::<_, AdviceError>((known, measured))
         })?;
-        let (known, measured) = outcome.map_err(|error: Box<Fault<Double>>| {
-            let text = format!("there is no reference to measure errors against: {error}");
-            IntegrationError::new_err(text)
-        })?;
+        let (known, measured) = outcome.map_err(|error| refused(py, error))?;
         for_python(py, &measured, &known)
     }
 }

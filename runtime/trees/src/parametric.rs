@@ -14,6 +14,7 @@ use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 use crate::rows::{self, Form};
+use crate::scales::springs_across_scales;
 use crate::tree::PendulumTree;
 
 /// Equations of motion of a tree in the links' angles, in numbers `T`: the state is the angles
@@ -123,6 +124,12 @@ impl TreeDescription {
             let own = self.scene.translational.get(line.spring_damper)?;
             Some(own.what.as_str())
         })
+    }
+
+    /// Returns the clauses of springs that belong to no scale, as in `between(a, b)`: with one of
+    /// them a tree has no energies by scale.
+    pub fn springs_across_scales(&self) -> impl Iterator<Item = &str> {
+        springs_across_scales(&self.scene)
     }
 
     /// Returns the names of the links, in the order of the angles.

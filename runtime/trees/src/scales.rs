@@ -24,6 +24,18 @@ pub(crate) struct ByRule<T> {
     depths: Arc<[usize]>,
 }
 
+/// Springs that act between links that are no siblings, and straight ones, whose length depends on
+/// several scales: clauses in words.
+pub(crate) fn springs_across_scales(scene: &Scene) -> impl Iterator<Item = &str> {
+    let is_of_siblings = |own: &&DescribedSpringDamper| {
+        matches!(own.ends, SpringDamperEnds::Siblings(_)) || own.torques.spring.is_zero()
+    };
+    let torsional = scene.spring_dampers.iter();
+    let torsional = torsional.filter(move |own| !is_of_siblings(own));
+    let straight = scene.translational.iter().map(|own| own.what.as_str());
+    torsional.map(|own| own.what.as_str()).chain(straight)
+}
+
 impl<T: Scalar> ByRule<T> {
     /// Returns the tree by rule; none where links of one generation differ, and where springs act
     /// between links that are no siblings.
@@ -33,11 +45,7 @@ impl<T: Scalar> ByRule<T> {
         carries: &[bool],
         gravity: Double,
     ) -> Option<Self> {
-        let is_of_siblings = |own: &DescribedSpringDamper| {
-            matches!(own.ends, SpringDamperEnds::Siblings(_)) || own.torques.spring.is_zero()
-        };
-        // A straight spring's length depends on several scales.
-        if !scene.spring_dampers.iter().all(is_of_siblings) || !scene.translational.is_empty() {
+        if springs_across_scales(scene).next().is_some() {
             return None;
         }
         let mut children = vec![Vec::new(); links.len()];

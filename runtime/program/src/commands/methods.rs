@@ -48,8 +48,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     progress.begin("reference in twice the digits");
     let end = arguments.duration;
     let wide = subject.tree.cast(Double::from_f64);
-    let known = KnownEnd::of(&AbsoluteAngles(&wide), &start, end)
-        .map_err(|error| Failure::Motion(error))?;
+    let known = KnownEnd::of(&AbsoluteAngles(&wide), &start, end).map_err(Failure::advice)?;
     let uncertainty = known.uncertainty;
     if uncertainty > LEVELS[0] {
         return Err(Failure::Lacking {

@@ -107,6 +107,9 @@ pub type Verner98<T> = ExplicitRungeKutta<Verner9, T>;
 /// | [`Dop853`] | 8(5,3) | 7 | most things |
 /// | [`Verner98`] | 9(8) | 8 | tolerances below 1e-10 |
 ///
+/// Coefficients are rounded to `f64`: in numbers of more digits a run is good to some 1e-16 for
+/// each unit of time, whatever the tolerance. [`Taylor`](super::Taylor) has all digits.
+///
 /// All memory is allocated when a run starts; steps allocate nothing.
 ///
 /// Same input, same target, same bits: nothing in a run depends on anything

@@ -56,6 +56,14 @@ impl DrivenTree {
                  [arm(...) * 2]`, or by `generations(count = 4, branching = 2, ...)`"
             ),
         };
+        if let Some(what) = tree.description().springs_across_scales().next() {
+            return Err(Failure::Lacking {
+                what: format!(
+                    "`{name}` has no scales: the spring `{what}` belongs to none; leave it out, or \
+                     write `siblings(NODE, spring = ...)`"
+                ),
+            });
+        }
         let copies = tree.copies().ok_or_else(|| {
             lacking("since links of one generation differ, or have not as many children")
         })?;

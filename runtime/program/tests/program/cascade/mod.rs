@@ -282,6 +282,12 @@ fn other_trees_are_followed_or_refused() {
             "",
             "`tree.txt` has no scales, since links of one generation differ",
         ),
+        (
+            "gravity = 9.81, stem: rod(mass = 0.2, length = 0.3) [arm: rod(mass = 0.1, length = 0.2) * 2],
+            guy(stem, at = 0.2, to = (0.4, 0), spring = 3)",
+            "",
+            "`tree.txt` has no scales: the spring `guy(stem)` belongs to none",
+        ),
         (own.as_str(), "--onset 1", "the tree has no copies"),
         (
             fork,
