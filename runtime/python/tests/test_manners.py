@@ -40,7 +40,7 @@ LONG = {
     "a stepper under torques": "tree.stepper(y, torques=lambda t, y: -1e-3 * y[3:], max_steps=10**12).advance(1e7)",
     "smooth": "tree.smooth(np.arange(0, 900, 1 / 240), noisy[:216000], method='equations')",
     "draws": "tree.smooth(T, np.zeros((200, 3)) + T[:, None]).draws(3 * 10**5)",
-    "lines": "bp.analysis.lines(noisy.ravel(), 240., most=60, smallest=1e-12)",
+    "lines": "[bp.analysis.lines(noisy.ravel(), 240., most=60, smallest=1e-12) for _ in range(10**6)]",
     "rates": "[tree.energy(np.ones((1000, 1000, 6))) for _ in range(10**6)]",
     "modes": "middle.modes()",
 }

@@ -1,6 +1,8 @@
 //! Growth of small differences beside motions in phase at run time against the derived transverse
 //! equations.
 
+use std::thread;
+
 use branched_pendulum::analysis::growth::{Growth, frequency_at_rest};
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
@@ -75,8 +77,17 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
     [worst, largest]
 }
 
+/// Kernels in lanes take large frames where they are not optimised.
+const STACK: usize = 64 << 20;
+
 #[test]
 fn growth_agrees_with_the_transverse_equations() {
+    let thread = thread::Builder::new().stack_size(STACK);
+    let compared = thread.spawn(compare).expect("there are threads");
+    compared.join().expect("both ways agree");
+}
+
+fn compare() {
     let paper = "gravity = 9.80665,
         parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
             child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
