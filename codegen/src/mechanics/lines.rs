@@ -14,7 +14,9 @@ use super::expression::{Expr, Role, SymbolId};
 use super::laws::{dissipated, stored};
 use super::letters;
 use super::meaning::{DerivedLine, DerivedLineSymbol, LineMeaning};
-use crate::scene::{Line, LineEnds, LinkId, Scene, SpringDamperEnds, TranslationalSpringDamper};
+use crate::scene::{
+    DescribedTranslationalSpringDamper, LineEnds, LinkId, Scene, SpringDamperEnds, SpringLine,
+};
 use std::collections::BTreeMap;
 
 /// Torque by which a line pulls a link back, of its spring and of its damper.
@@ -31,7 +33,7 @@ impl Scene {
     /// besides where one before is between the same.
     fn straight_names(&self, index: usize) -> Vec<String> {
         let name = |LinkId(link): &LinkId| self.links[*link].name.clone();
-        let ends = |own: &TranslationalSpringDamper| match &own.ends {
+        let ends = |own: &DescribedTranslationalSpringDamper| match &own.ends {
             LineEnds::Links(SpringDamperEnds::Links(links), _) => links.each_ref().map(name),
             LineEnds::Links(SpringDamperEnds::Siblings(node), _) => [node.clone(), node.clone()],
             LineEnds::Guy(link, ..) => [name(link), GROUND.to_owned()],
@@ -100,7 +102,7 @@ impl Derivation<'_> {
     }
 
     /// Δ and N_i.
-    fn line(&mut self, line: Line, names: Vec<String>, angles: &[SymbolId]) -> DerivedLine {
+    fn line(&mut self, line: SpringLine, names: Vec<String>, angles: &[SymbolId]) -> DerivedLine {
         let coordinates: Vec<SymbolId> = line.arms.iter().map(|(link, _)| angles[link.0]).collect();
         let what = self.scene.translational[line.spring_damper].what.clone();
         let mut arms = Vec::new();

@@ -3,7 +3,7 @@
 
 use super::algebra::Formula;
 use super::expression::{Expr, SymbolId};
-use crate::scene::{FrictionPlace, Function, Line, LinkId, LinkPair};
+use crate::scene::{FrictionPlace, Function, LinkId, LinkPair, SpringLine};
 use std::collections::BTreeMap;
 
 /// Meaning of a symbol that depends on time alone.
@@ -157,7 +157,7 @@ pub(super) struct DerivedLineSymbol {
 
 /// A line while it is derived.
 pub(super) struct DerivedLine {
-    pub(super) line: Line,
+    pub(super) line: SpringLine,
     pub(super) names: Vec<String>,
     pub(super) offset: [SymbolId; 2],
     /// The coordinates of the links that have arms.

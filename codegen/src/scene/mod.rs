@@ -68,7 +68,7 @@ pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
 pub use spring_dampers::DescribedSpringDamper;
-pub use translational::{Line, LineEnds, TranslationalSpringDamper};
+pub use translational::{DescribedTranslationalSpringDamper, LineEnds, SpringLine};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 
@@ -124,7 +124,7 @@ pub struct Scene {
     /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<DescribedSpringDamper>,
     /// Straight springs and dampers between points of links, and guys.
-    pub translational: Vec<TranslationalSpringDamper>,
+    pub translational: Vec<DescribedTranslationalSpringDamper>,
     /// How the links stand for those of the whole tree, where the description makes it
     /// smaller.
     pub reduction: Option<Reduction>,

@@ -2,10 +2,10 @@
 //! against the ground.
 
 use super::Quantity;
-use super::bodies::GivenProperties;
+use super::bodies::{Dimension, GivenProperties};
 use crate::description::Property;
 use crate::exact::Rational;
-use crate::report::{Faults, TreeMessage};
+use crate::report::{Faults, SyntaxMessage, TreeMessage, nearest};
 
 /// Friction and spring of a link; what it does not have is zero. Every stage has them with
 /// constants `V` of its own.
@@ -192,6 +192,38 @@ impl PassiveTorques {
         own.quadratic = Quantity::sum([own.quadratic.clone(), law.quadratic.clone()]);
         law.is_none() || own.width == law.width
     }
+}
+
+/// The properties that are among the known ones, each once; others go to `report`.
+pub(super) fn known_once<'c>(
+    properties: &'c [Property],
+    known: &[&'static Dimension],
+    body: String,
+    report: &mut Faults,
+) -> Vec<(&'static Dimension, &'c Property)> {
+    let names: Vec<&'static str> = known.iter().map(|known| known.name).collect();
+    let mut seen: Vec<String> = Vec::new();
+    let mut found = Vec::new();
+    for property in properties {
+        let (name, span) = (property.key(), property.name.span());
+        match known.iter().find(|known| known.name == name) {
+            _ if seen.contains(&name) => {
+                report.error(span, SyntaxMessage::duplicate_property(&name))
+            }
+            Some(known) => found.push((*known, property)),
+            None => {
+                let message = TreeMessage::UnknownProperty {
+                    nearest: nearest(&name, &names),
+                    name: name.clone(),
+                    body: body.clone(),
+                    known: names.clone(),
+                };
+                report.error(span, message);
+            }
+        }
+        seen.push(name);
+    }
+    found
 }
 
 /// Checks that what is at rest is a spring, whose stiffness has this unit.

@@ -386,35 +386,3 @@ fn in_words(name: &str) -> String {
         _ => name.replace('_', " "),
     }
 }
-
-/// The properties that are among the known ones, each once; others go to `report`.
-pub(super) fn known_once<'c>(
-    properties: &'c [Property],
-    known: &[&'static Dimension],
-    body: String,
-    report: &mut Faults,
-) -> Vec<(&'static Dimension, &'c Property)> {
-    let names: Vec<&'static str> = known.iter().map(|known| known.name).collect();
-    let mut seen: Vec<String> = Vec::new();
-    let mut found = Vec::new();
-    for property in properties {
-        let (name, span) = (property.key(), property.name.span());
-        match known.iter().find(|known| known.name == name) {
-            _ if seen.contains(&name) => {
-                report.error(span, SyntaxMessage::duplicate_property(&name))
-            }
-            Some(known) => found.push((*known, property)),
-            None => {
-                let message = TreeMessage::UnknownProperty {
-                    nearest: nearest(&name, &names),
-                    name: name.clone(),
-                    body: body.clone(),
-                    known: names.clone(),
-                };
-                report.error(span, message);
-            }
-        }
-        seen.push(name);
-    }
-    found
-}

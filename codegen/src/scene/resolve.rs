@@ -15,7 +15,7 @@ use super::spring_dampers::{SceneSpringDampers, forces_of_spring_dampers, resolv
 use super::symbols::check_meanings;
 use super::template::{Template, TreeBuilder, WholeRule};
 use super::values::{Usage, Values, check_used};
-use super::{Line, Quantity, Scene, Sign, Solve};
+use super::{Quantity, Scene, Sign, Solve, SpringLine};
 use crate::description::{Description, Node, Property, StructItem, Value};
 use crate::report::{Faults, OutputMessage, SyntaxMessage, TreeMessage, ValueMessage, nearest};
 use proc_macro2::{Ident, Span};
@@ -210,7 +210,7 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
             report.error(span, OutputMessage::StraightSpring { what, request });
         }
         let mut lines = lines.iter().filter(|line| line.spring_damper == index);
-        if lines.any(Line::is_rigid) {
+        if lines.any(SpringLine::is_rigid) {
             report.error(span, TreeMessage::RigidLine { what: what() });
         }
     }

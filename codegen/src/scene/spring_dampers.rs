@@ -6,10 +6,10 @@ use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
 use super::layout::Layout;
 use super::link_pairs::{LinkPair, SpringDamperEnds};
-use super::passive::{PassiveTorques, check_idle};
+use super::passive::{PassiveTorques, check_idle, known_once};
 use super::prescribed::LinkNames;
-use super::properties::{evaluate, known_once};
-use super::translational::{LineProperties, TranslationalSpringDamper, line_properties};
+use super::properties::evaluate;
+use super::translational::{DescribedTranslationalSpringDamper, LineProperties, line_properties};
 use super::values::Values;
 use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
 use crate::description::{BETWEEN, Description, GUY, SIBLINGS, SpringDamperClause, Value};
@@ -209,7 +209,7 @@ pub(super) fn forces_of_spring_dampers(
 #[derive(Default)]
 pub(super) struct SceneSpringDampers {
     pub(super) torsional: Vec<DescribedSpringDamper>,
-    pub(super) translational: Vec<TranslationalSpringDamper>,
+    pub(super) translational: Vec<DescribedTranslationalSpringDamper>,
 }
 
 /// Finds the links of all clauses, whose forces are these; what is wrong goes to `report`.
@@ -270,7 +270,7 @@ fn straight(
     description: &Description,
     (expansion, names): (&ExpandedTree, &LinkNames<'_>),
     report: &mut Faults,
-) -> Option<TranslationalSpringDamper> {
+) -> Option<DescribedTranslationalSpringDamper> {
     let (what, reductions) = (in_words(clause), &description.reductions);
     let merged = [
         (!reductions.in_phase.is_empty(), "in_phase"),

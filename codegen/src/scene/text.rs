@@ -3,9 +3,9 @@
 use std::fmt::{self, Display, Formatter};
 
 use super::{
-    BudgetRequest, Drive, Group, Layout, LineEnds, Link, NodeMotion, Observable, Offset, Orbit,
-    Parameter, PassiveTorques, Quantity, Reduction, Requests, Requirement, Scene, Sign,
-    TransferRequest, TranslationalSpringDamper, WholeNode, WholeOrder,
+    BudgetRequest, DescribedTranslationalSpringDamper, Drive, Group, Layout, LineEnds, Link,
+    NodeMotion, Observable, Offset, Orbit, Parameter, PassiveTorques, Quantity, Reduction,
+    Requests, Requirement, Scene, Sign, TransferRequest, WholeNode, WholeOrder,
 };
 
 impl Display for Scene {
@@ -131,10 +131,10 @@ impl Scene {
     /// Writes a straight spring and damper.
     fn write_straight(
         &self,
-        own: &TranslationalSpringDamper,
+        own: &DescribedTranslationalSpringDamper,
         f: &mut Formatter<'_>,
     ) -> fmt::Result {
-        let TranslationalSpringDamper {
+        let DescribedTranslationalSpringDamper {
             what,
             ends,
             spring,

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 
 use super::bodies::{Dimension, optional};
 use super::link_pairs::SpringDamperEnds;
-use super::passive::check_rest;
-use super::properties::{evaluate, known_once};
+use super::passive::{check_rest, known_once};
+use super::properties::evaluate;
 use super::values::{Usage, Values};
 use super::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
 use crate::description::{BETWEEN, GUY, Property, SpringDamperClause, Value};
@@ -14,7 +14,7 @@ use crate::report::{Faults, TreeMessage, ValueMessage};
 
 /// A straight spring and a viscous damper along the line between two points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TranslationalSpringDamper {
+pub struct DescribedTranslationalSpringDamper {
     /// The clause in words, as in `between(a, b)`.
     pub what: String,
     /// The points.
@@ -36,7 +36,7 @@ pub enum LineEnds {
     Guy(LinkId, Offset, [Quantity; 2]),
 }
 
-impl TranslationalSpringDamper {
+impl DescribedTranslationalSpringDamper {
     /// Components of the points.
     pub fn places(&self) -> [&Quantity; 4] {
         match &self.ends {
@@ -50,7 +50,7 @@ impl TranslationalSpringDamper {
 
 /// The line between two points, in the links that turn it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Line {
+pub struct SpringLine {
     /// Index of the spring in [`Scene::translational`].
     pub spring_damper: usize,
     /// The links that the points are on: the first one, and the second one unless it is the
@@ -62,7 +62,7 @@ pub struct Line {
     pub offset: [Quantity; 2],
 }
 
-impl Line {
+impl SpringLine {
     /// Returns true if no angle changes the length: of less than two parts that turn by
     /// themselves.
     pub fn is_rigid(&self) -> bool {
@@ -82,21 +82,21 @@ struct Step<'s> {
 
 impl Scene {
     /// The lines of all straight springs, whose links are those of the whole tree.
-    pub fn lines(&self) -> Vec<Line> {
+    pub fn lines(&self) -> Vec<SpringLine> {
         let mut lines = Vec::new();
         for (spring_damper, own) in self.translational.iter().enumerate() {
             match &own.ends {
                 LineEnds::Links(ends, [first, second]) => {
                     let pairs = self.pair_runs(ends).into_iter();
                     let pairs = pairs.flat_map(|run| run.pairs());
-                    lines.extend(pairs.map(|[a, b]| Line {
+                    lines.extend(pairs.map(|[a, b]| SpringLine {
                         spring_damper,
                         links: vec![LinkId(a), LinkId(b)],
                         arms: self.arms((a, first), Some((b, second))),
                         offset: [Quantity::zero(), Quantity::zero()],
                     }));
                 }
-                LineEnds::Guy(LinkId(link), at, [x, y]) => lines.push(Line {
+                LineEnds::Guy(LinkId(link), at, [x, y]) => lines.push(SpringLine {
                     spring_damper,
                     links: vec![LinkId(*link)],
                     arms: self.arms((*link, at), None),
@@ -323,22 +323,26 @@ impl LineProperties {
         self,
         what: String,
         ends: SpringDamperEnds,
-    ) -> Option<TranslationalSpringDamper> {
+    ) -> Option<DescribedTranslationalSpringDamper> {
         let mut points = self.at.iter().cloned().cycle();
         let points = [points.next()?, points.next()?];
         Some(self.spring_damper(what, LineEnds::Links(ends, points)))
     }
 
     /// The guy of a link.
-    pub(super) fn guy(self, what: String, link: LinkId) -> Option<TranslationalSpringDamper> {
+    pub(super) fn guy(
+        self,
+        what: String,
+        link: LinkId,
+    ) -> Option<DescribedTranslationalSpringDamper> {
         let (at, to) = (self.at.first()?.clone(), self.to.clone()?);
         Some(self.spring_damper(what, LineEnds::Guy(link, at, to)))
     }
 
-    fn spring_damper(self, what: String, ends: LineEnds) -> TranslationalSpringDamper {
+    fn spring_damper(self, what: String, ends: LineEnds) -> DescribedTranslationalSpringDamper {
         let or_zero = |value: Option<Quantity>| value.unwrap_or_else(Quantity::zero);
         let spring = or_zero(self.spring);
-        TranslationalSpringDamper {
+        DescribedTranslationalSpringDamper {
             what,
             ends,
             rest: match spring.is_zero() {

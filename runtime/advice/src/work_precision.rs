@@ -60,10 +60,20 @@ impl KnownEnd {
     }
 }
 
-/// Largest difference of two lists of values.
+/// Largest difference of two lists of values; infinite of lists of another length, and of what is
+/// no number.
 fn difference(one: &[f64], other: &[f64]) -> f64 {
-    let both = one.iter().zip(other);
-    both.fold(0.0, |worst, (one, other)| worst.max((one - other).abs()))
+    if one.len() != other.len() {
+        return f64::INFINITY;
+    }
+    let differences = one
+        .iter()
+        .zip(other)
+        .map(|(one, other)| (one - other).abs());
+    differences.fold(0.0, |worst, own| match own.is_nan() {
+        true => f64::INFINITY,
+        false => worst.max(own),
+    })
 }
 
 /// One run of a method.
@@ -73,7 +83,8 @@ pub struct MethodRun {
     pub method: Method,
     /// Tolerance, or step in s of a method with steps of one length.
     pub setting: f64,
-    /// Largest error of the values at the end, in their units.
+    /// Largest error of the values at the end, in their units; infinite where there are not as many
+    /// expected ones.
     pub error: f64,
     /// Time, s: the shortest of several, since what disturbs a run only lengthens it.
     pub seconds: f64,
@@ -195,7 +206,10 @@ impl WorkPrecision {
                 before = Some(after);
                 continue;
             }
-            let share = before.map(|before: &MethodRun| {
+            // Nothing lies between on a logarithmic scale that has no end.
+            let before =
+                before.filter(|before: &&MethodRun| before.error.is_finite() && after.error > 0.0);
+            let share = before.map(|before| {
                 let part = (before.error / error).ln() / (before.error / after.error).ln();
                 before.seconds * (after.seconds / before.seconds).powf(part)
             });
@@ -313,6 +327,16 @@ mod tests {
         assert_eq!(time(1.0), Some(10.0));
         assert_eq!(time(1e-5), None);
         assert_eq!(measured.seconds(Method::Taylor, 1.0), None);
+        // Without an error, and with one of which nothing is known, there is no line between.
+        let edges = WorkPrecision::of(vec![
+            run(Method::Rk4, f64::INFINITY, 1.0),
+            run(Method::Rk4, 1e-2, 10.0),
+            run(Method::Rk4, 0.0, 1000.0),
+        ]);
+        assert_eq!(edges.seconds(Method::Rk4, 0.1), Some(10.0));
+        assert_eq!(edges.seconds(Method::Rk4, 1e-3), Some(1000.0));
+        assert_eq!(difference(&[1.0], &[1.0, 2.0]), f64::INFINITY);
+        assert_eq!(difference(&[1.0, f64::NAN], &[1.0, 2.0]), f64::INFINITY);
         assert_eq!(measured.fastest(1e-3), Some(Method::Dop853));
         assert_eq!(measured.fastest(1e-4), Some(Method::Rk4));
         let table = measured.table(&[1e-2, 1e-3, 1e-5]).to_string();

@@ -20,7 +20,7 @@ pub(crate) struct Between<T> {
 }
 
 impl<T: Scalar> Between<T> {
-    /// Those of a scene of so many links, in numbers that are taken as they are.
+    /// Returns what acts between the links of a scene that has so many, in numbers that are taken as they are.
     pub(crate) fn of(scene: &Scene, links: usize, parameters: &[T]) -> Self {
         let torsional = numbers::spring_dampers(scene, parameters);
         let translational = straight(scene, parameters);

@@ -4,7 +4,8 @@
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{Ode, Workspace};
 use branched_pendulum_codegen::scene::{
-    Link, ParameterId, PassiveTorques, Quantity, QuantityAtom, Scene, TranslationalSpringDamper,
+    DescribedTranslationalSpringDamper, Link, ParameterId, PassiveTorques, Quantity, QuantityAtom,
+    Scene,
 };
 
 use crate::between::Between;
@@ -270,7 +271,7 @@ impl TreeDescription {
 /// Returns whether quantities of straight springs have that property: where they are tied, what
 /// their dampers take, and what their springs are.
 fn straight_uses(
-    all: &[TranslationalSpringDamper],
+    all: &[DescribedTranslationalSpringDamper],
     is_one: impl Fn(&Quantity) -> bool,
 ) -> [bool; 3] {
     [

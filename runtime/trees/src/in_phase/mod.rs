@@ -15,7 +15,7 @@ use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, St
 use branched_pendulum::tree::LinkEquations;
 
 use self::merged::{Member, MergedLinks};
-use self::sweep::Sweep;
+use self::sweep::InPhaseSweep;
 use crate::between::Between;
 use crate::drive::Courses;
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
@@ -28,7 +28,7 @@ use crate::tree::{PendulumTree, constant, in_numbers};
 /// with as much friction as they are together. On demand it has small differences between the
 /// first two copies beside that motion ([`with_differences`](Self::with_differences)).
 ///
-/// It is a system of equations in the angles of its links and their rates, for every method and
+/// The motion is a system of equations in the angles of its links and their rates, for every method and
 /// in lanes. With differences the state is the angles, the differences, the angular velocities
 /// and the rates of the differences, as that of a
 /// [`TransverseOde`](branched_pendulum::system::TransverseOde) of a compiled model, and
@@ -200,9 +200,9 @@ impl<T: Scalar> InPhaseTree<T> {
     /// Returns how many numbers an evaluation needs room for.
     fn room(&self) -> usize {
         let of_link = match self.form {
-            Form::Straight => Sweep::<StraightEquations, T>::ROOM,
-            Form::General => Sweep::<GeneralEquations, T>::ROOM,
-            Form::Rough => Sweep::<RoughEquations, T>::ROOM,
+            Form::Straight => InPhaseSweep::<StraightEquations, T>::ROOM,
+            Form::General => InPhaseSweep::<GeneralEquations, T>::ROOM,
+            Form::Rough => InPhaseSweep::<RoughEquations, T>::ROOM,
         };
         of_link * self.links()
     }
@@ -240,7 +240,7 @@ impl<T: Scalar> InPhaseTree<T> {
             false => self.torques(angles, velocities),
         };
         let drive = self.drive.as_ref().map(|drive| drive.root(time));
-        let mut sweep = Sweep::<E, T>::new(merged, &self.rows, drive, room);
+        let mut sweep = InPhaseSweep::<E, T>::new(merged, &self.rows, drive, room);
         for link in 0..merged.len() {
             let torque = torques.get(link).copied();
             let torque = torque.unwrap_or([T::from_f64(0.0); 2]);

@@ -59,7 +59,7 @@ impl<T: Scalar> Changed<T> for WithChange<T> {
 }
 
 /// One evaluation. Each number of a link is followed by its change.
-pub(super) struct Sweep<'a, E, T> {
+pub(super) struct InPhaseSweep<'a, E, T> {
     links: &'a [MergedLink],
     /// A row of constants for each link.
     rows: &'a [T],
@@ -77,7 +77,7 @@ const COSINE: usize = 8;
 /// Responses of the children.
 const SUMS: usize = 10;
 
-impl<'a, E: LinkEquations, T: Scalar> Sweep<'a, E, T> {
+impl<'a, E: LinkEquations, T: Scalar> InPhaseSweep<'a, E, T> {
     /// Place of what is kept for the way down.
     const ELIMINATION: usize = SUMS + 2 * <E::Sums<T> as Row<T>>::LENGTH;
 
