@@ -37,7 +37,8 @@ fn for_python<'py>(
     let numbers =
         |of: &dyn Fn(&MethodRun) -> f64| array(py, runs.iter().map(of).collect(), &[runs.len()]);
     let methods: Vec<String> = runs.iter().map(|run| run.method.to_string()).collect();
-    let words = measured.table(&ERRORS).to_string();
+    let table = measured.table(&ERRORS);
+    let words = format!("{table}the end is known to {:.0e}", known.uncertainty);
     let fields = [
         ("methods", methods.into_pyobject(py)?.into_any()),
         ("settings", numbers(&|run| run.setting)?),
@@ -52,7 +53,7 @@ fn for_python<'py>(
             "uncertainty",
             known.uncertainty.into_pyobject(py)?.into_any(),
         ),
-        ("words", words.trim_end().into_pyobject(py)?.into_any()),
+        ("words", words.into_pyobject(py)?.into_any()),
     ];
     result(py, "WorkPrecision", &fields)
 }
@@ -62,8 +63,9 @@ impl Tree {
     /// Measures error against time of the methods on one motion: a work-precision diagram.
     ///
     /// Each method runs at many tolerances or steps, each time for some 30 ms, on this machine.
-    /// Errors are those at the end, against two runs in numbers of 31 digits. A run that fails is
-    /// left out: its step is too long.
+    /// Errors are those at the end, against two runs in numbers of 31 digits, whose difference is
+    /// the `uncertainty`: errors below that mean nothing, as those of a chaotic motion that is
+    /// followed too long. A run that fails is left out: its step is too long.
     ///
     /// Parameters
     /// ----------

@@ -34,10 +34,17 @@ def test_errors_are_those_of_motions(tree, measured):
 
 def test_words_and_picture(measured):
     rows = str(measured).splitlines()
-    assert len(rows) == 4 and "Taylor" in str(measured)
+    assert len(rows) == 5 and "Taylor" in str(measured)
+    assert rows[-1] == f"the end is known to {measured.uncertainty:.0e}".replace("e-0", "e-")
     assert sum(row.count("*") for row in rows) == 5
     assert "taylor" in repr(measured)
     assert len(measured.plot().axes[0].lines) == 3
+
+
+def test_a_chaotic_end_is_not_known(tree):
+    chaotic = tree.work_precision([2.0, 0.02, -0.01, 0, 0.1, 0], (0, 60), ["taylor"])
+    regular = tree.work_precision(START, (0, 2), ["taylor"])
+    assert chaotic.uncertainty > 1e4 * regular.uncertainty
 
 
 def test_what_makes_no_sense_is_refused(tree):

@@ -34,7 +34,8 @@ class WorkPrecision(Result):
     uncertainty : float
         How well that state is known, rad or rad/s.
     words : str
-        Time (µs) to given errors: a row a method, the shortest of each error marked.
+        Time (µs) to given errors: a row a method, the shortest of each error marked; and how well the
+        end is known.
     """
 
     methods: list[str]
