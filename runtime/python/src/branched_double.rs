@@ -1,11 +1,13 @@
 //! The class `BranchedDouble`: the compiled model of the paper.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use branched_pendulum::ensemble::{Ensemble, Samples};
 use branched_pendulum::integrate::Taylor;
 use branched_pendulum::system::{AbsoluteAngles, RatesOnly, State};
 use branched_pendulum::{Transfer, TransferForms};
+use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -48,6 +50,11 @@ impl MeasuredModel for Paper {
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         let rows = |theta: &[f64; LINKS]| self.mass_matrix(theta).map(Vec::from).to_vec();
         theta.try_into().map(rows).unwrap_or_default()
+    }
+
+    fn as_tree(&self) -> Result<Cow<'_, PendulumTree>, TreeError> {
+        let description = TreeDescription::parse(include_str!("trees/paper.txt"))?;
+        Ok(Cow::Owned(description.tree(&[("friction", 0.0)])?))
     }
 
     fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String> {

@@ -102,9 +102,11 @@ impl Pendulum {
         Ok((exponents.into_pyarray(py), errors.into_pyarray(py)))
     }
 
-    /// Returns the growth of a vanishing difference between two identical links.
+    /// Returns the growth of a vanishing difference between two identical links, and between all
+    /// that hangs from them.
     ///
-    /// Growth is looked at 32 times a period of the difference; all is computed at two
+    /// The differences all begin with one size and at rest, and their common size √(Σ δ²) is
+    /// followed. Growth is looked at 32 times a period of the difference; all is computed at two
     /// tolerances, of which the finer result is returned.
     ///
     /// Parameters

@@ -3,7 +3,8 @@
 use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::system::State;
+use branched_pendulum::system::{Ode, State};
+use branched_pendulum_trees::DifferenceGrowth;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 
@@ -27,21 +28,24 @@ pub(crate) fn copies(
     let of = |set: &Vec<String>| -> PyResult<Vec<usize>> { set.iter().map(place).collect() };
     let places: Vec<Vec<usize>> = alike.iter().map(of).collect::<PyResult<_>>()?;
     let sets: Vec<&[usize]> = places.iter().map(Vec::as_slice).collect();
-    motions.copies(&sets, starts).ok_or_else(|| {
-        let sets: Vec<String> = alike
-            .iter()
-            .map(|set| format!("`{}`", set.join("` and `")))
-            .collect();
-        let text = format!("{} are no copies that start alike", sets.join(" or "));
-        PyValueError::new_err(text)
-    })
+    let copies = motions.copies(&sets, starts);
+    copies.ok_or_else(|| no_copies(alike))
+}
+
+fn no_copies(alike: &[Vec<String>]) -> PyErr {
+    let sets = alike.iter();
+    let sets: Vec<String> = sets
+        .map(|set| format!("`{}`", set.join("` and `")))
+        .collect();
+    let text = format!("{} are no copies that start alike", sets.join(" or "));
+    PyValueError::new_err(text)
 }
 
 /// Looks in a period of the difference.
 const LOOKS_A_PERIOD: f64 = 32.0;
 
-/// Numbers that are kept of a look, about.
-const COPIES_OF_LOOKS: usize = 8;
+/// Looks whose states are kept at a time, with the first.
+const KEPT_LOOKS: usize = 257;
 
 /// Growth that is asked for.
 pub(crate) struct GrowthTask {
@@ -54,7 +58,7 @@ pub(crate) struct GrowthTask {
 impl GrowthTask {
     /// Growth of a difference between two links, by their names, along all motions.
     pub(crate) fn grown<'py>(
-        mut self,
+        self,
         py: Python<'py>,
         motions: &dyn Motions,
         pair: &[String],
@@ -64,17 +68,17 @@ impl GrowthTask {
             let text = format!("pair must be two names of links, got {}", pair.len());
             return Err(PyValueError::new_err(text));
         };
-        let alike = vec![one.clone(), other.clone()];
-        let copies = copies(motions, &[alike], &self.starts)?;
-        self.frequency_hz = self
-            .frequency_hz
-            .or_else(|| motions.frequency_of_difference(&copies));
-        self.check_memory()?;
-        let grown = detached(py, || {
-            ensemble.map(&self.starts, |_, start| {
-                motions.growth(&self, &copies, start)
-            })
-        })?;
+        let alike = [vec![one.clone(), other.clone()]];
+        let copies = copies(motions, &alike, &self.starts)?;
+        let (horizons, tolerance) = (self.horizons.clone(), self.tolerance);
+        let differences = motions.differences(&copies, horizons, tolerance);
+        let mut differences = differences.map_err(|_| no_copies(&alike))?;
+        if let Some(frequency_hz) = self.frequency_hz {
+            differences = differences.looked_at(frequency_hz);
+        }
+        self.check_memory(&differences)?;
+        let grown = detached(py, || differences.in_lanes(ensemble, &self.starts))?;
+        let grown = grown.map_err(|_| no_copies(&alike))?;
         let mut failures = Failures::default();
         let mut all = Vec::with_capacity(grown.len());
         for (place, grown) in grown.into_iter().enumerate() {
@@ -91,11 +95,16 @@ impl GrowthTask {
         self.result(py, &all)
     }
 
-    /// Passes horizons up to which all looks have room.
-    fn check_memory(&self) -> PyResult<()> {
-        let looks = LOOKS_A_PERIOD * self.frequency_hz.unwrap_or(0.0);
-        let looks = looks * self.horizons.last().copied().unwrap_or(0.0);
-        let all = bytes(&[looks.max(0.0) as usize], COPIES_OF_LOOKS);
+    /// Passes horizons up to which there is room for the times of all looks, and for the states of
+    /// all motions at those of them that are kept.
+    fn check_memory(&self, differences: &DifferenceGrowth) -> PyResult<()> {
+        let last = self.horizons.last().copied().unwrap_or(0.0);
+        let looks = LOOKS_A_PERIOD * differences.growth().frequency_hz * last;
+        let kept = KEPT_LOOKS.min(looks.max(0.0) as usize + 1);
+        let numbers = differences.system().dimension() + 1;
+        let states = bytes(&[self.starts.len(), kept, numbers], 2);
+        let all = bytes(&[looks.max(0.0) as usize], 2).zip(states);
+        let all = all.and_then(|(times, states)| times.checked_add(states));
         need("growth up to the last horizon", all)
     }
 

@@ -1,8 +1,8 @@
 //! Motions of pendulums of any kind, without Python.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Grown, Growth, GrowthError};
 use branched_pendulum::analysis::variational::{
     Copies, Lyapunov, LyapunovError, LyapunovSpectrum, linearised,
 };
@@ -14,10 +14,10 @@ use branched_pendulum::integrate::{
 use branched_pendulum::interruption;
 use branched_pendulum::system::{AbsoluteAngles, Energy, Ode, State, TaylorOde};
 use branched_pendulum_measure::SmoothingError;
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree, TreeError};
 
 use crate::estimates::{Coordinates, Estimate};
 use crate::following::{End, KeepError, Kept, OutputTimes};
-use crate::growth::GrowthTask;
 use crate::model_smoothing::{MOST_SMOOTHED, ModelSmoothing};
 
 /// A model with what its measured motions are smoothed by.
@@ -27,6 +27,12 @@ pub(crate) trait MeasuredModel: Energy<f64> + Clone + Send + Sync + 'static {
 
     /// Returns the equations for methods that may ask for Taylor coefficients.
     fn series(system: &AbsoluteAngles<Self>) -> Self::Series<'_>;
+
+    /// Returns the model as a tree at run time.
+    ///
+    /// # Errors
+    /// None of a description that was read before.
+    fn as_tree(&self) -> Result<Cow<'_, PendulumTree>, TreeError>;
 
     /// Returns the model with other values of parameters.
     ///
@@ -128,17 +134,16 @@ pub(crate) trait Motions: Send + Sync {
     /// in phase at all starts.
     fn copies(&self, alike: &[&[usize]], starts: &[State<f64>]) -> Option<Copies>;
 
-    /// Frequency (Hz) of the difference between copies beside all links at rest; none where
-    /// it does not oscillate.
-    fn frequency_of_difference(&self, copies: &Copies) -> Option<f64>;
-
-    /// Growth of a difference between copies along a motion.
-    fn growth(
+    /// Growth of a difference between copies up to some horizons, at a tolerance.
+    ///
+    /// # Errors
+    /// Links that are no copies.
+    fn differences(
         &self,
-        task: &GrowthTask,
         copies: &Copies,
-        start: &State<f64>,
-    ) -> Result<Grown, GrowthError>;
+        horizons: Vec<f64>,
+        tolerance: f64,
+    ) -> Result<DifferenceGrowth, TreeError>;
 
     fn smoothed_coordinates(&self) -> Coordinates;
 
@@ -293,23 +298,13 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         are_in_phase.then_some(copies)
     }
 
-    fn frequency_of_difference(&self, copies: &Copies) -> Option<f64> {
-        BetweenCopies::new(linearised(self.clone()), copies.clone()).frequency_at_rest()
-    }
-
-    fn growth(
+    fn differences(
         &self,
-        task: &GrowthTask,
         copies: &Copies,
-        start: &State<f64>,
-    ) -> Result<Grown, GrowthError> {
-        let system = BetweenCopies::new(linearised(self.clone()), copies.clone());
-        let growth = Growth {
-            frequency_hz: task.frequency_hz.unwrap_or(f64::NAN),
-            horizons: task.horizons.clone(),
-            tolerance: task.tolerance,
-        };
-        growth.between_copies(&system, start)
+        horizons: Vec<f64>,
+        tolerance: f64,
+    ) -> Result<DifferenceGrowth, TreeError> {
+        DifferenceGrowth::new(&*self.0.as_tree()?, copies, horizons, tolerance)
     }
 
     fn smoothed_coordinates(&self) -> Coordinates {

@@ -1,5 +1,6 @@
 //! The class `Tree`.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
@@ -89,6 +90,10 @@ impl MeasuredModel for PendulumTree {
 
     fn mass_rows(&self, theta: &[f64]) -> Vec<Vec<f64>> {
         self.mass_matrix(theta)
+    }
+
+    fn as_tree(&self) -> Result<Cow<'_, Self>, TreeError> {
+        Ok(Cow::Borrowed(self))
     }
 
     fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, String> {

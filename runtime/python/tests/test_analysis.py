@@ -296,7 +296,8 @@ def test_growth_between_branches():
     start[0, 0] = 1.2
     grown = same.growth(start, ("arm_1", "arm_2"), [2])
     apart = start.copy()
-    apart[0, [1, 3]] = [1e-7, -1e-7]
+    apart[0, 1:5] = [1e-7, 1e-7, -1e-7, -1e-7]
     motion = same.ensemble(apart, np.linspace(0, 2, 2001), rtol=1e-13)[0]
-    largest = np.abs(motion[:, 1] - motion[:, 3]).max() / 2e-7
+    sizes = np.linalg.norm(motion[:, 1:3] - motion[:, 3:5], axis=1)
+    largest = sizes.max() / sizes[0]
     assert grown.factors[0, 0] == pytest.approx(largest, rel=1e-3)

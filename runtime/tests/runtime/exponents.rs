@@ -1,7 +1,7 @@
 //! Exponents of motions that stay in an invariant subspace, against those in closed form, and
 //! runs backwards.
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Growth};
+use branched_pendulum::analysis::growth::Growth;
 use branched_pendulum::analysis::variational::{
     ByTangents, Copies, Linearised, Lyapunov, LyapunovError, LyapunovSpectrum, WithDerivative,
     flow_jacobian, trusted_until,
@@ -164,8 +164,6 @@ fn the_paper_s_pendulum_in_phase() {
         settling: 40,
         intervals: 400,
     };
-    let linearised = ByTangents::<_, Dual<f64, 1>>::new(&ode);
-    let linearised = BetweenCopies::new(linearised, copies.clone());
     for (degrees, grows) in [(44.0_f64, true), (30.0, false)] {
         let start = State::at_rest(0.0, &[degrees.to_radians(), 0.0, 0.0]);
         let all = lyapunov(6).spectrum(&method(), &system, &start).unwrap();
@@ -204,7 +202,9 @@ fn the_paper_s_pendulum_in_phase() {
             horizons: vec![220.0],
             tolerance: 1e-10,
         };
-        let grown = growth.between_copies(&linearised, &start).unwrap();
+        let opposite = copies.opposite(6);
+        let grown = growth.along(&system, &start, &opposite, [1..2, 4..5]);
+        let grown = grown.unwrap();
         assert!(
             (grown.rate.value - own).abs() < 2.0 * bar,
             "{grown:?} {transverse:?}"

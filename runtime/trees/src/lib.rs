@@ -48,7 +48,7 @@ mod ways;
 
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
-pub use in_phase::InPhaseTree;
+pub use in_phase::{DifferenceGrowth, InPhaseTree};
 pub use observables::Observable;
 pub use parametric::{DescribedNode, EquationsOfMotion, ParameterUse};
 pub use tree::PendulumTree;

@@ -1,26 +1,16 @@
 //! Growth of small differences over the plane of releases.
 
-use branched_pendulum::analysis::growth::{BetweenCopies, Growth};
-use branched_pendulum::analysis::variational::{ByTangents, Copies, linearised};
-use branched_pendulum::scalar::Dual;
+use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::system::{AbsoluteAngles, Model, Positions, State};
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 use wasm_bindgen::prelude::wasm_bindgen;
-
-/// A tree with its derivatives.
-type LinearisedTree = ByTangents<
-    AbsoluteAngles<PendulumTree>,
-    Dual<f64, 1>,
-    AbsoluteAngles<PendulumTree<Dual<f64, 1>>>,
->;
 
 /// The plane of releases from rest of a tree with two equal branches: angle of the root, and
 /// common angle of all that hangs from it.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct ReleaseMap {
-    copies: BetweenCopies<LinearisedTree>,
-    growth: Growth,
+    differences: DifferenceGrowth,
     links: usize,
 }
 
@@ -63,15 +53,14 @@ pub(crate) fn in_phase(links: usize, root: f64, rest: f64) -> State<f64> {
 impl ReleaseMap {
     pub(crate) fn of(tree: &PendulumTree, span: f64, tolerance: f64) -> Result<Self, String> {
         let branches = copies(tree).ok_or("the map is one of a tree with two equal branches")?;
-        let copies = BetweenCopies::new(linearised(AbsoluteAngles(tree.clone())), branches);
-        let frequency = copies.frequency_at_rest();
+        let differences = DifferenceGrowth::new(tree, &branches, vec![span], tolerance);
+        let differences = differences.map_err(|error| error.to_string())?;
+        let frequency_hz = differences.growth().frequency_hz;
+        if frequency_hz.is_nan() || frequency_hz <= 0.0 {
+            return Err("differences of the branches do not oscillate".to_owned());
+        }
         Ok(Self {
-            growth: Growth {
-                frequency_hz: frequency.ok_or("differences of the branches do not oscillate")?,
-                horizons: vec![span],
-                tolerance,
-            },
-            copies,
+            differences,
             links: tree.links(),
         })
     }
@@ -83,10 +72,12 @@ impl ReleaseMap {
     /// root and all other links at these angles (rad), and by how much it differs from that of a
     /// hundred times the tolerance, as a part of it; NaN where the motion could not be followed.
     pub fn rate(&self, root: f64, rest: f64) -> Vec<f64> {
-        let start = in_phase(self.links, root, rest);
-        match self.growth.between_copies(&self.copies, &start) {
-            Ok(grown) => vec![grown.rate.value, grown.rate.difference],
-            Err(_) => vec![f64::NAN; 2],
+        match self
+            .differences
+            .of_release(&in_phase(self.links, root, rest))
+        {
+            Ok(Ok(grown)) => vec![grown.rate.value, grown.rate.difference],
+            _ => vec![f64::NAN; 2],
         }
     }
 }

@@ -8,7 +8,6 @@
 
 mod brake_orbit;
 mod checked;
-mod copies;
 mod error;
 mod floquet;
 mod record;
@@ -19,7 +18,6 @@ use std::ops::Range;
 
 pub use self::brake_orbit::{BrakeOrbit, Continuation};
 pub use self::checked::Checked;
-pub use self::copies::BetweenCopies;
 pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
 use self::record::GrowthRecord;
@@ -29,7 +27,7 @@ pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
 use crate::integrate::{Dop853, Options};
-use crate::system::{LaneOde, State};
+use crate::system::{LaneOde, Ode, State};
 
 /// Computation of the growth of differences.
 ///
@@ -128,12 +126,12 @@ impl GrowthRun {
         self.record.look(time, &state[angles], &state[rates]);
     }
 
-    /// Divides the differences by their amplitude, so that they stay within numbers.
-    fn scale(&mut self) {
+    /// Divides these components by the amplitude of the differences, which are among them, so
+    /// that they stay within numbers.
+    fn scale(&mut self, components: &[Range<usize>]) {
         let factor = self.record.scale();
-        let DifferenceRanges { angles, rates } = self.place.clone();
-        for place in [angles, rates] {
-            for value in &mut self.state.values[place] {
+        for place in components {
+            for value in &mut self.state.values[place.clone()] {
                 *value /= factor;
             }
         }
@@ -186,7 +184,8 @@ impl Growth {
                     match samples.end {
                         Ok(end) => {
                             run.state = end.state;
-                            run.scale();
+                            let DifferenceRanges { angles, rates } = run.place.clone();
+                            run.scale(&[angles, rates]);
                         }
                         Err(error) => *place = Err(error.into()),
                     }
@@ -200,11 +199,10 @@ impl Growth {
     }
 
     /// Returns the growth of a deviation along the motion of any system that knows its
-    /// linearisation, for models without transverse equations (of identical links:
-    /// [`between_copies`](Self::between_copies)). `differences` are the
+    /// linearisation, for models without transverse equations. `differences` are the
     /// components of a state that count as angles of differences and as their rates, as
-    /// many of one as of the other. A deviation within an invariant subspace stays in it, and
-    /// says nothing of what grows elsewhere.
+    /// many of one as of the other. A deviation within an invariant subspace stays in it but for
+    /// rounding, and says nothing of what grows elsewhere.
     ///
     /// # Errors
     ///
@@ -226,23 +224,50 @@ impl Growth {
             rates: n + rates.start..n + rates.end,
         };
         let both = State::new(start.time, [&start.values, deviation].concat());
-        let system = Variational::new(system, 1);
+        // All of the deviation: parts of it drive each other.
+        let (system, scaled) = (Variational::new(system, 1), n..2 * n);
+        self.follow(&system, &both, &place, std::slice::from_ref(&scaled))
+    }
+
+    /// Returns the growth along the motion from one start, on this thread: one of those of
+    /// [`in_lanes`](Self::in_lanes), to rounding.
+    ///
+    /// # Errors
+    ///
+    /// [`GrowthError`].
+    pub fn of_release<O: TransverseSystem>(
+        &self,
+        system: &O,
+        start: &State<f64>,
+    ) -> Result<Grown, GrowthError> {
+        let place = places(system);
+        let scaled = [place.angles.clone(), place.rates.clone()];
+        self.follow(system, start, &place, &scaled)
+    }
+
+    /// Follows one motion at both tolerances; differences are scaled back with all that is
+    /// `scaled`.
+    fn follow<O: Ode<f64>>(
+        &self,
+        system: &O,
+        start: &State<f64>,
+        place: &DifferenceRanges,
+        scaled: &[Range<usize>],
+    ) -> Result<Grown, GrowthError> {
         let [coarse, fine] = self.tolerances().map(|tolerance| {
             let method = Dop853::new(Options::with_tolerance(tolerance));
-            let mut run = self.begin(both.clone(), place.clone())?;
+            let mut run = self.begin(start.clone(), place.clone())?;
             for times in scales(&self.looks(start.time)) {
                 let mut number = 0;
                 let begin = run.state.clone();
-                let end = method.sample(&system, &begin, times, |time, state| {
+                let end = method.sample(system, &begin, times, |time, state| {
                     if number > 0 {
                         run.look(time, state);
                     }
                     number += 1;
                 })?;
                 run.state = end.state;
-                // All of the deviation: parts of it drive each other.
-                let factor = run.record.scale();
-                run.state.values[n..].iter_mut().for_each(|v| *v /= factor);
+                run.scale(scaled);
             }
             Ok::<GrowthRun, GrowthError>(run)
         });

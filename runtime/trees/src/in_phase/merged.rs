@@ -1,5 +1,6 @@
 //! Copies that move in phase as one link each.
 
+use std::collections::BTreeSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use branched_pendulum::analysis::variational::Copies;
@@ -86,32 +87,42 @@ impl MergedLinks {
         }
     }
 
-    /// Adds the differences of the first two copies, and of all that hangs from them.
-    pub(super) fn differing(&mut self, whole: &[LinkNumbers], copies: &Copies) {
-        let Some(group) = copies.groups().first() else {
-            return;
+    /// Adds the differences of the first two copies, and of all that hangs from them. None of
+    /// links that are not merged, and of those that hang from two links in phase, which their
+    /// difference sets apart.
+    pub(super) fn differing(&mut self, whole: &[LinkNumbers], copies: &Copies) -> Option<()> {
+        let &[one, other, ..] = copies.groups().first()?.as_slice() else {
+            return None;
         };
-        let hanging: Vec<Vec<usize>> = group.iter().map(|&copy| carried(whole, copy)).collect();
-        let sizes: Vec<f64> = hanging.iter().map(|copy| size(whole, copy)).collect();
-        let all: f64 = sizes.iter().sum();
-        for ((copy, size), sign) in hanging.iter().zip(&sizes).zip([1.0, -1.0]) {
+        let merged = |link: usize| self.members.get(link).map(|own| own.merged);
+        let [above, beside] = [one, other].map(|link| whole.get(link)?.parent);
+        let is_apart = above != beside && above.and_then(merged) == beside.and_then(merged);
+        let both = [one, other].map(|copy| carried(whole, copy));
+        let of_both = [&both[0], &both[1]].map(|copy| copy.iter().copied().filter_map(merged));
+        let [of_one, of_other] = of_both.map(Iterator::collect::<BTreeSet<usize>>);
+        if is_apart || one == other || of_one != of_other {
+            return None;
+        }
+        let alike = (0..self.members.len()).filter(|&link| merged(link) == merged(one));
+        let all: f64 = alike.map(|copy| size(whole, &carried(whole, copy))).sum();
+        for (copy, sign) in both.iter().zip([1.0, -1.0]) {
+            let share = 0.5 * sign * all / size(whole, copy);
             for &link in copy {
-                let Some(member) = self.members.get_mut(link) else {
-                    continue;
-                };
-                (member.sign, member.share) = (sign, 0.5 * sign * all / size);
-                if let Some(own) = self.links.get_mut(member.merged) {
-                    own.difference = Some(0);
+                if let Some(member) = self.members.get_mut(link) {
+                    (member.sign, member.share) = (sign, share);
                 }
             }
         }
-        let differing = self.links.iter_mut();
-        let differing = differing.filter_map(|link| link.difference.as_mut());
-        self.differences = 0;
-        for number in differing {
-            *number = self.differences;
-            self.differences += 1;
+        for link in &mut self.links {
+            link.difference = None;
         }
+        for (number, &link) in of_one.iter().enumerate() {
+            if let Some(own) = self.links.get_mut(link) {
+                own.difference = Some(number);
+            }
+        }
+        self.differences = of_one.len();
+        Some(())
     }
 
     /// Returns the links with their constants: what copies have of mass, stiffness and friction is

@@ -1,5 +1,6 @@
 //! Trees whose copies move in phase, with small differences between two of them.
 
+mod growth;
 mod merged;
 mod sweep;
 
@@ -14,6 +15,7 @@ use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, State, Workspace};
 use branched_pendulum::tree::LinkEquations;
 
+pub use self::growth::DifferenceGrowth;
 use self::merged::{Member, MergedLinks};
 use self::sweep::InPhaseSweep;
 use crate::between::Between;
@@ -25,8 +27,8 @@ use crate::rows::{self, Form};
 use crate::tree::{PendulumTree, constant, in_numbers};
 
 /// A tree whose copies move in phase, as one link for all copies of it: as heavy, as stiff and
-/// with as much friction as they are together. On demand it has small differences between the
-/// first two copies beside that motion ([`with_differences`](Self::with_differences)).
+/// with as much friction as they are together. On demand it has small differences between two
+/// copies beside that motion ([`with_differences`](Self::with_differences)).
 ///
 /// The motion is a system of equations in the angles of its links and their rates, for every method and
 /// in lanes. With differences the state is the angles, the differences, the angular velocities
@@ -60,7 +62,7 @@ use crate::tree::{PendulumTree, constant, in_numbers};
 /// assert_eq!(in_phase.whole(&[0.8, 0.3]), [0.8, 0.3, 0.3]);
 ///
 /// // Growth of a small difference within 10 s of two releases.
-/// let system = in_phase.with_differences();
+/// let system = in_phase.with_differences(&children)?;
 /// let release = |degrees: f64| State::at_rest(0.0, &[degrees.to_radians(), 0.0, 0.0]);
 /// let releases = [42.0, 44.0].map(|degrees| {
 ///     (&system, system.start(&release(degrees)).expect("the children have one angle"))
@@ -93,7 +95,6 @@ pub struct InPhaseTree<T = f64> {
 #[derive(Clone, Debug)]
 struct Structure {
     merged: MergedLinks,
-    copies: Copies,
     /// Of the whole tree.
     links: Vec<LinkNumbers>,
     shape: usize,
@@ -143,7 +144,6 @@ impl PendulumTree<f64> {
             between: self.between().cast(Dual::constant),
             structure: Arc::new(Structure {
                 merged,
-                copies: copies.clone(),
                 links,
                 shape: self.described.shape,
             }),
@@ -152,19 +152,22 @@ impl PendulumTree<f64> {
 }
 
 impl<T: Scalar> InPhaseTree<T> {
-    /// Returns the same motion with small differences between the first two copies of the first
-    /// group beside it: half that between their angles, and between those of all that hangs from
-    /// them.
-    #[must_use]
-    pub fn with_differences(&self) -> Self {
+    /// Returns the same motion with small differences between the first two `copies` beside it:
+    /// half that between their angles, and between those of all that hangs from them. Other
+    /// copies may be in phase besides.
+    ///
+    /// # Errors
+    /// [`TreeError::NotInPhase`] of links that are not in phase here, and of those that hang from
+    /// two links in phase, which their difference sets apart.
+    pub fn with_differences(&self, copies: &Copies) -> Result<Self, TreeError> {
         let mut structure = Structure::clone(&self.structure);
-        structure
-            .merged
-            .differing(&structure.links, &structure.copies);
-        Self {
+        let Structure { merged, links, .. } = &mut structure;
+        let differing = merged.differing(links, copies);
+        differing.ok_or(TreeError::NotInPhase)?;
+        Ok(Self {
             structure: Arc::new(structure),
             ..self.clone()
-        }
+        })
     }
 
     /// Returns the number of links: copies that move in phase are one.

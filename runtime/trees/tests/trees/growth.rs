@@ -25,9 +25,9 @@ fn paper(friction: f64) -> PendulumTree {
 const M_2: f64 = 0.516e-3 + 0.10531 * 0.043 * 0.043;
 
 fn antiphase(tree: &PendulumTree) -> InPhaseTree {
-    tree.in_phase(&tree.all_copies())
-        .unwrap()
-        .with_differences()
+    let copies = tree.all_copies();
+    let in_phase = tree.in_phase(&copies).unwrap();
+    in_phase.with_differences(&copies).unwrap()
 }
 
 fn release(degrees: f64) -> State<f64> {

@@ -182,7 +182,8 @@ fn rates_are_those_of_the_whole_tree() {
     for (text, links) in TREES {
         let tree = parse(text);
         let copies = Copies::of_links(&parents(&tree), &[links]).expect(text);
-        let in_phase = tree.in_phase(&copies).expect(text).with_differences();
+        let in_phase = tree.in_phase(&copies).expect(text);
+        let in_phase = in_phase.with_differences(&copies).expect(text);
         let half = in_phase.dimension() / 2;
         assert_eq!(
             half - in_phase.links(),
@@ -208,14 +209,18 @@ fn rates_are_those_of_the_whole_tree() {
     }
 }
 
+/// All copies of a tree in phase, with the differences of the first two.
+fn with_differences(tree: &PendulumTree) -> InPhaseTree {
+    let copies = tree.all_copies();
+    let in_phase = tree.in_phase(&copies).unwrap();
+    in_phase.with_differences(&copies).unwrap()
+}
+
 /// Differences of a start that is not in phase are not small ones beside it.
 #[test]
 fn a_start_out_of_phase_has_no_state_in_phase() {
     let tree = parse(TREES[0].0);
-    let in_phase = tree
-        .in_phase(&tree.all_copies())
-        .unwrap()
-        .with_differences();
+    let in_phase = with_differences(&tree);
     let of = |angles: &[f64]| in_phase.start(&State::at_rest(0.0, angles));
     assert_eq!(of(&[0.3, 0.1, 0.2]), None);
     assert_eq!(of(&[0.3, 0.1]), None);
@@ -252,14 +257,15 @@ fn links_that_do_not_move_alike_are_refused() {
 #[test]
 fn copies_of_copies_are_one_link() {
     let tree = parse(TREES[2].0);
-    let all = tree
-        .in_phase(&tree.all_copies())
-        .unwrap()
-        .with_differences();
+    let all = with_differences(&tree);
     // Trunk, arm, hand, stone; differences of arm and hand.
     assert_eq!((all.links(), all.dimension()), (4, 12));
     let arms = Copies::of_links(&parents(&tree), &[&[1, 4]]).unwrap();
-    let arms = tree.in_phase(&arms).unwrap().with_differences();
+    let arms = tree
+        .in_phase(&arms)
+        .unwrap()
+        .with_differences(&arms)
+        .unwrap();
     // Trunk, arm, two hands, stone; differences of arm and hands.
     assert_eq!((arms.links(), arms.dimension()), (5, 16));
     let [angles, rates] = [
@@ -282,14 +288,49 @@ fn copies_of_copies_are_one_link() {
     }
 }
 
+/// The difference of two hands of one arm, all else in phase, is that beside the arms and other hands
+/// each in its own way; two hands of different arms move these, and are refused.
+#[test]
+fn inner_copies_differ_beside_all_others_in_phase() {
+    let tree = parse(TREES[2].0);
+    let of = |pair: &[usize]| Copies::of_links(&parents(&tree), &[pair]).unwrap();
+    let in_phase = tree.in_phase(&tree.all_copies()).unwrap();
+    let hands = of(&[2, 3]);
+    let all = in_phase.with_differences(&hands).unwrap();
+    let pair = tree.in_phase(&hands).unwrap();
+    let pair = pair.with_differences(&hands).unwrap();
+    assert_eq!((all.dimension(), pair.dimension()), (10, 16));
+    let whole = State::new(
+        0.0,
+        [
+            [0.7, -0.4, 1.2, 1.2, -0.4, 1.2, 1.2, 0.3],
+            [1.0, 2.0, -1.5, -1.5, 2.0, -1.5, -1.5, 0.4],
+        ]
+        .concat(),
+    );
+    let difference = [&all, &pair].map(|system| {
+        let state = system.start(&whole).unwrap();
+        let mut rates = vec![0.0; state.values.len()];
+        system.rates(0.0, &state.values, &mut rates);
+        rates[rates.len() - 1]
+    });
+    let [found, expected] = difference;
+    assert!(
+        (found - expected).abs() < 1e-12 * expected.abs(),
+        "{found} {expected}"
+    );
+    for refused in [&[2, 5][..], &[7, 1]] {
+        let copies = Copies::new(vec![refused.to_vec()]);
+        let error = in_phase.with_differences(&copies).unwrap_err();
+        assert_eq!(error, TreeError::NotInPhase);
+    }
+}
+
 /// Lanes move as each state alone, but for rounding.
 #[test]
 fn lanes_move_as_one_state_does() {
     let tree = parse(TREES[8].0);
-    let system = tree
-        .in_phase(&tree.all_copies())
-        .unwrap()
-        .with_differences();
+    let system = with_differences(&tree);
     let starts: Vec<State<f64>> = (0..9)
         .map(|number| {
             let angle = 0.2 * f64::from(number);

@@ -41,8 +41,9 @@ fn differences<P: Transverse<f64> + Copy + Sync>(
     releases: &[[Vec<f64>; 2]],
 ) -> [f64; 2] {
     let tree = PendulumTree::parse(text).expect("it is right");
-    let in_phase = tree.in_phase(&tree.all_copies()).expect("it has copies");
-    let system = in_phase.with_differences();
+    let copies = tree.all_copies();
+    let in_phase = tree.in_phase(&copies).expect("it has copies");
+    let system = in_phase.with_differences(&copies).expect("they differ");
     let ode = TransverseOde::new(model, 0).expect("there is one sector");
     let own = frequency_at_rest(&system);
     let frequency_hz = frequency_at_rest(&ode);

@@ -1,11 +1,7 @@
 //! Differences between copies beside their motions in phase.
 
-use branched_pendulum::analysis::growth::{
-    Grown, Growth, GrowthError, TransverseSystem, frequency_at_rest,
-};
 use branched_pendulum::analysis::variational::Copies;
-use branched_pendulum::prelude::*;
-use branched_pendulum_trees::{InPhaseTree, PendulumTree};
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 
 use crate::Failure;
 use crate::subject::Subject;
@@ -56,92 +52,36 @@ impl PairArguments {
     }
 }
 
-/// Returns the differences between the first two `copies` of a tree beside its motion in phase.
+/// Returns the growth of a difference between the first two `copies` of a tree.
 ///
 /// # Errors
-/// [`Failure::Lacking`] where the copies do not move alike.
+/// [`Failure::Lacking`] where the copies do not move alike, and where a small difference does
+/// not oscillate about the tree at rest with all angles zero.
 pub(in crate::commands) fn differences_of(
     tree: &PendulumTree,
     copies: &Copies,
-) -> Result<InPhaseTree, Failure> {
-    let in_phase = tree.in_phase(copies).map_err(|_| out_of_phase())?;
-    Ok(in_phase.with_differences())
+    horizons: Vec<f64>,
+    tolerance: f64,
+) -> Result<DifferenceGrowth, Failure> {
+    let differences = DifferenceGrowth::new(tree, copies, horizons, tolerance);
+    let differences = differences.map_err(|_| out_of_phase())?;
+    let frequency_hz = differences.growth().frequency_hz;
+    if frequency_hz.is_nan() || frequency_hz <= 0.0 {
+        return Err(Failure::Lacking {
+            what: "a small difference of the copies does not oscillate about the tree at rest \
+                   with all angles zero: there is no frequency to look at its growth by"
+                .to_owned(),
+        });
+    }
+    Ok(differences)
 }
 
-fn out_of_phase() -> Failure {
+/// Returns the refusal of copies that do not move or start alike.
+pub(in crate::commands) fn out_of_phase() -> Failure {
     Failure::Lacking {
         what: "the copies do not move alike: give them one angle and one rate by their common \
                name, as in `--start child=10`, and nothing between them and other links that one \
                of them lacks"
             .to_owned(),
-    }
-}
-
-/// Growth of a difference between copies beside the motions in phase of one tree.
-pub(in crate::commands) struct Differences {
-    system: InPhaseTree,
-    growth: Growth,
-}
-
-impl Differences {
-    /// Returns the differences between the first two `copies` of a tree.
-    ///
-    /// # Errors
-    /// [`Failure::Lacking`] where the copies do not move alike, and where a small difference does
-    /// not oscillate about the tree at rest with all angles zero.
-    pub(in crate::commands) fn new(
-        tree: &PendulumTree,
-        copies: &Copies,
-        horizons: Vec<f64>,
-        tolerance: f64,
-    ) -> Result<Self, Failure> {
-        let system = differences_of(tree, copies)?;
-        let frequency_hz = frequency_at_rest(&system);
-        if frequency_hz.is_nan() || frequency_hz <= 0.0 {
-            return Err(Failure::Lacking {
-                what: "a small difference of the copies does not oscillate about the tree at rest \
-                       with all angles zero: there is no frequency to look at its growth by"
-                    .to_owned(),
-            });
-        }
-        Ok(Self {
-            system,
-            growth: Growth {
-                frequency_hz,
-                horizons,
-                tolerance,
-            },
-        })
-    }
-
-    /// Returns the growth along the motion from each start, in lanes.
-    ///
-    /// # Errors
-    /// [`Failure::Lacking`] where the copies do not start alike.
-    pub(in crate::commands) fn along(
-        &self,
-        ensemble: &Ensemble<'_>,
-        starts: &[State<f64>],
-    ) -> Result<Vec<Result<Grown, GrowthError>>, Failure> {
-        let releases = starts.iter().map(|start| {
-            let start = self.system.start(start).ok_or_else(out_of_phase)?;
-            Ok((&self.system, start))
-        });
-        let releases: Vec<_> = releases.collect::<Result<_, Failure>>()?;
-        Ok(self.growth.in_lanes(ensemble, &releases))
-    }
-
-    pub(in crate::commands) fn frequency_hz(&self) -> f64 {
-        self.growth.frequency_hz
-    }
-
-    /// Returns the rate (1/s) at which friction takes from the rate of a small difference at rest.
-    pub(in crate::commands) fn decay(&self) -> f64 {
-        let (all, own) = (self.system.dimension() / 2, self.system.differences());
-        let mut state = vec![0.0; 2 * all];
-        state[2 * all - own..].fill(1.0);
-        let mut rates = state.clone();
-        self.system.rates(0.0, &state, &mut rates);
-        -rates[2 * all - own..].iter().sum::<f64>() / own as f64
     }
 }

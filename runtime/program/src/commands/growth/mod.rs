@@ -10,7 +10,7 @@ use branched_pendulum::prelude::*;
 use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
 
-pub(super) use self::differences::{Differences, PairArguments, differences_of};
+pub(super) use self::differences::{PairArguments, differences_of, out_of_phase};
 use self::varied::Varied;
 use crate::Failure;
 use crate::frame::Job;
@@ -117,13 +117,14 @@ impl Scan {
         progress: impl Fn(f64),
     ) -> Result<Self, Failure> {
         let (horizons, tolerance) = (arguments.horizons.clone(), arguments.tolerance);
-        let differences = Differences::new(tree, copies, horizons, tolerance)?;
+        let differences = differences_of(tree, copies, horizons, tolerance)?;
         let marks = arguments.mark.iter().flatten();
         let angles = arguments.angles_deg.iter().chain(marks);
         let starts: Vec<State<f64>> = angles.map(|degrees| start(*degrees)).collect();
         let mut grown = Vec::new();
         for block in starts.chunks(BLOCK) {
-            for one in differences.along(&Ensemble::new(), block)? {
+            let block = differences.in_lanes(&Ensemble::new(), block);
+            for one in block.map_err(|_| out_of_phase())? {
                 grown.push(one?);
             }
             progress(grown.len() as f64 / starts.len() as f64);
@@ -131,7 +132,7 @@ impl Scan {
         let marked = grown.split_off(arguments.angles_deg.len());
         Ok(Self {
             label,
-            frequency_hz: differences.frequency_hz(),
+            frequency_hz: differences.growth().frequency_hz,
             grown,
             marked,
         })

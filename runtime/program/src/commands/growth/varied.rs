@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum_trees::PendulumTree;
 
-use super::Differences;
+use super::differences_of;
 use crate::Failure;
 use crate::frame::command_line::parts;
 use crate::subject::Subject;
@@ -107,8 +107,8 @@ impl Braking {
     fn of(subject: &Subject, name: &str, copies: &Copies) -> Result<Self, Failure> {
         let at = |value: f64| {
             let tree = subject.with(name, value)?;
-            let differences = Differences::new(&tree, copies, Vec::new(), 1.0)?;
-            Ok::<_, Failure>([differences.decay(), TAU * differences.frequency_hz()])
+            let differences = differences_of(&tree, copies, Vec::new(), 1.0)?;
+            Ok::<_, Failure>([differences.decay(), TAU * differences.growth().frequency_hz])
         };
         let [[others, frequency], [once, _], [twice, _]] = [at(0.0)?, at(TRIAL)?, at(2.0 * TRIAL)?];
         let slope = (once - others) / TRIAL;

@@ -11,7 +11,7 @@ use branched_pendulum_trees::PendulumTree;
 
 use super::plane::{MapPlane, Point};
 use crate::Failure;
-use crate::commands::growth::differences_of;
+use crate::commands::growth::out_of_phase;
 
 /// A mode, from its linear oscillation on.
 pub(super) struct NormalMode {
@@ -134,7 +134,9 @@ pub(super) fn of(plane: &MapPlane<'_>, copies: &Copies) -> Result<Vec<NormalMode
     let in_phase = tree.in_phase(&tree.all_copies());
     let in_phase = in_phase.map_err(|source| Failure::tree(&plane.subject.name, source))?;
     let system = linearised(in_phase.clone());
-    let differences = differences_of(tree, copies)?;
+    let differences = tree.in_phase(copies);
+    let differences = differences.and_then(|own| own.with_differences(copies));
+    let differences = differences.map_err(|_| out_of_phase())?;
     let continuation = Continuation {
         tolerance: TOLERANCE,
         step: STEP,

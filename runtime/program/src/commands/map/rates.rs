@@ -13,7 +13,7 @@ use super::normal_modes::{self, NormalMode};
 use super::plane::{MapPlane, Point, Question, marks, shaded};
 use super::tongues::{self, Tongue};
 use crate::Failure;
-use crate::commands::growth::Differences;
+use crate::commands::growth::{differences_of, out_of_phase};
 use crate::frame::Job;
 
 /// Colours of lines that are seen on dark blue and on yellow.
@@ -63,11 +63,12 @@ impl Rates<'_> {
         let answers = Ensemble::new().map(&groups, |_, group| {
             let tree = &trees[group[0]];
             let horizons = vec![duration];
-            let differences = Differences::new(tree, &self.copies, horizons, self.tolerance)?;
+            let differences = differences_of(tree, &self.copies, horizons, self.tolerance)?;
             let starts = group
                 .iter()
                 .map(|&place| self.plane.start_at(&points[place]));
-            differences.along(&ensemble, &starts.collect::<Vec<_>>())
+            let grown = differences.in_lanes(&ensemble, &starts.collect::<Vec<_>>());
+            grown.map_err(|_| out_of_phase())
         });
         let mut grown: Vec<Option<Grown>> = vec![None; points.len()];
         for (group, found) in groups.into_iter().zip(answers) {

@@ -1,0 +1,129 @@
+//! Growth of small differences between copies of a tree.
+
+use branched_pendulum::analysis::growth::{Grown, Growth, GrowthError, frequency_at_rest};
+use branched_pendulum::analysis::variational::Copies;
+use branched_pendulum::ensemble::Ensemble;
+use branched_pendulum::system::{Ode, State};
+
+use super::InPhaseTree;
+use crate::error::TreeError;
+use crate::tree::PendulumTree;
+
+/// Growth of a small difference between two copies of a tree beside its motions in phase.
+///
+/// Starts are states of the whole tree. The size of the difference is that of all links that
+/// differ, √(Σ δ²): all are turned as one at the start.
+///
+/// # Examples
+///
+/// ```
+/// use branched_pendulum::analysis::variational::Copies;
+/// use branched_pendulum::prelude::*;
+/// use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
+///
+/// let tree = PendulumTree::parse(
+///     "gravity = 9.80665,
+///      parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+///          child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+///      ]",
+/// )?;
+/// let children = Copies::of_links(&[None, Some(0), Some(0)], &[&[1, 2]]).unwrap();
+/// let differences = DifferenceGrowth::new(&tree, &children, vec![10.0], 1e-9)?;
+/// assert!((differences.growth().frequency_hz - 1.2581).abs() < 1e-4);
+/// let starts = [42.0_f64, 44.0].map(|degrees| {
+///     State::at_rest(0.0, &[degrees.to_radians(), 0.0, 0.0])
+/// });
+/// let grown = differences.in_lanes(&Ensemble::new(), &starts)?;
+/// let [Ok(below), Ok(above)] = grown.as_slice() else { panic!("{grown:?}") };
+/// assert!(below.factors[0].value < 10.0 && above.factors[0].value > 16.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct DifferenceGrowth {
+    system: InPhaseTree,
+    growth: Growth,
+}
+
+impl DifferenceGrowth {
+    /// Returns the growth of a difference between the first two `copies` up to some horizons (s,
+    /// after the start), at a tolerance. The frequency of [`Growth`] is that of the difference
+    /// beside the tree at rest with all angles zero: NaN where it does not oscillate.
+    ///
+    /// # Errors
+    /// [`TreeError::NotInPhase`] of links that do not move alike.
+    pub fn new(
+        tree: &PendulumTree,
+        copies: &Copies,
+        horizons: Vec<f64>,
+        tolerance: f64,
+    ) -> Result<Self, TreeError> {
+        let system = tree.in_phase(copies)?.with_differences(copies)?;
+        let growth = Growth {
+            frequency_hz: frequency_at_rest(&system),
+            horizons,
+            tolerance,
+        };
+        Ok(Self { system, growth })
+    }
+
+    /// Returns the same with another frequency (Hz) at which differences are looked at.
+    #[must_use]
+    pub fn looked_at(mut self, frequency_hz: f64) -> Self {
+        self.growth.frequency_hz = frequency_hz;
+        self
+    }
+
+    /// Returns what is asked for.
+    pub fn growth(&self) -> &Growth {
+        &self.growth
+    }
+
+    /// Returns the motion of the copies in phase with their differences.
+    pub fn system(&self) -> &InPhaseTree {
+        &self.system
+    }
+
+    /// Returns the rate (1/s) at which friction takes from the rate of a small difference at
+    /// rest, in the mean over the links that differ.
+    pub fn decay(&self) -> f64 {
+        let own = self.system.differing();
+        let all = self.system.dimension() / 2;
+        let is_difference = |place: usize| place >= 2 * all - own;
+        let state: Vec<f64> = (0..2 * all)
+            .map(|place| f64::from(u8::from(is_difference(place))))
+            .collect();
+        let mut rates = state.clone();
+        self.system.rates(0.0, &state, &mut rates);
+        -rates.iter().skip(2 * all - own).sum::<f64>() / own as f64
+    }
+
+    /// Returns the growth after each start, on all cores and in lanes.
+    ///
+    /// # Errors
+    /// [`TreeError::NotInPhase`] where the copies are not in phase at a start; each result of its own:
+    /// [`GrowthError`].
+    pub fn in_lanes(
+        &self,
+        ensemble: &Ensemble<'_>,
+        starts: &[State<f64>],
+    ) -> Result<Vec<Result<Grown, GrowthError>>, TreeError> {
+        let releases = starts
+            .iter()
+            .map(|start| Ok((&self.system, self.start(start)?)));
+        let releases: Vec<_> = releases.collect::<Result<_, TreeError>>()?;
+        Ok(self.growth.in_lanes(ensemble, &releases))
+    }
+
+    /// Returns the growth after one start, on this thread.
+    ///
+    /// # Errors
+    /// As [`in_lanes`](Self::in_lanes).
+    pub fn of_release(&self, start: &State<f64>) -> Result<Result<Grown, GrowthError>, TreeError> {
+        let start = self.start(start)?;
+        Ok(self.growth.of_release(&self.system, &start))
+    }
+
+    fn start(&self, whole: &State<f64>) -> Result<State<f64>, TreeError> {
+        self.system.start(whole).ok_or(TreeError::NotInPhase)
+    }
+}
