@@ -1,20 +1,20 @@
 //! Quantities of an estimated motion, with their errors.
 
-/// Means and standard deviations of `N` quantities at every time.
+/// Means and standard deviations of a row of quantities at every time: an array, or a vector.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bands<const N: usize> {
+pub struct Bands<R> {
     /// Means.
-    pub means: Vec<[f64; N]>,
+    pub means: Vec<R>,
     /// Standard deviations.
-    pub deviations: Vec<[f64; N]>,
+    pub deviations: Vec<R>,
 }
 
 /// Returns means and deviations over `draws` draws of a motion, each made by `draw` as one
 /// row of quantities a time: of a [`SmoothedMotion`](super::SmoothedMotion), or of several,
 /// the energies that follow from them, their transfers, integrals over time.
 ///
-/// Draws whose number of rows is not that of the first are left out, and so is one with a
-/// number that is not finite: the number of those that count stands beside the bands.
+/// Draws whose rows are not as many and as long as those of the first are left out, and so is one
+/// with a number that is not finite: the number of those that count stands beside the bands.
 ///
 /// # Examples
 ///
@@ -45,27 +45,35 @@ pub struct Bands<const N: usize> {
 /// assert!((energy.means[50][0] - exact).abs() < 4.0 * energy.deviations[50][0]);
 /// # Ok::<(), branched_pendulum_measure::SmoothingError>(())
 /// ```
-pub fn bands<const N: usize>(
+pub fn bands<R: AsRef<[f64]> + AsMut<[f64]> + Clone>(
     draws: usize,
-    mut draw: impl FnMut() -> Vec<[f64; N]>,
-) -> (Bands<N>, usize) {
-    let mut means: Vec<[f64; N]> = Vec::new();
-    let mut squares: Vec<[f64; N]> = Vec::new();
+    mut draw: impl FnMut() -> Vec<R>,
+) -> (Bands<R>, usize) {
+    let mut means: Vec<R> = Vec::new();
+    let mut squares: Vec<R> = Vec::new();
     let mut count = 0_u32;
     for _ in 0..draws {
         let rows = draw();
         if means.is_empty() {
-            means = vec![[0.0; N]; rows.len()];
+            means = rows.clone();
+            means.iter_mut().for_each(|row| row.as_mut().fill(0.0));
             squares = means.clone();
         }
-        if rows.len() != means.len() || !rows.iter().flatten().all(|value| value.is_finite()) {
+        let lengths = |rows: &[R]| {
+            rows.iter()
+                .map(|row| row.as_ref().len())
+                .collect::<Vec<_>>()
+        };
+        let mut values = rows.iter().flat_map(|row| row.as_ref());
+        if lengths(&rows) != lengths(&means) || !values.all(|value| value.is_finite()) {
             continue;
         }
         count += 1;
         // Welford's update.
         let weight = 1.0 / f64::from(count);
         for ((mean, square), row) in means.iter_mut().zip(&mut squares).zip(&rows) {
-            for ((mean, square), value) in mean.iter_mut().zip(square).zip(row) {
+            let both = mean.as_mut().iter_mut().zip(square.as_mut());
+            for ((mean, square), value) in both.zip(row.as_ref()) {
                 let change = value - *mean;
                 *mean += weight * change;
                 *square += change * (value - *mean);
@@ -73,7 +81,7 @@ pub fn bands<const N: usize>(
         }
     }
     let last = f64::from(count.max(2) - 1);
-    for square in squares.iter_mut().flatten() {
+    for square in squares.iter_mut().flat_map(|row| row.as_mut()) {
         *square = (*square / last).sqrt();
     }
     let bands = Bands {

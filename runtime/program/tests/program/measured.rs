@@ -320,8 +320,8 @@ fn sectors_are_told_by_name_and_what_is_not_there_is_refused() {
             "`paper` has no sector `child`: `--sector` is in_phase, d or whole",
         ),
         (
-            "--tree cascade",
-            "`cascade` has 31 links, and motions of up to 6 are estimated",
+            "--tree cascade --model",
+            "the equations of motion smooth records of up to 6 links, not of 31",
         ),
         ("--set length=1", "no parameter `length`"),
         ("--real length=1", "no parameter `length`"),

@@ -5,7 +5,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::subject::MeasuredSubject;
+use super::subject::MeasuredTree;
 use crate::Failure;
 use crate::motion::{MethodArguments, sample};
 use crate::subject::Subject;
@@ -26,14 +26,14 @@ pub struct Camera {
 }
 
 /// A motion as it is, at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Truth<const N: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
     /// Time, s.
     pub time: f64,
     /// Angles of the links, rad.
-    pub links: [f64; N],
+    pub links: Vec<f64>,
     /// Rates of the coordinates, rad/s.
-    pub rates: [f64; N],
+    pub rates: Vec<f64>,
     /// Energy, J.
     pub energy: f64,
     /// Power, W.
@@ -44,27 +44,28 @@ pub struct Truth<const N: usize> {
 ///
 /// # Errors
 /// [`Failure::Motion`].
-pub fn motion<const N: usize>(
+pub fn motion(
     described: &Subject,
-    subject: &dyn MeasuredSubject<N>,
+    subject: &MeasuredTree,
     method: &MethodArguments,
     start: &State<f64>,
     [duration, rate]: [f64; 2],
-) -> Result<Vec<Truth<N>>, Failure> {
+) -> Result<Vec<Truth>, Failure> {
     let count = (duration * rate).round() as u32;
     let times = (0..=count).map(|picture| f64::from(picture) / rate);
     let samples = sample(described, method, start, times.collect())?;
     let truths = samples.times.iter().zip(&samples.states);
     let truths = truths.map(|(&time, state)| {
-        let part = |part: usize| std::array::from_fn(|link| state[part * N + link]);
-        let (links, omega) = (part(0), part(1));
-        let motion = [subject.coordinates(&links), subject.coordinates(&omega)];
+        let (links, omega) = state.split_at(state.len() / 2);
+        let motion = [links, omega].map(|part| subject.coordinates(part));
+        let (energy, power) = (subject.energy(&motion), subject.powers(time, &motion, &[]));
+        let [_, rates] = motion;
         Truth {
             time,
-            links,
-            rates: motion[1],
-            energy: subject.energy(&motion),
-            power: subject.powers(time, &motion, &[]).told,
+            links: links.to_vec(),
+            rates,
+            energy,
+            power: power.told,
         }
     });
     Ok(truths.collect())
@@ -72,7 +73,7 @@ pub fn motion<const N: usize>(
 
 impl Camera {
     /// The links' angles (rad) as they follow from the dots.
-    pub fn angles<const N: usize>(&self, motion: &[Truth<N>]) -> Vec<[Option<f64>; N]> {
+    pub fn angles(&self, motion: &[Truth]) -> Vec<Vec<Option<f64>>> {
         let mut random = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         let mut dot = || {
             let normal: f64 = StandardNormal.sample(&mut random);
@@ -88,11 +89,11 @@ impl Camera {
         let samples = motion.iter();
         samples
             .map(|sample| {
-                let mut links = sample.links;
+                let mut links = sample.links.clone();
                 if let Some(second) = links.get_mut(1) {
                     *second += self.turned;
                 }
-                links.map(&mut seen)
+                links.into_iter().map(&mut seen).collect()
             })
             .collect()
     }

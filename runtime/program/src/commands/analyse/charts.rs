@@ -6,7 +6,7 @@ use branched_pendulum_measure::Bands;
 use super::camera::Truth;
 use super::estimate::{Estimate, quantity};
 use super::source::Source;
-use super::subject::{MeasuredSubject, Names};
+use super::subject::{MeasuredTree, Names};
 
 const BLUE: Color = Color::of_series(0);
 const BLACK: Color = Color::rgb(0, 0, 0);
@@ -16,11 +16,7 @@ const LIGHT: Color = Color::rgb(176, 208, 232);
 const NORMAL_95: f64 = 1.96;
 
 /// Draws the estimate; a simulated camera's truth is dashed.
-pub fn chart<const N: usize>(
-    subject: &dyn MeasuredSubject<N>,
-    source: &Source<N>,
-    estimate: &Estimate<N>,
-) -> Chart {
+pub fn chart(subject: &MeasuredTree, source: &Source, estimate: &Estimate) -> Chart {
     let names = subject.names();
     let times = &source.times;
     let drawn = names.drawn;
@@ -29,8 +25,8 @@ pub fn chart<const N: usize>(
         .angles
         .iter()
         .map(|angles| {
-            let links = angles.map(|angle| angle.unwrap_or(f64::NAN));
-            subject.coordinates(&links)[drawn]
+            let links = angles.iter().map(|angle| angle.unwrap_or(f64::NAN));
+            subject.coordinates(&links.collect::<Vec<_>>())[drawn]
         })
         .collect();
     let angle = Panel::new(Axis::linear(format!("{} (rad)", names.symbols[drawn])))
@@ -42,7 +38,7 @@ pub fn chart<const N: usize>(
         )
         .zero_line();
     let Names { energy, power, .. } = names;
-    let truth = |of: fn(&Truth<N>) -> f64| source.truth.iter().map(of).collect::<Vec<f64>>();
+    let truth = |of: fn(&Truth) -> f64| source.truth.iter().map(of).collect::<Vec<f64>>();
     let panel = |axis: String, index: usize, truth: Vec<f64>| {
         let axis = Axis::linear(axis);
         with_band(axis, times, &estimate.energies, index, &truth)
@@ -72,7 +68,7 @@ pub fn chart<const N: usize>(
 fn with_band(
     axis: Axis,
     times: &[f64],
-    bands: &Bands<{ quantity::COUNT }>,
+    bands: &Bands<[f64; quantity::COUNT]>,
     index: usize,
     truth: &[f64],
 ) -> Panel {

@@ -8,7 +8,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::subject::MeasuredSubject;
+use super::subject::MeasuredTree;
 use crate::Failure;
 use crate::smoothed::{Disturbances, Motion, Record, Smoothed, one_by_one};
 
@@ -29,11 +29,11 @@ pub mod quantity {
 
 /// A motion as data tell it.
 #[derive(Clone, Debug)]
-pub struct Estimate<const N: usize> {
+pub struct Estimate {
     /// Rates of the coordinates, rad/s.
-    pub rates: Bands<N>,
+    pub rates: Bands<Vec<f64>>,
     /// Quantities that follow from the motion: [`quantity`] says which stands where.
-    pub energies: Bands<{ quantity::COUNT }>,
+    pub energies: Bands<[f64; quantity::COUNT]>,
     /// Standard deviation of the links' angles that was found, rad.
     pub noise: f64,
     /// Correlation of successive innovations in standard deviations, the largest; NaN where
@@ -43,7 +43,7 @@ pub struct Estimate<const N: usize> {
     /// sought.
     pub frictions: Vec<f64>,
     /// The likeliest motion.
-    pub motion: Vec<Motion<N>>,
+    pub motion: Vec<Motion>,
 }
 
 /// Draws whose mean and deviation are told.
@@ -57,20 +57,20 @@ pub struct Draws {
 
 /// Measured angles of a pendulum.
 #[derive(Clone, Copy)]
-pub struct Measured<'a, const N: usize> {
+pub struct Measured<'a> {
     /// The pendulum.
-    pub subject: &'a dyn MeasuredSubject<N>,
+    pub subject: &'a MeasuredTree,
     /// The angles.
-    pub record: Record<'a, N>,
+    pub record: Record<'a>,
 }
 
-impl<const N: usize> Measured<'_, N> {
+impl Measured<'_> {
     /// Estimates the motion knowing only that it is smooth, each coordinate by itself; a
     /// picture that lacks a link counts as missing.
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
-    pub fn by_smoothness(&self, draws: Draws) -> Result<Estimate<N>, Failure> {
+    pub fn by_smoothness(&self, draws: Draws) -> Result<Estimate, Failure> {
         self.separately(draws, |times, data| {
             KinematicSmoother::default().smooth(times, data)
         })
@@ -80,7 +80,7 @@ impl<const N: usize> Measured<'_, N> {
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
-    pub fn by_polynomials(&self, draws: Draws) -> Result<Estimate<N>, Failure> {
+    pub fn by_polynomials(&self, draws: Draws) -> Result<Estimate, Failure> {
         self.separately(draws, |times, data| {
             LocalPolynomials::default().smooth(times, data)
         })
@@ -91,14 +91,14 @@ impl<const N: usize> Measured<'_, N> {
     ///
     /// # Errors
     /// [`Failure::Smoothing`].
-    pub fn by_model(&self, guess: &Estimate<N>, draws: Draws) -> Result<Estimate<N>, Failure> {
+    pub fn by_model(&self, guess: &Estimate, draws: Draws) -> Result<Estimate, Failure> {
         let subject = self.subject;
         let guess = guess.motion.iter();
-        let guess: Vec<Motion<N>> = guess
+        let guess: Vec<Motion> = guess
             .map(|motion| motion.each_ref().map(|part| subject.links(part)))
             .collect();
         let found = subject.by_model(self.record, &guess)?;
-        let symmetric = |part: &[f64; N]| subject.coordinates(part);
+        let symmetric = |part: &Vec<f64>| subject.coordinates(part);
         Ok(self.estimate(draws, &found, |motion| motion.each_ref().map(symmetric)))
     }
 
@@ -106,18 +106,19 @@ impl<const N: usize> Measured<'_, N> {
         &self,
         draws: Draws,
         smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
-    ) -> Result<Estimate<N>, Failure> {
-        let whole = |angles: &[Option<f64>; N]| -> [Option<f64>; N] {
-            let mut links = [0.0; N];
-            for (link, angle) in links.iter_mut().zip(angles) {
-                let Some(angle) = *angle else {
-                    return [None; N];
-                };
-                *link = angle;
+    ) -> Result<Estimate, Failure> {
+        let whole = |angles: &Vec<Option<f64>>| -> Vec<Option<f64>> {
+            match angles.iter().copied().collect::<Option<Vec<f64>>>() {
+                Some(links) => self
+                    .subject
+                    .coordinates(&links)
+                    .into_iter()
+                    .map(Some)
+                    .collect(),
+                None => vec![None; angles.len()],
             }
-            self.subject.coordinates(&links).map(Some)
         };
-        let coordinates: Vec<[Option<f64>; N]> = self.record.angles.iter().map(whole).collect();
+        let coordinates: Vec<Vec<Option<f64>>> = self.record.angles.iter().map(whole).collect();
         let record = Record {
             angles: &coordinates,
             ..self.record
@@ -131,20 +132,19 @@ impl<const N: usize> Measured<'_, N> {
     fn estimate(
         &self,
         Draws { count, seed }: Draws,
-        found: &Smoothed<N>,
-        coordinates: impl Fn(Motion<N>) -> Motion<N>,
-    ) -> Estimate<N> {
+        found: &Smoothed,
+        coordinates: impl Fn(Motion) -> Motion,
+    ) -> Estimate {
         let normal = || {
             let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
             move || StandardNormal.sample(&mut random)
         };
-        let told = |motion: Vec<Motion<N>>| -> Vec<Motion<N>> {
-            motion.into_iter().map(&coordinates).collect()
-        };
+        let told =
+            |motion: Vec<Motion>| -> Vec<Motion> { motion.into_iter().map(&coordinates).collect() };
         let mut numbers = normal();
         let (rates, _) = bands(count, || {
             let motion = told((found.draw)(&mut numbers));
-            motion.iter().map(|[_, rates]| *rates).collect()
+            motion.into_iter().map(|[_, rates]| rates).collect()
         });
         let mut numbers = normal();
         let (mut energies, _) = bands(count, || {
@@ -157,7 +157,7 @@ impl<const N: usize> Measured<'_, N> {
         }) = &found.disturbances
         {
             let likeliest = told(likeliest.clone());
-            let closure = |changes: &[Motion<N>]| self.closure(&motion, &likeliest, changes);
+            let closure = |changes: &[Motion]| self.closure(&motion, &likeliest, changes);
             let mut numbers = normal();
             let (noise, _) = bands(count, || closure(&told(spurious(&mut numbers))));
             let places = energies.means.iter_mut().zip(&mut energies.deviations);
@@ -178,7 +178,7 @@ impl<const N: usize> Measured<'_, N> {
     }
 
     /// The quantities of one motion, with the friction that was found.
-    fn energies(&self, motion: &[Motion<N>], friction: &[f64]) -> Vec<[f64; quantity::COUNT]> {
+    fn energies(&self, motion: &[Motion], friction: &[f64]) -> Vec<[f64; quantity::COUNT]> {
         let energies: Vec<f64> = motion.iter().map(|m| self.subject.energy(m)).collect();
         let at = self.record.times.iter().zip(motion);
         let powers = at.map(|(time, motion)| self.subject.powers(*time, motion, friction));
@@ -195,10 +195,11 @@ impl<const N: usize> Measured<'_, N> {
 
     /// The closure of a motion if its angles of links are all counted from `tilt`, with that
     /// friction beside the pendulum's own, J.
-    pub fn closure_if(&self, motion: &[Motion<N>], tilt: f64, friction: &[f64]) -> Vec<f64> {
+    pub fn closure_if(&self, motion: &[Motion], tilt: f64, friction: &[f64]) -> Vec<f64> {
         let turned = motion.iter().map(|[coordinates, rates]| {
-            let links = self.subject.links(coordinates).map(|angle| angle - tilt);
-            [self.subject.coordinates(&links), *rates]
+            let mut links = self.subject.links(coordinates);
+            links.iter_mut().for_each(|angle| *angle -= tilt);
+            [self.subject.coordinates(&links), rates.clone()]
         });
         let rows = self.energies(&turned.collect::<Vec<_>>(), friction);
         rows.iter().map(|row| row[quantity::CLOSURE]).collect()
@@ -209,16 +210,19 @@ impl<const N: usize> Measured<'_, N> {
     /// likeliest ones.
     fn closure(
         &self,
-        motion: &[Motion<N>],
-        likeliest: &[Motion<N>],
-        changes: &[Motion<N>],
+        motion: &[Motion],
+        likeliest: &[Motion],
+        changes: &[Motion],
     ) -> Vec<[f64; 1]> {
         let mut closure = 0.0;
         let steps = motion.iter().zip(likeliest).zip(changes);
         steps
             .map(|((motion, likeliest), change)| {
-                let middle = |part: usize, of: usize| motion[part][of] - 0.5 * likeliest[part][of];
-                let middle = [0, 1].map(|part| std::array::from_fn(|of| middle(part, of)));
+                let middle = [0, 1].map(|part| {
+                    let both = motion[part].iter().zip(&likeliest[part]);
+                    both.map(|(motion, likeliest)| motion - 0.5 * likeliest)
+                        .collect()
+                });
                 closure -= self.subject.energy_along(&middle, change);
                 [closure]
             })

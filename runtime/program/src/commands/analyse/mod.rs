@@ -28,15 +28,13 @@ pub mod wrong_pictures;
 pub use arguments::Arguments;
 pub use estimate::{Draws, Estimate, Measured};
 pub use source::Source;
-pub use subject::{MeasuredSubject, MeasuredTree};
+pub use subject::MeasuredTree;
 
-use branched_pendulum::system::Model;
 use branched_pendulum_data::{Table, TableOptions};
 
 use crate::Failure;
 use crate::frame::{Job, Progress};
 use crate::measured_file::MeasuredLinks;
-use crate::subject::{Described, Subject};
 use causes::{Search, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
@@ -57,41 +55,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
             "No pendulum is such, but taken as it is: {error}.\n"
         ))?;
     }
-    let both = (&known, &described);
-    match described.tree.links() {
-        1 => of_links::<1, 2>(arguments, job, both, table.as_ref()),
-        2 => of_links::<2, 4>(arguments, job, both, table.as_ref()),
-        3 => of_links::<3, 6>(arguments, job, both, table.as_ref()),
-        4 => of_links::<4, 8>(arguments, job, both, table.as_ref()),
-        5 => of_links::<5, 10>(arguments, job, both, table.as_ref()),
-        6 => of_links::<6, 12>(arguments, job, both, table.as_ref()),
-        links => Err(Failure::Lacking {
-            what: format!(
-                "`{}` has {links} links, and motions of up to {MOST_LINKS} are estimated: describe \
-                 the part that was measured",
-                described.name
-            ),
-        }),
-    }
-}
-
-/// Most links of a tree that is analysed.
-const MOST_LINKS: usize = 6;
-
-/// For a tree of N links and D = 2N.
-fn of_links<const N: usize, const D: usize>(
-    arguments: &Arguments,
-    job: &Job,
-    (known, described): (&Described, &Subject),
-    table: Option<&Table>,
-) -> Result<(), Failure> {
-    let subject = MeasuredTree::<N, D>::new(described, arguments.sector.as_deref())?;
-    let hung = MeasuredLinks::new(described, &known.offsets, &arguments.measured)?;
-    let source = match table {
+    let subject = MeasuredTree::new(&described, arguments.sector.as_deref())?;
+    let hung = MeasuredLinks::new(&described, &known.offsets, &arguments.measured)?;
+    let source = match &table {
         Some(table) => Source::read(table, arguments, &hung)?,
-        None => Source::simulate::<D>(
+        None => Source::simulate(
             arguments,
-            &constants::real(known, &arguments.real.concat())?,
+            &constants::real(&known, &arguments.real.concat())?,
         )?,
     };
     let offsets = described.tree.names().iter().cloned();
@@ -101,17 +71,17 @@ fn of_links<const N: usize, const D: usize>(
         arguments,
         job,
         &subject,
-        table.map(|table| (table, &hung)),
+        table.as_ref().map(|table| (table, &hung)),
         &source,
     )
 }
 
-fn analyse<const N: usize>(
+fn analyse(
     arguments: &Arguments,
     job: &Job,
-    subject: &dyn MeasuredSubject<N>,
+    subject: &MeasuredTree,
     table: Option<(&Table, &MeasuredLinks)>,
-    source: &Source<N>,
+    source: &Source,
 ) -> Result<(), Failure> {
     let progress = job.progress(1 + usize::from(arguments.model));
     let (estimate, verdict, search) = judged(arguments, subject, table, source, &progress)?;
@@ -132,13 +102,13 @@ fn analyse<const N: usize>(
 
 /// Estimates the motion and judges it; where its energy budget fails, causes are sought in the
 /// table.
-fn judged<const N: usize>(
+fn judged(
     arguments: &Arguments,
-    subject: &dyn MeasuredSubject<N>,
+    subject: &MeasuredTree,
     table: Option<(&Table, &MeasuredLinks)>,
-    source: &Source<N>,
+    source: &Source,
     progress: &Progress,
-) -> Result<(Estimate<N>, Verdict, Option<Search>), Failure> {
+) -> Result<(Estimate, Verdict, Option<Search>), Failure> {
     let draws = Draws {
         count: arguments.draws as usize,
         seed: arguments.seed,

@@ -15,19 +15,19 @@ use crate::frame::Job;
 ///
 /// # Errors
 /// [`Failure::Csv`] or [`Failure::File`].
-pub fn write<const N: usize>(
+pub fn write(
     job: &Job,
-    names: &Names<N>,
-    source: &Source<N>,
-    estimate: &Estimate<N>,
+    names: &Names,
+    source: &Source,
+    estimate: &Estimate,
 ) -> Result<(), Failure> {
     let mut columns = vec![Column::new("time", "s")];
     let coordinates = names.coordinates.iter();
     columns.extend(coordinates.map(|name| Column::new(name.as_str(), "rad")));
-    let rates = names
-        .coordinates
-        .each_ref()
-        .map(|name| name.replacen("theta", "omega", 1));
+    let rates = names.coordinates.iter();
+    let rates: Vec<String> = rates
+        .map(|name| name.replacen("theta", "omega", 1))
+        .collect();
     let rates = rates.iter().map(|name| (name.as_str(), "rad/s"));
     let energies = [
         (names.energy.as_str(), "J"),
@@ -72,7 +72,7 @@ pub struct Trust {
 
 impl Trust {
     /// Judges an estimate.
-    pub fn of<const N: usize>(estimate: &Estimate<N>) -> Self {
+    pub fn of(estimate: &Estimate) -> Self {
         let bands = &estimate.energies;
         let means = || bands.means.iter();
         let energy = means().map(|row| row[quantity::ENERGY]).fold(0.0, f64::max);
@@ -103,11 +103,11 @@ pub fn percent(part: f64) -> String {
 }
 
 /// The report in words.
-pub fn report<const N: usize>(
+pub fn report(
     arguments: &Arguments,
-    names: &Names<N>,
-    source: &Source<N>,
-    estimate: &Estimate<N>,
+    names: &Names,
+    source: &Source,
+    estimate: &Estimate,
 ) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -188,7 +188,7 @@ pub fn report<const N: usize>(
 }
 
 /// The error of the power against the truth of a simulated camera, rms over rms.
-pub fn power_error<const N: usize>(source: &Source<N>, estimate: &Estimate<N>) -> Option<f64> {
+pub fn power_error(source: &Source, estimate: &Estimate) -> Option<f64> {
     let pairs = source.truth.iter().zip(&estimate.energies.means);
     let (error, size) = pairs.fold((0.0, 0.0), |(error, size), (truth, row)| {
         let off = row[quantity::POWER] - truth.power;
@@ -206,8 +206,8 @@ mod tests {
     /// The closure by the equations of motion, in its deviations.
     fn closure(options: &str) -> f64 {
         let arguments = paper(options);
-        let (described, subject) = tree::<3, 6>(&arguments);
-        let source = Source::simulate::<6>(&arguments, &described).unwrap();
+        let (described, subject) = tree(&arguments);
+        let source = Source::simulate(&arguments, &described).unwrap();
         let measured = Measured {
             subject: &subject,
             record: source.record(),

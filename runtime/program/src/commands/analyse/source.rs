@@ -15,11 +15,11 @@ const DOTS: f64 = 0.25;
 
 /// Angles against time.
 #[derive(Clone, Debug)]
-pub struct Source<const N: usize> {
+pub struct Source {
     /// Times, s.
     pub times: Vec<f64>,
     /// Angles of the links, rad.
-    pub angles: Vec<[Option<f64>; N]>,
+    pub angles: Vec<Vec<Option<f64>>>,
     /// Columns or dots of the links, of a file.
     pub links: Vec<String>,
     /// How a file was read.
@@ -27,10 +27,10 @@ pub struct Source<const N: usize> {
     /// What the links show where they are at 0, rad, of a file; taken from the angles.
     pub offsets: Vec<f64>,
     /// The motion as it is, of a simulated camera.
-    pub truth: Vec<Truth<N>>,
+    pub truth: Vec<Truth>,
 }
 
-impl<const N: usize> Source<N> {
+impl Source {
     /// Takes the angles of the links of the tree out of the table of the arguments' file.
     ///
     /// # Errors
@@ -42,8 +42,10 @@ impl<const N: usize> Source<N> {
     ) -> Result<Self, Failure> {
         let read = arguments.measured.angles(table, hung)?;
         let recording = read.recording;
-        let row =
-            |index: usize| std::array::from_fn(|link: usize| recording.links[link].angle(index));
+        let row = |index: usize| {
+            let links = recording.links.iter();
+            links.map(|link| link.angle(index)).collect()
+        };
         let rows = (0..recording.times.len()).step_by(arguments.every);
         Ok(Self {
             angles: rows.clone().map(row).collect(),
@@ -60,17 +62,11 @@ impl<const N: usize> Source<N> {
     /// # Errors
     /// [`Failure::Start`], [`Failure::NoLink`], [`Failure::Motion`], and those of
     /// [`MeasuredTree::new`].
-    pub fn simulate<const D: usize>(
-        arguments: &Arguments,
-        real: &Subject,
-    ) -> Result<Self, Failure> {
-        let subject = MeasuredTree::<N, D>::new(real, arguments.sector.as_deref())?;
+    pub fn simulate(arguments: &Arguments, real: &Subject) -> Result<Self, Failure> {
+        let subject = MeasuredTree::new(real, arguments.sector.as_deref())?;
         let mut start = arguments.release.state(real)?;
-        for (angle, weight) in start
-            .values
-            .iter_mut()
-            .zip(subject.difference().iter().flatten())
-        {
+        let difference = subject.difference().unwrap_or_default();
+        for (angle, weight) in start.values.iter_mut().zip(difference) {
             *angle += weight * arguments.difference;
         }
         let camera = Camera {
@@ -93,7 +89,7 @@ impl<const N: usize> Source<N> {
     }
 
     /// The angles with their times.
-    pub fn record(&self) -> Record<'_, N> {
+    pub fn record(&self) -> Record<'_> {
         Record {
             times: &self.times,
             angles: &self.angles,

@@ -41,10 +41,10 @@ impl Spectrogram {
     ///
     /// # Errors
     /// [`Failure::Spectrum`].
-    pub fn of<const N: usize>(
-        names: &Names<N>,
-        source: &Source<N>,
-        estimate: &Estimate<N>,
+    pub fn of(
+        names: &Names,
+        source: &Source,
+        estimate: &Estimate,
     ) -> Result<Option<Self>, Failure> {
         let (Some(start), Some(end)) = (source.times.first(), source.times.last()) else {
             return Ok(None);
@@ -149,7 +149,7 @@ impl Spectrogram {
 }
 
 /// A coordinate at a time: the cubic through angles and rates at the two times about it.
-fn angle<const N: usize>(times: &[f64], motion: &[Motion<N>], of: usize, time: f64) -> f64 {
+fn angle(times: &[f64], motion: &[Motion], of: usize, time: f64) -> f64 {
     let after = times.partition_point(|other| *other < time);
     let after = after.clamp(1, times.len() - 1);
     let before = after - 1;

@@ -8,20 +8,19 @@ use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Energy, Model, Workspace};
 use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
 use branched_pendulum_charts::verbatim;
-use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
-use crate::smoothed::{Motion, Record, Smoothed, by_equations};
+use crate::smoothed::{Motion, Record, Smoothed, SmoothingEquations};
 use crate::subject::Subject;
 
 /// Names of what is told about a tree.
 #[derive(Clone, Debug)]
-pub struct Names<const N: usize> {
+pub struct Names {
     /// Coordinates, in columns.
-    pub coordinates: [String; N],
+    pub coordinates: Vec<String>,
     /// Coordinates, in charts.
-    pub symbols: [String; N],
+    pub symbols: Vec<String>,
     /// The coordinate that is drawn.
     pub drawn: usize,
     /// The coordinate of the spectrogram.
@@ -47,54 +46,22 @@ pub struct Powers {
     pub whole: f64,
 }
 
-/// A tree of N links that were measured.
-pub trait MeasuredSubject<const N: usize> {
-    /// Names of what is told.
-    fn names(&self) -> &Names<N>;
-
-    /// Coordinates that are smoothed, from angles of links or from rates.
-    fn coordinates(&self, links: &[f64; N]) -> [f64; N];
-
-    /// Angles or rates of links from coordinates.
-    fn links(&self, coordinates: &[f64; N]) -> [f64; N];
-
-    /// The energy that is told, J.
-    fn energy(&self, motion: &Motion<N>) -> f64;
-
-    /// Change of the energy by a change of the motion, to first order about it.
-    fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64;
-
-    /// Returns the powers at a time (s), with friction in the pivots that is told beside the
-    /// tree's own: a coefficient (N m s) for each, or none.
-    fn powers(&self, time: f64, motion: &Motion<N>, friction: &[f64]) -> Powers;
-
-    /// Smooths by the equations of motion, beginning from a motion of the links.
-    ///
-    /// # Errors
-    /// [`SmoothingError`].
-    fn by_model(
-        &self,
-        record: Record<'_, N>,
-        guess: &[Motion<N>],
-    ) -> Result<Smoothed<N>, SmoothingError>;
-}
-
 /// Name by which the energy of the whole tree is asked for.
 pub const WHOLE: &str = "whole";
 
-/// A tree of N links in a text, D = 2N: its symmetric coordinates where it has copies, else the
-/// angles of its links.
-pub struct MeasuredTree<const N: usize, const D: usize> {
+/// A tree in a text whose links were measured: its symmetric coordinates where it has copies, else
+/// the angles of its links.
+pub struct MeasuredTree {
     tree: PendulumTree,
     /// The tree in numbers with a derivative.
     dual: PendulumTree<Dual<f64, 1>>,
     /// The sector that is told; none for the whole tree.
     told: Option<Told>,
     /// Columns by which links follow from coordinates.
-    columns: [[f64; N]; N],
+    columns: Vec<Vec<f64>>,
     /// Of the links of each node the rates in their pivots, as combinations of those of links.
-    pivots: Vec<Vec<[f64; N]>>,
-    names: Names<N>,
+    pivots: Vec<Vec<Vec<f64>>>,
+    names: Names,
 }
 
 /// A sector whose energy is told.
@@ -104,7 +71,7 @@ struct Told {
     sector: usize,
 }
 
-impl<const N: usize, const D: usize> MeasuredTree<N, D> {
+impl MeasuredTree {
     /// The tree, with the sector that is asked for: the first difference, or the whole of a tree
     /// without copies, if none is.
     ///
@@ -142,14 +109,19 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
         });
         let told = told.transpose()?;
         let parents = described.parents();
-        let unit = |of: usize| std::array::from_fn(|link| f64::from(u8::from(link == of)));
-        let columns = std::array::from_fn(|of| {
-            let mut links = [0.0; N];
+        let count = tree.links();
+        let unit = |of: usize| -> Vec<f64> {
+            let links = 0..count;
+            links.map(|link| f64::from(u8::from(link == of))).collect()
+        };
+        let columns = (0..count).map(|of| {
+            let mut links = vec![0.0; count];
             tree.absolute_from_symmetric(Normalisation::Plain, &unit(of), &mut links);
             links
         });
+        let columns = columns.collect();
         let relative = |&link: &usize| {
-            let mut row: [f64; N] = unit(link);
+            let mut row = unit(link);
             if let Some(parent) = parents.get(link).copied().flatten() {
                 row[parent] = -1.0;
             }
@@ -171,22 +143,23 @@ impl<const N: usize, const D: usize> MeasuredTree<N, D> {
 
     /// The column by which links follow from the first coordinate of the told sector, for a
     /// difference; none otherwise.
-    pub fn difference(&self) -> Option<[f64; N]> {
+    pub fn difference(&self) -> Option<&[f64]> {
         let sector = self.told.as_ref()?.sector;
-        (sector > 0).then(|| self.columns[self.names.drawn])
+        (sector > 0).then(|| self.columns[self.names.drawn].as_slice())
     }
 
-    fn in_links<T: Scalar>(&self, [coordinates, rates]: &[[T; N]; 2]) -> [[T; N]; 2] {
-        let mut links = [[T::from_f64(0.0); N]; 2];
-        for (own, links) in [coordinates, rates].into_iter().zip(&mut links) {
+    /// Angles and rates of links from those of coordinates.
+    fn in_links<T: Scalar>(&self, motion: &[Vec<T>; 2]) -> [Vec<T>; 2] {
+        motion.each_ref().map(|own| {
+            let mut links = vec![T::from_f64(0.0); own.len()];
             self.tree
-                .absolute_from_symmetric(Normalisation::Plain, own, links);
-        }
-        links
+                .absolute_from_symmetric(Normalisation::Plain, own, &mut links);
+            links
+        })
     }
 }
 
-fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N> {
+fn names_of(described: &Subject, told: Option<usize>) -> Names {
     let tree = &described.tree;
     let sectors = tree.sectors();
     let all: Vec<&str> = sectors
@@ -195,11 +168,11 @@ fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N
         .map(|own| own.name())
         .collect();
     let name = |of: usize| all.get(of).copied().unwrap_or_default();
-    let coordinates = std::array::from_fn(|of| name(of).to_owned());
-    let symbols = std::array::from_fn(|of| match name(of).strip_prefix("theta_") {
+    let links = tree.links();
+    let symbol = |of: usize| match name(of).strip_prefix("theta_") {
         Some(index) => format!("θ_{{{index}}}"),
         None => verbatim(name(of)),
-    });
+    };
     let counts: Vec<usize> = sectors.iter().map(|own| own.coordinates().len()).collect();
     let before = |sector: usize| counts.iter().take(sector).sum::<usize>();
     // The last of those in phase: means of leaves.
@@ -216,11 +189,11 @@ fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N
         parameters => format!("--set {}", parameters.join(", ")),
     });
     Names {
-        coordinates,
-        symbols,
+        coordinates: (0..links).map(|of| name(of).to_owned()).collect(),
+        symbols: (0..links).map(symbol).collect(),
         drawn: match sector {
             Some((told, _)) => before(told),
-            None => N.saturating_sub(1),
+            None => links.saturating_sub(1),
         },
         heard,
         energy_words: match sector {
@@ -239,49 +212,52 @@ fn names_of<const N: usize>(described: &Subject, told: Option<usize>) -> Names<N
 }
 
 /// A motion that begins to change.
-fn along<const N: usize>(motion: &Motion<N>, change: &Motion<N>) -> [[Dual<f64, 1>; N]; 2] {
-    let part = |part: usize| {
-        std::array::from_fn(|of| Dual {
-            value: motion[part][of],
-            tangents: [change[part][of]],
-        })
-    };
-    [part(0), part(1)]
+fn along(motion: &Motion, change: &Motion) -> [Vec<Dual<f64, 1>>; 2] {
+    [0, 1].map(|part| {
+        let both = motion[part].iter().zip(&change[part]);
+        let both = both.map(|(&value, &change)| Dual {
+            value,
+            tangents: [change],
+        });
+        both.collect()
+    })
 }
 
 /// Energy of a sector at coordinates and rates.
-fn sector_energy<T: Scalar, const N: usize>(
+fn sector_energy<T: Scalar>(
     tree: &SymmetricTree<T>,
     sector: usize,
-    [coordinates, rates]: &[[T; N]; 2],
+    [coordinates, rates]: &[Vec<T>; 2],
 ) -> T {
-    let mut energies = [[T::from_f64(0.0); 2]; N];
+    let mut energies = vec![[T::from_f64(0.0); 2]; tree.sectors().len()];
     let given = Given::Rates { coordinates, rates };
-    let count = tree.sectors().len().min(N);
-    let own = &mut energies[..count];
-    tree.energies(&mut Workspace::new(), given, own);
-    let [kinetic, potential] = energies[sector.min(N - 1)];
+    tree.energies(&mut Workspace::new(), given, &mut energies);
+    let [kinetic, potential] = energies[sector];
     kinetic + potential
 }
 
-impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
-    fn names(&self) -> &Names<N> {
+impl MeasuredTree {
+    /// Names of what is told.
+    pub fn names(&self) -> &Names {
         &self.names
     }
 
-    fn coordinates(&self, links: &[f64; N]) -> [f64; N] {
-        let mut coordinates = [0.0; N];
+    /// Coordinates that are smoothed, from angles of links or from rates.
+    pub fn coordinates(&self, links: &[f64]) -> Vec<f64> {
+        let mut coordinates = vec![0.0; links.len()];
         self.tree
             .symmetric_from_absolute(Normalisation::Plain, links, &mut coordinates);
         coordinates
     }
 
-    fn links(&self, coordinates: &[f64; N]) -> [f64; N] {
-        let [links, _] = self.in_links(&[*coordinates, [0.0; N]]);
+    /// Angles or rates of links from coordinates.
+    pub fn links(&self, coordinates: &[f64]) -> Vec<f64> {
+        let [links, _] = self.in_links(&[coordinates.to_vec(), Vec::new()]);
         links
     }
 
-    fn energy(&self, motion: &Motion<N>) -> f64 {
+    /// The energy that is told, J.
+    pub fn energy(&self, motion: &Motion) -> f64 {
         match &self.told {
             Some(told) => sector_energy(&told.tree, told.sector, motion),
             None => {
@@ -291,7 +267,8 @@ impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
         }
     }
 
-    fn energy_along(&self, motion: &Motion<N>, change: &Motion<N>) -> f64 {
+    /// Change of the energy by a change of the motion, to first order about it.
+    pub fn energy_along(&self, motion: &Motion, change: &Motion) -> f64 {
         let changing = along(motion, change);
         let energy = match &self.told {
             Some(told) => sector_energy(&told.dual, told.sector, &changing),
@@ -304,10 +281,12 @@ impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
         slope
     }
 
-    fn powers(&self, time: f64, motion: &Motion<N>, friction: &[f64]) -> Powers {
+    /// Returns the powers at a time (s), with friction in the pivots that is told beside the
+    /// tree's own: a coefficient (N m s) for each, or none.
+    pub fn powers(&self, time: f64, motion: &Motion, friction: &[f64]) -> Powers {
         let [theta, omega] = self.in_links(motion);
         // Torques of the friction that is told.
-        let mut torques = [0.0; N];
+        let mut torques = vec![0.0; theta.len()];
         let rows = self.pivots.iter().zip(friction);
         for (row, coefficient) in rows.flat_map(|(rows, c)| rows.iter().map(move |row| (row, c))) {
             let rate: f64 = row.iter().zip(&omega).map(|(part, rate)| part * rate).sum();
@@ -319,20 +298,17 @@ impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
             // All that acts is in the accelerations: the power is the derivative of the energy
             // along the motion, whatever the law of friction.
             let alpha = self.tree.accelerations(time, &theta, &omega);
-            let rates = [theta, omega].map(|part| self.coordinates(&part));
-            let mut accelerations = [0.0; N];
-            self.tree
-                .symmetric_from_absolute(Normalisation::Plain, &alpha, &mut accelerations);
-            let own = self.energy_along(motion, &[rates[1], accelerations]);
+            let change = [&omega, &alpha].map(|part| self.coordinates(part));
+            let own = self.energy_along(motion, &change);
             let lost: f64 = torques.iter().zip(&omega).map(|(q, rate)| q * rate).sum();
             let whole = own + lost;
             return Powers { told: whole, whole };
         };
         let [coordinates, rates] = motion;
         let given = Given::Rates { coordinates, rates };
-        let (mut workspace, count) = (Workspace::new(), tree.sectors().len().min(N));
-        let mut transfers = [Transfer::default(); N];
-        tree.exact_transfers(&mut workspace, given, &mut transfers[..count]);
+        let (mut workspace, count) = (Workspace::new(), tree.sectors().len());
+        let mut transfers = vec![Transfer::default(); count];
+        tree.exact_transfers(&mut workspace, given, &mut transfers);
         let told = transfers[*sector].total();
         let mut whole = told;
         let drive = self.tree.drive(time).map(NonConservative::Drive);
@@ -342,35 +318,25 @@ impl<const N: usize, const D: usize> MeasuredSubject<N> for MeasuredTree<N, D> {
             Some(NonConservative::Torques(&torques)),
         ];
         for acting in acting.into_iter().flatten() {
-            let mut powers = [0.0; N];
-            tree.powers(&mut workspace, acting, given, &mut powers[..count]);
+            let mut powers = vec![0.0; count];
+            tree.powers(&mut workspace, acting, given, &mut powers);
             whole += powers[*sector];
         }
         Powers { told, whole }
     }
 
-    /// Forces that the model lacks act on each coordinate: on copies together and against each
-    /// other.
-    fn by_model(
-        &self,
-        record: Record<'_, N>,
-        guess: &[Motion<N>],
-    ) -> Result<Smoothed<N>, SmoothingError> {
-        let smoother = ModelSmoother {
-            disturbances: self.columns.to_vec(),
-            frictions: self.pivots.clone(),
-            ..ModelSmoother::default()
+    /// Smooths by the equations of motion, beginning from a motion of the links. Forces that the
+    /// model lacks act on each coordinate: on copies together and against each other.
+    ///
+    /// # Errors
+    /// Those of [`SmoothingEquations::smooth`].
+    pub fn by_model(&self, record: Record<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
+        let equations = SmoothingEquations {
+            system: &linearised(AbsoluteAngles(&self.tree)),
+            mass_matrix: &|theta| self.tree.mass_matrix(theta),
+            disturbances: &self.columns,
+            frictions: &self.pivots,
         };
-        let mass = |theta: &[f64; N]| {
-            let mut matrix = [[0.0; N]; N];
-            for (own, row) in matrix.iter_mut().zip(self.tree.mass_matrix(theta)) {
-                for (own, entry) in own.iter_mut().zip(row) {
-                    *own = entry;
-                }
-            }
-            matrix
-        };
-        let system = linearised(AbsoluteAngles(&self.tree));
-        by_equations::<N, D, _>(&smoother, &system, mass, record, guess)
+        equations.smooth(record, guess)
     }
 }

@@ -31,7 +31,7 @@ pub struct Verdict {
 
 impl Verdict {
     /// Judges an estimate whose deviations are those of so many draws.
-    pub fn of<const N: usize>(times: &[f64], estimate: &Estimate<N>, draws: usize) -> Self {
+    pub fn of(times: &[f64], estimate: &Estimate, draws: usize) -> Self {
         let trust = Trust::of(estimate);
         let bands = &estimate.energies;
         let rows = bands.means.iter().zip(&bands.deviations);
@@ -68,12 +68,7 @@ impl Verdict {
     }
 
     /// The verdict in words, with what a search for causes found where the budget fails.
-    pub fn words<const N: usize>(
-        &self,
-        arguments: &Arguments,
-        names: &Names<N>,
-        search: Option<&Search>,
-    ) -> String {
+    pub fn words(&self, arguments: &Arguments, names: &Names, search: Option<&Search>) -> String {
         let energy = &names.energy;
         let (bars, allowed) = (self.bars, self.allowed);
         let Some(time) = self.fails_from else {

@@ -13,7 +13,7 @@ const PART: f64 = 0.15;
 /// Stretches of time (s) in which pictures may be wrong, in up to three ways. A stretch of them shows
 /// at its ends, where the motion leaps: each leap may be all that is wrong, or what lies between
 /// two of them, or between the first and the last.
-pub fn stretches<const N: usize>(measured: &Measured<'_, N>) -> Vec<Vec<[f64; 2]>> {
+pub fn stretches(measured: &Measured<'_>) -> Vec<Vec<[f64; 2]>> {
     let leaps = leaps(measured);
     let pairs = |leaps: &[[usize; 2]]| match leaps.as_chunks::<2>() {
         (pairs, []) => pairs.iter().map(|[a, b]| [a[0], b[1]]).collect(),
@@ -41,40 +41,45 @@ pub fn stretches<const N: usize>(measured: &Measured<'_, N>) -> Vec<Vec<[f64; 2]
 }
 
 /// First and last rows of the surroundings of leaps.
-fn leaps<const N: usize>(measured: &Measured<'_, N>) -> Vec<[usize; 2]> {
+fn leaps(measured: &Measured<'_>) -> Vec<[usize; 2]> {
     let times = measured.record.times;
     let rows = 0..times.len();
     let whole = rows.filter_map(|row| {
-        let links = measured.record.angles[row];
-        let is_whole = links.iter().all(Option::is_some);
-        let links = links.map(Option::unwrap_or_default);
-        is_whole.then(|| (row, measured.subject.coordinates(&links)))
+        let links: Option<Vec<f64>> = measured.record.angles[row].iter().copied().collect();
+        Some((row, measured.subject.coordinates(&links?)))
     });
-    let whole: Vec<(usize, [f64; N])> = whole.collect();
+    let whole: Vec<(usize, Vec<f64>)> = whole.collect();
     // Distances from the cubics through four neighbours.
     let distances = whole.windows(5).map(|window| {
-        let (row, mut distance) = window[2];
-        let neighbours = [0, 1, 3, 4].map(|index: usize| window[index]);
+        let (row, mut distance) = window[2].clone();
+        let neighbours = [0, 1, 3, 4].map(|index: usize| &window[index]);
         for (own, place) in neighbours {
-            let others = neighbours.iter().filter(|(other, _)| *other != own);
+            let others = neighbours.iter().filter(|(other, _)| other != own);
             let weight: f64 = others
-                .map(|&(other, _)| (times[row] - times[other]) / (times[own] - times[other]))
+                .map(|(other, _)| (times[row] - times[*other]) / (times[*own] - times[*other]))
                 .product();
             for (distance, place) in distance.iter_mut().zip(place) {
                 *distance -= weight * place;
             }
         }
-        (row, distance.map(f64::abs))
+        distance.iter_mut().for_each(|own| *own = own.abs());
+        (row, distance)
     });
-    let distances: Vec<(usize, [f64; N])> = distances.collect();
-    let usual: [f64; N] = std::array::from_fn(|of| {
+    let distances: Vec<(usize, Vec<f64>)> = distances.collect();
+    let links = distances.first().map_or(0, |(_, row)| row.len());
+    let usual = (0..links).map(|of| {
         let mut all: Vec<f64> = distances.iter().map(|(_, row)| row[of]).collect();
         all.sort_unstable_by(f64::total_cmp);
         all.get(all.len() / 2).copied().unwrap_or_default()
     });
+    let usual: Vec<f64> = usual.collect();
     let mut leaps: Vec<[usize; 2]> = Vec::new();
     for (row, distance) in distances {
-        if (0..N).all(|of| distance[of] <= FAR * usual[of]) {
+        if distance
+            .iter()
+            .zip(&usual)
+            .all(|(own, usual)| *own <= FAR * usual)
+        {
             continue;
         }
         let [first, last] = [

@@ -8,11 +8,12 @@ use serde_json::{Value, json};
 
 use super::arguments::Arguments;
 use super::source::Measurement;
-use super::study::{Energies, Found, MOST_LINKS, MeasuredEnergy, Mismatch, Outcome, best};
+use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
 use super::unknowns::{Parameter, Unknowns};
 use crate::Failure;
 use crate::constants::KnownConstants;
 use crate::frame::Job;
+use crate::smoothed::MOST_LINKS;
 
 /// The report.
 pub fn report(

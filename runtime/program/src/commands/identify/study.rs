@@ -6,7 +6,7 @@ use branched_pendulum::prelude::AbsoluteAngles;
 use branched_pendulum_measure::identification::{
     AngleErrors, Fit, Identification, IdentificationError, SearchFailure, Shooting, Unfound,
 };
-use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, bands};
+use branched_pendulum_measure::{KinematicSmoother, bands};
 use branched_pendulum_trees::TreeDescription;
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -16,7 +16,7 @@ use super::arguments::{Arguments, Law, Sign};
 use super::source::Measurement;
 use super::unknowns::{Knowledge, Unknowns};
 use crate::Failure;
-use crate::smoothed::{Motion, Record, Smoothed, by_equations, one_by_one};
+use crate::smoothed::{MOST_LINKS, Motion, Record, Smoothed, SmoothingEquations, one_by_one};
 
 /// Length of windows, s.
 pub const WINDOW: f64 = 1.0;
@@ -126,9 +126,6 @@ impl Energies {
     }
 }
 
-/// Most links of a tree whose measured energy is estimated.
-pub const MOST_LINKS: usize = 6;
-
 /// Draws from which deviations of the measured energy follow.
 const DRAWS: usize = 100;
 
@@ -215,40 +212,30 @@ impl<'a> Study<'a> {
     /// # Errors
     /// [`Failure::Identification`] or [`Failure::Smoothing`].
     pub fn energies(&self, law: Law, fit: &Fit) -> Result<Option<Energies>, Failure> {
-        let energies = match self.measurement.links.len() {
-            1 => self.energies_of::<1, 2>(law, fit),
-            2 => self.energies_of::<2, 4>(law, fit),
-            3 => self.energies_of::<3, 6>(law, fit),
-            4 => self.energies_of::<4, 8>(law, fit),
-            5 => self.energies_of::<5, 10>(law, fit),
-            6 => self.energies_of::<6, 12>(law, fit),
-            _ => return Ok(None),
-        };
-        energies.map(Some)
-    }
-
-    /// Energies of a tree of N links, D = 2N.
-    fn energies_of<const N: usize, const D: usize>(
-        &self,
-        law: Law,
-        fit: &Fit,
-    ) -> Result<Energies, Failure> {
+        let count = self.measurement.links.len();
+        if !(1..=MOST_LINKS).contains(&count) {
+            return Ok(None);
+        }
         let tree = self.unknowns.subject_as_given(fit.parameters())?.tree;
         let energy = |[theta, omega]: [&[f64]; 2]| {
             tree.kinetic_energy_of(theta, omega) + tree.potential_energy_of(theta)
         };
         let times = self.measurement.record.times();
-        let links: [_; N] = std::array::from_fn(|link| &self.measurement.links[link]);
-        let offsets = links.map(|link| fit.offset(link));
-        let measured = &self.measurement.angles;
-        let at = |time: usize| {
-            std::array::from_fn(|link| measured[link][time].map(|angle| angle - offsets[link]))
+        let links = self.measurement.links.iter();
+        let offsets: Vec<f64> = links.map(|link| fit.offset(link)).collect();
+        let measured = self.measurement.angles.iter();
+        let links: Vec<_> = measured.zip(&offsets).collect();
+        let at = |time: usize| -> Vec<Option<f64>> {
+            let links = links.iter();
+            links
+                .map(|(angles, offset)| angles[time].map(|angle| angle - *offset))
+                .collect()
         };
-        let angles: Vec<[Option<f64>; N]> = (0..times.len()).map(at).collect();
+        let angles: Vec<Vec<Option<f64>>> = (0..times.len()).map(at).collect();
         let angles = &angles;
         let record = Record { times, angles };
-        let energies = |found: &Smoothed<N>| {
-            let energies = |motion: &[Motion<N>]| -> Vec<[f64; 1]> {
+        let energies = |found: &Smoothed| {
+            let energies = |motion: &[Motion]| -> Vec<[f64; 1]> {
                 let parts = motion.iter().map(|[theta, omega]| [&theta[..], omega]);
                 parts.map(|parts| [energy(parts)]).collect()
             };
@@ -264,24 +251,25 @@ impl<'a> Study<'a> {
             KinematicSmoother::default().smooth(times, angles)
         })?;
         // What is lacking accelerates each link by itself, as if each had an inertia of one.
-        let mut unit = [[0.0; N]; N];
-        (0..N).for_each(|link| unit[link][link] = 1.0);
-        let system = linearised(AbsoluteAngles(&tree));
-        let smoother = ModelSmoother {
-            disturbances: unit.to_vec(),
-            ..ModelSmoother::default()
+        let mut unit = vec![vec![0.0; count]; count];
+        (0..count).for_each(|link| unit[link][link] = 1.0);
+        let equations = SmoothingEquations {
+            system: &linearised(AbsoluteAngles(&tree)),
+            mass_matrix: &|_| unit.clone(),
+            disturbances: &unit,
+            frictions: &[],
         };
-        let exact = by_equations::<N, D, _>(&smoother, &system, |_| unit, record, &smooth.mean)?;
+        let exact = equations.smooth(record, &smooth.mean)?;
         let fitted = self.identification(law).predict(fit, times)?;
-        Ok(Energies {
+        Ok(Some(Energies {
             times: times.to_vec(),
             by_smoothness: energies(&smooth),
             by_equations: energies(&exact),
             fitted: fitted
                 .iter()
-                .map(|state| energy(state.values.split_at(N).into()))
+                .map(|state| energy(state.values.split_at(count).into()))
                 .collect(),
-        })
+        }))
     }
 }
 

@@ -9,7 +9,7 @@ use branched_pendulum_data::{AngleUnit, FileKind, Table};
 use super::arguments::Arguments;
 use super::estimate::{Draws, Estimate, Measured};
 use super::source::Source;
-use super::subject::MeasuredSubject;
+use super::subject::MeasuredTree;
 use super::verdict::Verdict;
 use super::wrong_pictures;
 use crate::Failure;
@@ -57,22 +57,22 @@ pub struct Search {
 }
 
 /// A record whose budget does not close.
-pub struct Unclosed<'a, const N: usize> {
+pub struct Unclosed<'a> {
     /// The options by which it was read and estimated.
     pub arguments: &'a Arguments,
     /// The pendulum.
-    pub subject: &'a dyn MeasuredSubject<N>,
+    pub subject: &'a MeasuredTree,
     /// The table.
     pub table: &'a Table,
     /// The links whose angles it holds.
     pub hung: &'a MeasuredLinks,
     /// What was read of it.
-    pub source: &'a Source<N>,
+    pub source: &'a Source,
     /// The verdict.
     pub verdict: Verdict,
 }
 
-impl<const N: usize> Unclosed<'_, N> {
+impl Unclosed<'_> {
     /// Tries the usual causes.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl<const N: usize> Unclosed<'_, N> {
     }
 
     /// Reads the table in another way.
-    fn read(&self, reading: &MeasuredFile) -> Option<Source<N>> {
+    fn read(&self, reading: &MeasuredFile) -> Option<Source> {
         let arguments = Arguments {
             measured: reading.clone(),
             ..self.arguments.clone()
@@ -139,13 +139,13 @@ impl<const N: usize> Unclosed<'_, N> {
 
     /// Estimates the motion as the record's own was, with the number of draws; by smoothness alone,
     /// and few draws, where these show already that the budget does not close.
-    fn estimate(&self, source: &Source<N>) -> Option<(Estimate<N>, usize)> {
+    fn estimate(&self, source: &Source) -> Option<(Estimate, usize)> {
         let measured = Measured {
             subject: self.subject,
             record: source.record(),
         };
         let smooth = |draws| measured.by_smoothness(self.draws(draws)).ok();
-        let closes = |found: &Estimate<N>, draws| Verdict::of(&source.times, found, draws).closes();
+        let closes = |found: &Estimate, draws| Verdict::of(&source.times, found, draws).closes();
         let few = smooth(FEW)?;
         if !closes(&few, FEW) {
             return Some((few, FEW));
@@ -230,7 +230,7 @@ impl<const N: usize> Unclosed<'_, N> {
         let names = &self.source.links;
         // A list cannot name what has a comma in it.
         let is_listed = names.iter().all(|name| !name.contains(','));
-        for first in (1..N).filter(|_| is_listed) {
+        for first in (1..names.len()).filter(|_| is_listed) {
             let mut columns = names.clone();
             let name = columns.remove(first);
             columns.insert(0, name);

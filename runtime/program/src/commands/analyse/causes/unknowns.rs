@@ -6,9 +6,9 @@ use super::super::verdict::Verdict;
 use super::{Cause, FRICTION, Unclosed};
 use crate::measured_file::MeasuredFile;
 
-impl<const N: usize> Unclosed<'_, N> {
+impl Unclosed<'_> {
     /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.
-    pub(super) fn tilt(&self, measured: &Measured<'_, N>, smooth: &Estimate<N>) -> Option<Cause> {
+    pub(super) fn tilt(&self, measured: &Measured<'_>, smooth: &Estimate) -> Option<Cause> {
         let unknown = Unknown {
             largest: 0.8,
             step: 0.2,
@@ -59,11 +59,7 @@ impl<const N: usize> Unclosed<'_, N> {
 
     /// Friction in one of the pivots that is not among the constants, with the largest closure in its
     /// deviations.
-    pub(super) fn friction(
-        &self,
-        measured: &Measured<'_, N>,
-        smooth: &Estimate<N>,
-    ) -> Vec<(f64, Cause)> {
+    pub(super) fn friction(&self, measured: &Measured<'_>, smooth: &Estimate) -> Vec<(f64, Cause)> {
         let names = self.subject.names();
         let weights = least::weights(deviations(smooth));
         let pivots = names.pivots.iter().zip(&names.frictions).enumerate();
@@ -87,12 +83,12 @@ impl<const N: usize> Unclosed<'_, N> {
     }
 }
 
-fn deviations<const N: usize>(estimate: &Estimate<N>) -> impl Iterator<Item = f64> {
+fn deviations(estimate: &Estimate) -> impl Iterator<Item = f64> {
     let rows = estimate.energies.deviations.iter();
     rows.map(|row| row[quantity::CLOSURE])
 }
 
-fn closure<const N: usize>(estimate: &Estimate<N>) -> Vec<f64> {
+fn closure(estimate: &Estimate) -> Vec<f64> {
     let rows = estimate.energies.means.iter();
     rows.map(|row| row[quantity::CLOSURE]).collect()
 }

@@ -8,7 +8,6 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use super::super::subject::MeasuredSubject;
 use super::super::verdict::Verdict;
 use super::super::{Arguments, Source};
 use super::super::{judged, run};
@@ -29,13 +28,13 @@ fn camera(real: &str, angle_deg: f64, seed: u64) -> Record<3> {
          --difference 0.05 --duration 3 --rate 60 --seed {seed}"
     ))
     .unwrap();
-    let (real, _) = tree::<3, 6>(&arguments);
-    let source: Source<3> = Source::simulate::<6>(&arguments, &real).unwrap();
+    let (real, _) = tree(&arguments);
+    let source = Source::simulate(&arguments, &real).unwrap();
     Record {
         angles: source
             .angles
             .iter()
-            .map(|row| row.map(Option::unwrap))
+            .map(|row| std::array::from_fn(|link| row[link].unwrap()))
             .collect(),
         times: source.times,
     }
@@ -48,8 +47,8 @@ fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
         "--tree double-pendulum {real} --start {upper},{lower} --duration 2.49 --rate 100"
     ))
     .unwrap();
-    let (real, _) = tree::<2, 4>(&arguments);
-    let source: Source<2> = Source::simulate::<4>(&arguments, &real).unwrap();
+    let (real, _) = tree(&arguments);
+    let source = Source::simulate(&arguments, &real).unwrap();
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut noise = || {
         let normal: f64 = StandardNormal.sample(&mut random);
@@ -58,7 +57,7 @@ fn chain(real: &str, start: [f64; 2], seed: u64) -> Record<2> {
     let angles = source.truth.iter();
     Record {
         angles: angles
-            .map(|truth| truth.links.map(|angle| angle + noise()))
+            .map(|truth| std::array::from_fn(|link| truth.links[link] + noise()))
             .collect(),
         times: source.times,
     }
@@ -81,22 +80,12 @@ impl<const N: usize> Record<N> {
 fn judge(text: &str, options: &str) -> (Verdict, Vec<String>) {
     let table = Table::parse("swing.csv", text, &TableOptions::default()).unwrap();
     let arguments: Arguments = parse_line(&format!("swing.csv --draws 20 {options}")).unwrap();
-    match arguments.tree.tree.as_str() {
-        "double-pendulum" => judge_as(&arguments, &tree::<2, 4>(&arguments).1, &table),
-        _ => judge_as(&arguments, &tree::<3, 6>(&arguments).1, &table),
-    }
-}
-
-fn judge_as<const N: usize>(
-    arguments: &Arguments,
-    subject: &dyn MeasuredSubject<N>,
-    table: &Table,
-) -> (Verdict, Vec<String>) {
-    let hung = hung(arguments);
-    let source = Source::read(table, arguments, &hung).unwrap();
+    let (_, subject) = tree(&arguments);
+    let hung = hung(&arguments);
+    let source = Source::read(&table, &arguments, &hung).unwrap();
     let progress = Progress::default();
-    let table = Some((table, &hung));
-    let (_, verdict, search) = judged(arguments, subject, table, &source, &progress).unwrap();
+    let table = Some((&table, &hung));
+    let (_, verdict, search) = judged(&arguments, &subject, table, &source, &progress).unwrap();
     assert_eq!(verdict.closes(), search.is_none());
     let closing = search.unwrap_or_default().closing;
     (

@@ -11,7 +11,7 @@ use super::estimate::{Draws, Estimate, Measured, quantity};
 use super::report::{Trust, power_error};
 use super::source::Source;
 use super::spectrogram::Spectrogram;
-use super::subject::{MeasuredSubject, MeasuredTree};
+use super::subject::MeasuredTree;
 use crate::frame::command_line::parse_line;
 use crate::measured_file::MeasuredLinks;
 use crate::subject::Subject;
@@ -22,9 +22,7 @@ pub(super) fn paper(options: &str) -> Arguments {
 }
 
 /// The real tree of a camera, and the tree that is assumed.
-pub(super) fn tree<const N: usize, const D: usize>(
-    arguments: &Arguments,
-) -> (Subject, MeasuredTree<N, D>) {
+pub(super) fn tree(arguments: &Arguments) -> (Subject, MeasuredTree) {
     let described = arguments.tree.described().unwrap();
     let (assumed, _) = constants::assumed(&described).unwrap();
     let subject = MeasuredTree::new(&assumed, arguments.sector.as_deref()).unwrap();
@@ -51,9 +49,9 @@ enum Way {
 
 /// Looks with the simulated camera at an apparatus, and analyses it with the friction that is
 /// assumed.
-fn estimate(arguments: &Arguments, draws: Draws, ways: &[Way]) -> (Source<3>, Vec<Estimate<3>>) {
-    let (real, subject) = tree::<3, 6>(arguments);
-    let source = Source::simulate::<6>(arguments, &real).unwrap();
+fn estimate(arguments: &Arguments, draws: Draws, ways: &[Way]) -> (Source, Vec<Estimate>) {
+    let (real, subject) = tree(arguments);
+    let source = Source::simulate(arguments, &real).unwrap();
     let measured = Measured {
         subject: &subject,
         record: source.record(),
@@ -267,9 +265,9 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     );
     let line = format!("{file} --tree double-pendulum");
     let arguments: Arguments = parse_line(&line).unwrap();
-    let (_, chain) = tree::<2, 4>(&arguments);
+    let (_, chain) = tree(&arguments);
     let table = Table::read(file, &TableOptions::default()).unwrap();
-    let mut source: Source<2> = Source::read(&table, &arguments, &hung(&arguments)).unwrap();
+    let mut source = Source::read(&table, &arguments, &hung(&arguments)).unwrap();
     let count = source.times.partition_point(|time| *time < 16.0);
     source.times.truncate(count);
     source.angles.truncate(count);
@@ -293,7 +291,7 @@ fn a_measured_chain_is_read_and_its_energy_falls() {
     assert!(model.noise < 2e-4 && model.whiteness > 3.0);
     assert!(Trust::of(&model).closure > 3.0 * Trust::of(&model).closure_deviation);
     let paper = hung(&paper(""));
-    let refused = Source::<3>::read(&table, &arguments, &paper).unwrap_err();
+    let refused = Source::read(&table, &arguments, &paper).unwrap_err();
     assert!(
         refused
             .to_string()
@@ -308,7 +306,7 @@ fn friction_of_the_chain_by_all_laws() {
     let set = "coulomb_1=3e-4,coulomb_2=1e-4,quadratic_1=2e-5,quadratic_2=4e-5";
     let line = format!("--tree double-pendulum --set {set}");
     let arguments: Arguments = parse_line(&line).unwrap();
-    let (described, chain) = tree::<2, 4>(&arguments);
+    let (described, chain) = tree(&arguments);
     let of = |name: &str| described.tree.value(name).unwrap();
     let lost = |[viscous, coulomb, quadratic]: [f64; 3], rate: f64| {
         let size = rate.hypot(0.05);
@@ -324,7 +322,9 @@ fn friction_of_the_chain_by_all_laws() {
             - lost([of("viscous_2"), of("coulomb_2"), 0.0], lower - upper)
             - lost([0.0, 0.0, of("quadratic_1")], upper)
             - lost([0.0, 0.0, of("quadratic_2")], lower);
-        let found = chain.powers(0.0, &[angles, rates], &[]).whole;
+        let found = chain
+            .powers(0.0, &[angles, rates].map(Vec::from), &[])
+            .whole;
         assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
     }
 }
