@@ -137,6 +137,10 @@ fn error_bars_of_frequencies_hold_the_truth() {
         holds += f64::from(u8::from(error.abs() < 1.96)) / 500.0;
         squares += error * error / 500.0;
     }
+    println!(
+        "held by {holds:.3}, errors of {:.2} deviations",
+        squares.sqrt()
+    );
     assert!((0.92..0.98).contains(&holds), "{holds}");
     assert!((0.81..1.19).contains(&squares), "{squares}");
 }
@@ -199,6 +203,7 @@ fn error_bars_of_both_hold_the_truth() {
     }
     for (holds, squares) in holds.into_iter().zip(squares) {
         let (holds, size) = (holds / count, f64::sqrt(squares / count));
+        println!("held by {holds:.3}, errors of {size:.2} deviations");
         assert!(holds >= 0.88, "{holds}");
         assert!((0.8..1.25).contains(&size), "{size}");
     }
