@@ -1,8 +1,8 @@
 //! Parameters of a tree from its measured motion and frequencies: `Tree.identify`.
 
 use branched_pendulum_measure::identification::{
-    AngleErrors, AngleRecord, Fit, FittedFrequency, Frequency, Identification,
-    IdentificationError, SearchFailure, Shooting, Standing, Unfound,
+    AngleErrors, AngleRecord, Fit, FittedFrequency, Frequency, Identification, IdentificationError,
+    SearchFailure, Shooting, Standing, Unfound,
 };
 use branched_pendulum_trees::{ParameterUse, TreeDescription};
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
@@ -185,7 +185,9 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Measured {
             PyTypeError::new_err(format!(
                 "{} is no frequency with its standard error (Hz): must be (hertz, deviation), or \
                  (hertz, deviation, mode) with the number of its mode, 1 for the slowest",
-                object.repr().map_or_else(|_| "it".to_owned(), |text| text.to_string())
+                object
+                    .repr()
+                    .map_or_else(|_| "it".to_owned(), |text| text.to_string())
             ))
         };
         let numbers: Vec<f64> = object.extract().map_err(|_| wrong())?;
@@ -227,10 +229,12 @@ impl Tree {
             bytes(&[times.len(), columns], NUMBERS_OF_A_DATUM),
         )?;
         let links = names.iter().enumerate();
-        Ok(links.fold(AngleRecord::new(&times), |record, (link, name)| {
-            let column: Vec<Option<f64>> = angles.iter().map(|row| row[link]).collect();
-            record.with_link(name, &column, 1.0)
-        }))
+        Ok(
+            links.fold(AngleRecord::new(&times), |record, (link, name)| {
+                let column: Vec<Option<f64>> = angles.iter().map(|row| row[link]).collect();
+                record.with_link(name, &column, 1.0)
+            }),
+        )
     }
 
     fn task(

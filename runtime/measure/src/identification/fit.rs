@@ -137,7 +137,7 @@ impl Fit {
         &self.values
     }
 
-    /// Root mean square of angles less data in the last stage, rad.
+    /// Root mean square of angles less data in the last stage, rad; NaN of frequencies alone.
     #[must_use]
     pub fn rms(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.rms)

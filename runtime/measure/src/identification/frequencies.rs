@@ -10,7 +10,7 @@ use branched_pendulum::system::Ode;
 /// A measured frequency of a small motion about rest.
 ///
 /// Modes are those without friction: what is viscous lowers a frequency by the share ζ²/2, with ζ
-/// the damping ratio, and dry friction does not.
+/// the damping ratio, and dry friction does not. A drive acts as at time 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frequency {
     /// The frequency, Hz.

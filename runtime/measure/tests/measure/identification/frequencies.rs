@@ -182,11 +182,12 @@ fn a_record_and_frequencies_weigh_by_their_errors() {
     }
 }
 
-#[test]
-fn error_bars_of_both_hold_the_truth() {
+/// How many error bars of 95 % hold the truth beside frequencies, and how large errors are in
+/// deviations (rms): of naive ones, of those by blocks.
+fn coverage(runs: u64) -> [[f64; 2]; 2] {
     let unknown = ["joint_1", "inertia_1", "inertia_2"];
     let (mut holds, mut squares, mut count) = ([0.0; 2], [0.0; 2], 0.0);
-    for seed in 1..=40 {
+    for seed in 1..=runs {
         let record = simulated([0.3, -0.2], 6.0, 25.0, 0.01, seed);
         let task = with_frequencies(task(&unknown, 1.05), &mut Uniform(3 * seed + 1));
         let fit = task.fit(&record).unwrap();
@@ -201,12 +202,27 @@ fn error_bars_of_both_hold_the_truth() {
             count += 1.0;
         }
     }
-    for (holds, squares) in holds.into_iter().zip(squares) {
-        let (holds, size) = (holds / count, f64::sqrt(squares / count));
-        println!("held by {holds:.3}, errors of {size:.2} deviations");
-        assert!(holds >= 0.88, "{holds}");
+    let found = [0, 1].map(|kind: usize| [holds[kind] / count, f64::sqrt(squares[kind] / count)]);
+    println!("naive {:.3?}, by blocks {:.3?}", found[0], found[1]);
+    found
+}
+
+#[test]
+fn error_bars_of_both_hold_the_truth() {
+    // 90 intervals of independent and dependent parameters: three deviations.
+    for [holds, size] in coverage(30) {
+        assert!(holds >= 0.86, "{holds}");
         assert!((0.8..1.25).contains(&size), "{size}");
     }
+}
+
+/// A minute: `cargo test --release -p branched-pendulum-measure --test measure -- --ignored --nocapture two_hundred`.
+#[test]
+#[ignore = "a minute"]
+fn error_bars_of_both_hold_the_truth_in_two_hundred_runs() {
+    let [naive, by_blocks] = coverage(200);
+    assert!((0.93..=0.97).contains(&naive[0]), "{naive:?}");
+    assert!((0.92..=0.97).contains(&by_blocks[0]), "{by_blocks:?}");
 }
 
 #[test]
