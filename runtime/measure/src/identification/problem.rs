@@ -139,7 +139,9 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Finds the unknowns from frequencies alone.
+    /// Finds the unknowns from frequencies alone, which are as many as unknowns at least. Error bars
+    /// follow from their standard errors. Of starts far from the one that is given the fit tells
+    /// those that lead to other values ([`Fit::alternatives`]).
     ///
     /// # Errors
     ///
