@@ -223,6 +223,9 @@ EXPRESSIONS = [
      f"{M}/identification/covariance.rs",
      "variance * row.norm_squared()", "row.norm_squared()", MEASURE,
      "identification::deviations::bars_hold_the_truth"),
+    ("frequencies that weigh by no errors of angles", f"{M}/identification/frequencies.rs",
+     "beside * own.residual()", "own.residual()", MEASURE,
+     "identification::frequencies::a_record_and_frequencies_weigh_by_their_errors"),
 ]
 
 CONSTANTS = [

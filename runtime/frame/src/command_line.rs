@@ -41,13 +41,19 @@ pub trait Arguments: Parser {
 }
 
 /// Options, by their names, of a program whose record is measured where a [`FILE`] is given, and
-/// simulated without one: each list means nothing to the record of the other kind.
+/// simulated without one: each list means nothing to the record of the other kind. An option may
+/// stand in place of a record.
 #[derive(Clone, Debug, Default)]
 pub struct RecordOptions {
     /// Options of a file of measurements.
     pub measured: Vec<&'static str>,
     /// Options of a simulated record.
     pub simulated: Vec<&'static str>,
+    /// The option that stands in place of a record where it is given without a file: then none is
+    /// simulated.
+    pub instead: Option<&'static str>,
+    /// Options of a record of either kind, which mean nothing without one.
+    pub of_both: Vec<&'static str>,
 }
 
 /// Name of the argument that is a file of measurements.
@@ -64,6 +70,17 @@ impl RecordOptions {
             Some(given.get_long().unwrap_or(given.get_id().as_str()))
         };
         let is_measured = matches!(matches.try_contains_id(FILE), Ok(true));
+        let instead = self.instead.filter(|_| !is_measured);
+        let instead = instead.filter(|own| is_given(matches, &Id::from(*own)));
+        if let Some(instead) = instead {
+            let of_records = [&self.simulated[..], &self.of_both].concat();
+            if let Some(option) = given(&of_records) {
+                return Err(format!(
+                    "--{option} is of a record of the motion, and --{instead} stands in place of \
+                     one: name the file of a record, or leave out --{option}"
+                ));
+            }
+        }
         match is_measured {
             true => given(&self.simulated).map(|option| {
                 format!(

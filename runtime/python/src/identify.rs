@@ -1,11 +1,11 @@
-//! Parameters of a tree from its measured motion: `Tree.identify`.
+//! Parameters of a tree from its measured motion and frequencies: `Tree.identify`.
 
 use branched_pendulum_measure::identification::{
-    AngleErrors, AngleRecord, Fit, Identification, IdentificationError, SearchFailure, Shooting,
-    Standing, Unfound,
+    AngleErrors, AngleRecord, Fit, FittedFrequency, Frequency, Identification, IdentificationError,
+    SearchFailure, Shooting, Standing, Unfound,
 };
 use branched_pendulum_trees::{ParameterUse, TreeDescription};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -40,8 +40,16 @@ struct Found {
 }
 
 impl Search {
-    /// Fits windows, then one motion that goes on from them.
+    /// Fits windows, then one motion that goes on from them; without a motion frequencies alone.
     fn find(&self) -> Result<Found, IdentificationError> {
+        if self.record.times().is_empty() {
+            return match self.task.fit_to_frequencies() {
+                Err(IdentificationError::NotFound(unfound)) => {
+                    self.found(unfound.best.clone(), Some(&unfound))
+                }
+                fit => self.found(fit?, None),
+            };
+        }
         let fitted = self.record.between(f64::NEG_INFINITY, self.until);
         let short = self.task.clone().with_shooting(Shooting {
             first: self.window,
@@ -117,6 +125,18 @@ impl Found {
         for stage in &self.fit.stages {
             stages.append((stage.segments, stage.length, stage.rms))?;
         }
+        let frequencies = PyList::empty(py);
+        for own in &self.fit.frequencies {
+            frequencies.append(fitted(py, own)?)?;
+        }
+        let alternatives = PyList::empty(py);
+        for values in &self.fit.alternatives {
+            let other = PyDict::new(py);
+            for (own, value) in self.fit.estimates.iter().zip(values) {
+                other.set_item(&own.name, value)?;
+            }
+            alternatives.append(other)?;
+        }
         let rms = |from: f64, until: f64| self.errors.rms_between(from, until);
         let rows = self.errors.rows.iter().flatten();
         let residuals = rows.map(|error| error.unwrap_or(f64::NAN)).collect();
@@ -131,6 +151,8 @@ impl Found {
             ("rms_predicted", number(rms(until, f64::INFINITY))?),
             ("residuals", array(py, residuals, &shape)?),
             ("stages", stages.into_any()),
+            ("frequencies", frequencies.into_any()),
+            ("alternatives", alternatives.into_any()),
             ("convergence", words.into_pyobject(py)?.into_any()),
             (
                 "failure",
@@ -138,6 +160,49 @@ impl Found {
             ),
         ];
         result(py, "Identification", &fields)
+    }
+}
+
+fn fitted<'py>(py: Python<'py>, own: &FittedFrequency) -> PyResult<Bound<'py, PyAny>> {
+    let number = |value: f64| value.into_pyobject(py).map(Bound::into_any);
+    let fields = [
+        ("mode", own.mode.into_pyobject(py)?.into_any()),
+        ("hertz", number(own.hertz)?),
+        ("deviation", number(own.deviation)?),
+        ("fitted", number(own.fitted)?),
+    ];
+    result(py, "FittedFrequency", &fields)
+}
+
+/// A measured frequency: its value and its standard error, with the number of its mode or without.
+pub(crate) struct Measured(Frequency);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Measured {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let wrong = || {
+            PyTypeError::new_err(format!(
+                "{} is no frequency with its standard error (Hz): must be (hertz, deviation), or \
+                 (hertz, deviation, mode) with the number of its mode, 1 for the slowest",
+                object
+                    .repr()
+                    .map_or_else(|_| "it".to_owned(), |text| text.to_string())
+            ))
+        };
+        let numbers: Vec<f64> = object.extract().map_err(|_| wrong())?;
+        let (hertz, deviation, mode) = match *numbers {
+            [hertz, deviation] => (hertz, deviation, None),
+            [hertz, deviation, mode] if mode >= 0.0 && mode.fract() == 0.0 => {
+                (hertz, deviation, Some(mode as usize))
+            }
+            _ => return Err(wrong()),
+        };
+        Ok(Self(Frequency {
+            hertz,
+            deviation,
+            mode,
+        }))
     }
 }
 
@@ -149,6 +214,29 @@ pub(crate) enum GuessesOrNames {
 }
 
 impl Tree {
+    /// Angles of all links against time.
+    fn record(&self, t: &Numbers<'_>, theta: &Numbers<'_>) -> PyResult<AngleRecord> {
+        let (times, angles) = (t.list("t")?, rows("theta", theta, t.shape())?);
+        let names = self.tree().names();
+        let columns = angles.first().map_or(0, Vec::len);
+        if columns != names.len() {
+            let links = names.len();
+            let text = format!("theta has {columns} columns, must have {links}, one for each link");
+            return Err(PyValueError::new_err(text));
+        }
+        need(
+            "the fit",
+            bytes(&[times.len(), columns], NUMBERS_OF_A_DATUM),
+        )?;
+        let links = names.iter().enumerate();
+        Ok(
+            links.fold(AngleRecord::new(&times), |record, (link, name)| {
+                let column: Vec<Option<f64>> = angles.iter().map(|row| row[link]).collect();
+                record.with_link(name, &column, 1.0)
+            }),
+        )
+    }
+
     fn task(
         &self,
         unknown: GuessesOrNames,
@@ -199,21 +287,27 @@ fn refused(error: IdentificationError) -> PyErr {
 
 #[pymethods]
 impl Tree {
-    /// Finds parameters of the tree from its measured motion.
+    /// Finds parameters of the tree from its measured motion, from frequencies of small motions,
+    /// or from both.
     ///
     /// Windows are fitted first, then one motion that goes on from them; where that is lost, as
-    /// chaotic ones are, the windows count.
+    /// chaotic ones are, the windows count. Frequencies weigh by their standard errors, and angles
+    /// beside them by what is left over of them.
     ///
     /// Parameters
     /// ----------
     /// t : array, shape (m,)
-    ///     Times (s), ascending.
+    ///     Times (s), ascending. Without them frequencies alone are fitted.
     /// theta : array, shape (m, n)
     ///     Angles (rad from the downward vertical, without jumps), a column for each link; NaN
     ///     where they are missing.
     /// unknown : list of str, or dict of guesses
     ///     Parameters that are looked for, from within some 30 % of their guesses or of the values
     ///     that the tree has; friction from 0. All others have the values of the tree.
+    /// frequencies : list of (hertz, deviation) or (hertz, deviation, mode)
+    ///     Measured frequencies of small motions without friction, their standard errors (Hz) and
+    ///     the numbers of their modes: 1 is the slowest of those that oscillate. Without numbers
+    ///     they are as many as these modes, in any order.
     /// until : float
     ///     Time (s) before which the motion is fitted; what follows is predicted. By default all.
     /// offsets : bool
@@ -237,39 +331,57 @@ impl Tree {
     /// >>> found = tree.changed(l=0.45, c=0).identify(t, seen, ["l", "c"])
     /// >>> bool(abs(found.values["l"] - 0.5) < 1e-3), bool(abs(found.values["c"] - 1e-3) < 1e-4)
     /// (True, True)
-    #[pyo3(signature = (t, theta, unknown, *, until = None, offsets = true, nonnegative = Vec::new(), window = 1.0))]
+    ///
+    /// The moments of inertia of the paper's apparatus from its three frequencies:
+    ///
+    /// >>> text = bp.examples.PAPER.replace("1.88e-3", "i1").replace("0.516e-3", "i2")
+    /// >>> tree = bp.Tree(text, i1=1e-3, i2=1e-3, friction=0)
+    /// >>> measured = [(0.88, 0.005), (1.26, 0.005), (1.58, 0.005)]
+    /// >>> found = tree.identify(unknown=["i1", "i2"], frequencies=measured)
+    /// >>> i1, i2 = found.estimates["i1"], found.estimates["i2"]
+    /// >>> f"({1e3 * i1.value:.2f} ± {1e3 * i1.deviation:.2f})e-3 kg m²"
+    /// '(1.79 ± 0.23)e-3 kg m²'
+    /// >>> f"({1e3 * i2.value:.3f} ± {1e3 * i2.deviation:.3f})e-3 kg m²"
+    /// '(0.518 ± 0.005)e-3 kg m²'
+    #[pyo3(signature = (t = None, theta = None, unknown = None, *, frequencies = Vec::new(), until = None, offsets = true, nonnegative = Vec::new(), window = 1.0))]
     #[allow(clippy::too_many_arguments)]
     fn identify<'py>(
         &self,
         py: Python<'py>,
-        t: Numbers<'py>,
-        theta: Numbers<'py>,
-        unknown: GuessesOrNames,
+        t: Option<Numbers<'py>>,
+        theta: Option<Numbers<'py>>,
+        unknown: Option<GuessesOrNames>,
+        frequencies: Vec<Measured>,
         until: Option<f64>,
         offsets: bool,
         nonnegative: Vec<String>,
         window: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (times, angles) = (t.list("t")?, rows("theta", &theta, t.shape())?);
-        let names = self.tree().names();
-        let columns = angles.first().map_or(0, Vec::len);
-        if columns != names.len() {
-            let links = names.len();
-            let text = format!("theta has {columns} columns, must have {links}, one for each link");
-            return Err(PyValueError::new_err(text));
-        }
-        need(
-            "the fit",
-            bytes(&[times.len(), columns], NUMBERS_OF_A_DATUM),
-        )?;
+        let unknown = unknown.ok_or_else(|| {
+            PyTypeError::new_err("unknown is missing: name the parameters that are looked for")
+        })?;
+        let record = match (t, theta) {
+            (Some(t), Some(theta)) => self.record(&t, &theta)?,
+            (None, None) if frequencies.is_empty() => {
+                let text = "neither a motion nor frequencies: give t and theta, or frequencies";
+                return Err(PyValueError::new_err(text));
+            }
+            (None, None) if until.is_some() => {
+                let text = "until is of a motion, and none is given: give t and theta, or no until";
+                return Err(PyValueError::new_err(text));
+            }
+            (None, None) => AngleRecord::default(),
+            _ => {
+                let text = "t and theta are one motion: give both or none of them";
+                return Err(PyValueError::new_err(text));
+            }
+        };
         let mut task = self.task(unknown, &nonnegative)?;
         if offsets {
             task = task.with_offsets();
         }
-        let mut record = AngleRecord::new(&times);
-        for (link, name) in names.iter().enumerate() {
-            let column: Vec<Option<f64>> = angles.iter().map(|row| row[link]).collect();
-            record = record.with_link(name, &column, 1.0);
+        for Measured(frequency) in frequencies {
+            task = task.with_frequency(frequency);
         }
         let until = until.unwrap_or(f64::INFINITY);
         let search = Search {

@@ -172,3 +172,57 @@ def test_parameters_from_a_motion():
         tree.identify(t, seen, ["q"])
     with pytest.raises(ValueError, match="theta has 1 columns, must have 2"):
         tree.identify(t, seen[:, :1], ["a"])
+
+
+def test_parameters_from_frequencies():
+    text = bp.examples.PAPER.replace("1.88e-3", "i1").replace("0.516e-3", "i2")
+    truth = {"i1": 1.88e-3, "i2": 0.516e-3}
+    tree = bp.Tree(text, friction=0, **truth)
+    hertz = tree.modes()[0]
+    begun = tree.changed(i1=1.5e-3, i2=0.4e-3)
+    numbered = [(hertz[2], 2e-3, 3), [hertz[0], 1e-3, 1], np.array([hertz[1], 2e-3, 2])]
+    found = begun.identify(unknown=["i1", "i2"], frequencies=numbered)
+    # The errors of the data, through the slopes of the frequencies by differences.
+    slopes = np.empty((3, 2))
+    for column, (name, value) in enumerate(truth.items()):
+        above, below = [tree.changed(**{name: value * side}).modes()[0] for side in (1 + 1e-5, 1 - 1e-5)]
+        slopes[:, column] = (above - below) / (2e-5 * value)
+    weighed = slopes / np.array([[1e-3], [2e-3], [2e-3]])
+    deviations = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
+    for (name, value), deviation in zip(truth.items(), deviations, strict=True):
+        own = found.estimates[name]
+        assert own.value == pytest.approx(value, rel=1e-6) and own.standing == "determined"
+        assert own.deviation == pytest.approx(deviation, rel=1e-4)
+    assert [own.mode for own in found.frequencies] == [3, 1, 2]
+    assert found.frequencies[0].fitted == pytest.approx(hertz[2], abs=1e-8)
+    assert found.failure is None and found.alternatives == [] and found.residuals.size == 0
+    assert "mode 3: 1.58256 ± 2.0e-03 Hz" in str(found) and "mrad" not in str(found)
+    assert repr(found) == "Identification of i1, i2: by frequencies alone"
+    # Beside a motion.
+    t = np.arange(0, 3, 0.02)
+    seen = tree.integrate([0.3, -0.2, 0.1, 0, 0, 0], t, rtol=1e-11).y[:, :3]
+    seen = seen + np.random.default_rng(3).normal(0, 2e-2, seen.shape)
+    alone, both = [begun.identify(t, seen, ["i1", "i2"], frequencies=own) for own in ([], numbered)]
+    for name, value in truth.items():
+        own = both.estimates[name]
+        assert own.deviation < alone.estimates[name].deviation
+        assert own.deviation < 1.1 * found.estimates[name].deviation
+        assert abs(own.value - value) < 4 * own.deviation
+    assert "mrad" in str(both) and len(both.frequencies) == 3
+    unknown = ["i1", "i2"]
+    for error, message, given in [
+        (ValueError, "neither a motion nor frequencies", {}),
+        (ValueError, "t and theta are one motion", {"t": t, "frequencies": numbered}),
+        (ValueError, "until is of a motion", {"until": 1.0, "frequencies": numbered}),
+        (ValueError, "1 data for 2 unknown numbers", {"frequencies": numbered[:1]}),
+        (ValueError, "mode 4, but 3 modes oscillate", {"frequencies": [(1, 0.1, 4), (1, 0.1, 1)]}),
+        (ValueError, "2 frequencies without the numbers", {"frequencies": [(1, 0.1), (2, 0.1)]}),
+        (ValueError, "both have to be positive", {"frequencies": [(-1, 0.1, 1), (1, 0.1, 2)]}),
+        (ValueError, "both have to be positive", {"frequencies": [(1, 0, 1), (1, 0.1, 2)]}),
+        (TypeError, r"must be \(hertz, deviation\)", {"frequencies": [0.88, 1.26]}),
+        (TypeError, r"must be \(hertz, deviation\)", {"frequencies": [(0.88, 0.1, 1.5)]}),
+    ]:
+        with pytest.raises(error, match=message):
+            tree.identify(unknown=unknown, **given)
+    with pytest.raises(TypeError, match="unknown is missing"):
+        tree.identify(t, seen)

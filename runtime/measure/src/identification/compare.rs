@@ -82,6 +82,8 @@ impl<F: Family> Identification<F> {
         positive("length of windows", length)?;
         let (mut task, _) = self.task(record)?;
         task.values.clone_from(&fit.values);
+        // They have no part in a motion whose parameters are found.
+        task.frequencies.clear();
         let of_link = |link: &MeasuredLink| fit.offset(&link.name);
         let mut globals: Vec<f64> = task
             .unknown
@@ -113,6 +115,7 @@ impl<F: Family> Identification<F> {
                 globals: globals.clone(),
                 free: Vec::new(),
                 junction: Vec::new(),
+                spread: 1.0,
                 damping: DAMPING,
             };
             let (residuals, _) = stage.solve(&task, FULL).ok_or_else(|| no_motion(record))?;

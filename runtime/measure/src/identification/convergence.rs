@@ -19,7 +19,7 @@ const GROWTH: f64 = 6.0;
 /// Distance from the minimum, in deviations, at which a search is at its end.
 const SETTLED: f64 = 0.5;
 /// Residual, of the motion, that integration leaves.
-const ROUNDING: f64 = 1e-7;
+pub(super) const ROUNDING: f64 = 1e-7;
 
 /// How a search has ended.
 #[derive(Clone, Copy, Debug, PartialEq)]

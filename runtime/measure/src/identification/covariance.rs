@@ -14,10 +14,14 @@ struct TimeBlock {
     pull: DVector<f64>,
 }
 
-/// Normal equations of the globals by blocks of time.
+/// Normal equations of the globals by blocks of time, beside those of data whose errors are known.
 pub(super) struct TimeBlocks {
     blocks: Vec<TimeBlock>,
     columns: usize,
+    /// Rows of frequencies.
+    frequencies: DMatrix<f64>,
+    /// Deviation of their residuals.
+    spread: f64,
 }
 
 impl TimeBlocks {
@@ -38,6 +42,8 @@ impl TimeBlocks {
         let mut all = Self {
             blocks: Vec::new(),
             columns,
+            frequencies: linear.prior.columns(0, columns).into_owned(),
+            spread: stage.spread,
         };
         for (index, samples) in stage.segments.iter().enumerate() {
             let (segment, response) = (&linear.segments[index], responses.get(index)?);
@@ -52,15 +58,6 @@ impl TimeBlocks {
                 }
                 row += rows;
             }
-        }
-        // A frequency is a measurement of its own.
-        let own = all.blocks.len();
-        for (index, row) in linear.prior.row_iter().enumerate() {
-            all.add(
-                own + index,
-                &row.columns(0, columns).transpose(),
-                row[columns],
-            );
         }
         all.blocks.retain(|block| block.information.trace() > 0.0);
         Some(all)
@@ -85,7 +82,8 @@ impl TimeBlocks {
 
     /// Variances of combinations of the globals that are not held, a row each: the jackknife
     /// over blocks, one step of Gauss and Newton for each that is left out (a sandwich whose
-    /// middle allows for what a block itself has drawn the estimate to).
+    /// middle allows for what a block itself has drawn the estimate to), and what the standard
+    /// errors of frequencies add to it.
     pub(super) fn variances(
         &self,
         free: &[usize],
@@ -96,19 +94,22 @@ impl TimeBlocks {
             return None;
         }
         let part = |matrix: &DMatrix<f64>| matrix.select_rows(free).select_columns(free);
-        let zero = DMatrix::zeros(self.columns, self.columns);
+        let of_frequencies = self.frequencies.tr_mul(&self.frequencies);
         let total = self
             .blocks
             .iter()
-            .fold(zero, |sum, block| sum + &block.information);
+            .fold(of_frequencies, |sum, block| sum + &block.information);
         let mut changes = Vec::with_capacity(count);
         for block in &self.blocks {
             let rest = part(&(&total - &block.information)).cholesky()?;
             changes.push(combinations * rest.solve(&block.pull.select_rows(free)));
         }
+        let responses = part(&total).cholesky()?.solve(&combinations.transpose());
+        let by_frequencies = self.spread * self.frequencies.select_columns(free) * responses;
         let variance = |row: usize| {
             let change = |block: Option<usize>| block.map_or(0.0, |block| changes[block][row]);
-            Some(jackknife(count, change).ok()?.error.powi(2))
+            let by_blocks = jackknife(count, change).ok()?.error.powi(2);
+            Some(by_blocks + by_frequencies.column(row).norm_squared())
         };
         (0..combinations.nrows()).map(variance).collect()
     }

@@ -75,13 +75,31 @@ pub enum IdentificationError {
         /// Number of data that are needed, at least.
         needed: usize,
     },
+    /// A frequency, or the standard error of one, that is not positive and finite.
+    Frequency {
+        /// The frequency, Hz.
+        hertz: f64,
+        /// Standard error of the frequency, Hz.
+        deviation: f64,
+    },
     /// A frequency of a mode that the model does not have.
     Mode {
-        /// Index of the mode.
+        /// Number of the mode.
         mode: usize,
         /// Number of modes that oscillate.
         modes: usize,
     },
+    /// Frequencies without the numbers of their modes, which are not one for each mode.
+    Unnumbered {
+        /// Number of frequencies without a number.
+        unnumbered: usize,
+        /// Number of all frequencies.
+        frequencies: usize,
+        /// Number of modes that oscillate.
+        modes: usize,
+    },
+    /// No place at which the tree rests was found from hanging on.
+    NoRest,
     /// Velocities at the start could not be estimated from the angles of a link.
     Velocities {
         /// Name of the link.
@@ -138,15 +156,40 @@ impl fmt::Display for IdentificationError {
             ),
             Self::TooFew { found, needed } => write!(
                 f,
-                "{found} data for {needed} unknown numbers or more; shorten nothing, or leave \
-                 fewer unknown"
+                "{found} data for {needed} unknown numbers or more: give more data, or leave fewer \
+                 unknown"
             ),
-            Self::Mode { mode, modes } => {
-                write!(
-                    f,
-                    "frequency of mode {mode}, but {modes} modes oscillate at rest"
-                )
-            }
+            Self::Frequency { hertz, deviation } => write!(
+                f,
+                "a frequency of {hertz} Hz with the standard error {deviation} Hz: both have to be \
+                 positive and finite"
+            ),
+            Self::Mode { mode, modes } => write!(
+                f,
+                "a frequency of mode {mode}, but {modes} modes oscillate about rest: they have the \
+                 numbers from 1 on, in ascending order"
+            ),
+            Self::Unnumbered {
+                unnumbered,
+                frequencies,
+                modes,
+            } if unnumbered < frequencies => write!(
+                f,
+                "{unnumbered} of {frequencies} frequencies have no number of a mode, of {modes} that \
+                 oscillate: give the numbers of all modes or of none"
+            ),
+            Self::Unnumbered {
+                frequencies, modes, ..
+            } => write!(
+                f,
+                "{frequencies} frequencies without the numbers of their modes, where {modes} modes \
+                 oscillate about rest: give the number of each one's mode"
+            ),
+            Self::NoRest => write!(
+                f,
+                "no place at which the tree rests was found from hanging on, and frequencies are \
+                 those of small motions about it: start from other parameters"
+            ),
             Self::Velocities { link, error: _ } => {
                 write!(f, "the velocity of `{link}` could not be estimated")
             }

@@ -3,6 +3,7 @@
 use super::convergence::Convergence;
 use super::error::IdentificationError;
 use super::family::ImpossibleValue;
+use super::frequencies::FittedFrequency;
 use super::identifiability::Identifiability;
 use branched_pendulum::system::State;
 
@@ -18,6 +19,11 @@ pub struct Fit {
     pub convergence: Convergence,
     /// Combinations of them that the data determine, and changes that they leave open.
     pub identifiability: Identifiability,
+    /// The frequencies that were measured, beside those of the model.
+    pub frequencies: Vec<FittedFrequency>,
+    /// Unknowns with other values by which frequencies alone are met as well, if some were found:
+    /// parameters in the order of [`estimates`](Self::estimates).
+    pub alternatives: Vec<Vec<f64>>,
     /// The states at the starts of the last stage's segments.
     pub starts: Vec<State<f64>>,
     /// The last time of the record that was fitted, s.
@@ -44,12 +50,13 @@ pub struct ParameterEstimate {
     pub value: f64,
     /// What the value stands on.
     pub standing: Standing,
-    /// Standard deviation, as if errors of the data were independent of each other. None
+    /// Standard deviation, as if errors of the angles were independent of each other. None
     /// for what is held, and infinite where nothing can be said.
     pub naive: Option<f64>,
     /// Standard deviation by how the estimate changes when blocks of the record are left
     /// out: the one to trust where what is left over is not white. With few blocks it
-    /// belongs to Student's distribution of as many degrees of freedom, less one.
+    /// belongs to Student's distribution of as many degrees of freedom, less one. None of
+    /// frequencies alone, whose standard errors are known.
     pub by_blocks: Option<f64>,
 }
 
@@ -58,8 +65,11 @@ impl ParameterEstimate {
     /// are not independent, and are so few that they may find too little.
     #[must_use]
     pub fn deviation(&self) -> Option<f64> {
-        let both = self.naive.zip(self.by_blocks);
-        both.map(|(naive, by_blocks)| naive.max(by_blocks))
+        let naive = self.naive?;
+        Some(
+            self.by_blocks
+                .map_or(naive, |by_blocks| naive.max(by_blocks)),
+        )
     }
 }
 
@@ -127,7 +137,7 @@ impl Fit {
         &self.values
     }
 
-    /// Root mean square of angles less data in the last stage, rad.
+    /// Root mean square of angles less data in the last stage, rad; NaN of frequencies alone.
     #[must_use]
     pub fn rms(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.rms)

@@ -22,6 +22,10 @@ const WALKED: f64 = 1e-3;
 const UNCERTAIN: f64 = 1e-4;
 /// Root mean square of residuals, in deviations, at which nothing is left to be done.
 const NOTHING: f64 = 1e-8;
+/// Times that angles and frequencies are weighed against each other at most, and the share of the
+/// angles' errors by which those may change to be the same.
+const WEIGHINGS: usize = 10;
+const SAME_WEIGHT: f64 = 1e-3;
 /// Damping: its start, what it is multiplied and divided by, its bounds.
 pub(super) const DAMPING: f64 = 1e-3;
 const MORE: f64 = 6.0;
@@ -45,6 +49,9 @@ pub(super) struct FitStage {
     pub(super) free: Vec<usize>,
     /// Weights of the jump from a segment to the next.
     pub(super) junction: Vec<f64>,
+    /// Errors of the angles, in the deviations that were given: by them frequencies weigh, whose
+    /// standard errors are what they are. 1 without angles.
+    pub(super) spread: f64,
     /// Damping of the next step. Longer segments go on with that of shorter ones.
     pub(super) damping: f64,
 }
@@ -58,6 +65,8 @@ pub(super) struct Residuals {
     ends: Vec<Vec<f64>>,
     /// Sum of squares of all.
     pub(super) squares: f64,
+    /// Sum of squares of frequencies.
+    of_frequencies: f64,
 }
 
 /// A stage that is solved.
@@ -91,7 +100,9 @@ impl FitStage {
 
     /// The residuals; none where there is no such model or motion.
     pub(super) fn residuals(&self, task: &FitTask<'_>) -> Option<Residuals> {
-        let mut squares = sum_of_squares(&task.frequency_residuals(&self.globals)?);
+        let frequencies = task.frequency_residuals(&self.globals, self.spread)?;
+        let of_frequencies = sum_of_squares(&frequencies);
+        let mut squares = of_frequencies;
         let mut angles = Vec::with_capacity(self.segments.len());
         let mut ends = Vec::with_capacity(self.segments.len());
         for (index, samples) in self.segments.iter().enumerate() {
@@ -110,7 +121,21 @@ impl FitStage {
             angles,
             ends,
             squares,
+            of_frequencies,
         })
+    }
+
+    /// Variance of the angles, in the deviations that were given: what is left over of them for
+    /// each that is no more than the unknowns. 1 without angles.
+    pub(super) fn variance(&self, task: &FitTask<'_>, residuals: &Residuals) -> f64 {
+        let angles: usize = residuals.angles.iter().map(Vec::len).sum();
+        if angles == 0 {
+            return 1.0;
+        }
+        // A junction takes as many away as a start adds.
+        let unknown = task.names.len() + task.dimension.min(angles);
+        let squares = residuals.squares - residuals.of_frequencies;
+        squares.max(0.0) / angles.saturating_sub(unknown).max(1) as f64
     }
 
     pub(super) fn linearise(
@@ -127,7 +152,7 @@ impl FitStage {
             });
         Some(LinearStage {
             segments: segments.collect::<Option<_>>()?,
-            prior: task.frequency_rows(&self.globals, &self.free)?,
+            prior: task.frequency_rows(&self.globals, &self.free, self.spread)?,
         })
     }
 
@@ -164,6 +189,33 @@ impl FitStage {
             known = residuals;
         }
         None
+    }
+
+    /// Solves a stage as [`solve_determined`](Self::solve_determined) does; with angles and
+    /// frequencies until both weigh as the errors of the angles say that are left over, which
+    /// is where their likelihood is largest.
+    pub(super) fn solve_weighed(
+        &mut self,
+        task: &FitTask<'_>,
+        settled: f64,
+        choices: usize,
+    ) -> Option<Solved> {
+        let mut solved = self.solve_determined(task, settled, choices)?;
+        if task.frequencies.is_empty() || task.links.is_empty() {
+            return Some(solved);
+        }
+        for _ in 0..WEIGHINGS {
+            let spread = self.variance(task, &solved.residuals).sqrt().max(NOTHING);
+            let is_same = (spread - self.spread).abs() <= SAME_WEIGHT * self.spread;
+            self.spread = spread;
+            if is_same {
+                break;
+            }
+            let steps = solved.steps;
+            solved = self.solve_determined(task, settled, 1)?;
+            solved.steps += steps;
+        }
+        Some(solved)
     }
 
     /// Iterates to the least sum of squares that is near, until a step gains less than the

@@ -44,6 +44,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod alternatives;
 mod compare;
 mod convergence;
 mod covariance;
@@ -69,7 +70,7 @@ pub use convergence::{Convergence, SearchFailure, Unfound};
 pub use error::IdentificationError;
 pub use family::{Family, FamilyOf, ImpossibleValue};
 pub use fit::{AngleErrors, Fit, ParameterEstimate, StageReport, Standing};
-pub use frequencies::Frequency;
+pub use frequencies::{FittedFrequency, Frequency};
 pub use identifiability::{Identifiability, OpenChange};
 pub use problem::{Identification, Shooting};
 pub use ratios::{DIVIDED, TIMES};

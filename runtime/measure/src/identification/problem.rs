@@ -124,7 +124,8 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Adds a measured frequency of a small motion about hanging at rest.
+    /// Adds a measured frequency of a small motion about the place where the tree rests. Beside a
+    /// record it weighs by its standard error, and the angles by what is left over of them.
     #[must_use]
     pub fn with_frequency(mut self, frequency: Frequency) -> Self {
         self.frequencies.push(frequency);
@@ -138,7 +139,9 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Finds the unknowns from frequencies alone.
+    /// Finds the unknowns from frequencies alone, which are as many as unknowns at least. Error bars
+    /// follow from their standard errors. Of starts far from the one that is given the fit tells
+    /// those that lead to other values ([`Fit::alternatives`]).
     ///
     /// # Errors
     ///
@@ -214,8 +217,9 @@ impl<F: Family> Identification<F> {
         }
         match (task.segments_of(fit), fit.stages.last()) {
             (Some(segments), Some(last)) => {
-                self.check_unknowns(task, &globals, &segments)?;
-                let stage = self.stage(task, segments, fit.start_states(), globals);
+                self.check_unknowns(task, &segments)?;
+                let smoothed = &search.smoothed;
+                let stage = self.stage(task, smoothed, segments, fit.start_states(), globals);
                 search.continue_from(stage, last.length, &fit.convergence)
             }
             _ => search.try_starts(globals),
@@ -226,12 +230,14 @@ impl<F: Family> Identification<F> {
     pub(super) fn stage(
         &self,
         task: &FitTask<'_>,
+        smoothed: &SmoothedRecord,
         segments: Vec<Range<usize>>,
         starts: Vec<Vec<f64>>,
         globals: Vec<f64>,
     ) -> FitStage {
         FitStage {
             junction: self.junction(task, &starts),
+            spread: task.spread(smoothed),
             segments,
             starts,
             globals,

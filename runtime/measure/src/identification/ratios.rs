@@ -96,7 +96,7 @@ impl Ratios {
         task: &FitTask<'_>,
         globals: &[f64],
         naive: &[f64],
-        by_blocks: &[f64],
+        by_blocks: Option<&[f64]>,
     ) -> Vec<ParameterEstimate> {
         let exponents = self.exponents.iter().enumerate();
         let estimate = |(row, exponents): (usize, &DVector<f64>)| {
@@ -116,7 +116,7 @@ impl Ratios {
                 value,
                 standing: Standing::Determined,
                 naive: Some(naive[row] * value.abs()),
-                by_blocks: Some(by_blocks[row] * value.abs()),
+                by_blocks: by_blocks.map(|own| own[row] * value.abs()),
             }
         };
         exponents.map(estimate).collect()

@@ -41,11 +41,7 @@ impl<F: Family> Search<'_, F> {
         let linear = stage.linearise(task, &residuals);
         let linear = linear.ok_or_else(|| no_motion(record))?;
         let elimination = stage.eliminate(&linear, None);
-        let angles: usize = residuals.angles.iter().map(Vec::len).sum();
-        let data = angles + task.frequencies.len();
-        // A junction takes as many away as a start adds.
-        let unknown = task.names.len() + task.dimension.min(angles);
-        let variance = residuals.squares / data.saturating_sub(unknown).max(1) as f64;
+        let variance = stage.variance(task, &residuals);
         let open =
             task.open_directions(&stage.globals, &elimination.globals, variance.sqrt(), &held);
         let is_bound = |&index: &usize| task.is_at_bound(index, stage.globals[index]);
@@ -75,6 +71,7 @@ impl<F: Family> Search<'_, F> {
             singles[(row, row)] = task.scales[global];
         }
         let [naive, by_blocks] = deviations(&singles);
+        let has_blocks = !times.is_empty();
         let estimate = |(index, name): (usize, &String)| {
             let place = free.iter().position(|&own| own == index);
             let naive = place.map(|place| naive[place]);
@@ -99,14 +96,15 @@ impl<F: Family> Search<'_, F> {
                     () => Standing::GoesWith(with),
                 },
                 naive,
-                by_blocks: place.map(|place| by_blocks[place]),
+                by_blocks: place.filter(|_| has_blocks).map(|place| by_blocks[place]),
             }
         };
         let estimates: Vec<ParameterEstimate> =
             task.names.iter().enumerate().map(estimate).collect();
         let ratios = Ratios::new(task, &stage.globals, &estimates, &open.changes);
         let [naive, by_blocks] = deviations(&ratios.combinations(task, &stage.globals, &free));
-        let ratios = ratios.estimates(task, &stage.globals, &naive, &by_blocks);
+        let by_blocks = has_blocks.then_some(by_blocks.as_slice());
+        let ratios = ratios.estimates(task, &stage.globals, &naive, by_blocks);
         let starts = stage.segments.iter().zip(&stage.starts);
         let offset = |(index, link): (usize, &MeasuredLink)| {
             let offset = task.links[index]
@@ -122,6 +120,8 @@ impl<F: Family> Search<'_, F> {
                 ..convergence
             },
             identifiability: open.tell(&task.names),
+            frequencies: task.fitted_frequencies(&stage.globals).unwrap_or_default(),
+            alternatives: Vec::new(),
             starts: starts
                 .map(|(samples, start)| State::new(times[samples.start], start.clone()))
                 .collect(),

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use super::error::{IdentificationError, finite, number, positive};
 use super::family::Family;
-use super::frequencies::Frequency;
 use super::problem::{Identification, Shooting, StartValue};
 use super::record::AngleRecord;
 use super::task::{FitTask, LinkData};
@@ -73,18 +72,6 @@ impl<F: Family> Identification<F> {
         self.family
             .check(&values)
             .map_err(IdentificationError::Start)?;
-        for Frequency {
-            mode,
-            hertz,
-            deviation,
-        } in &self.frequencies
-        {
-            positive(&format!("frequency of mode {mode}"), *hertz)?;
-            positive(
-                &format!("deviation of the frequency of mode {mode}"),
-                *deviation,
-            )?;
-        }
         let mut globals: Vec<f64> = self.unknown.iter().map(|start| start.value).collect();
         let mut names: Vec<String> = self
             .unknown
@@ -123,7 +110,7 @@ impl<F: Family> Identification<F> {
                 bounds.push(TURN);
             }
         }
-        let task = FitTask {
+        let mut task = FitTask {
             family: &self.family,
             dimension: 2 * links.len(),
             values,
@@ -133,9 +120,10 @@ impl<F: Family> Identification<F> {
             bounds,
             times: record.times(),
             links: data,
-            frequencies: self.frequencies.clone(),
+            frequencies: Vec::new(),
             tolerance,
         };
+        task.frequencies = task.assigned(&self.frequencies, &globals)?;
         Ok((task, globals))
     }
 
@@ -143,10 +131,8 @@ impl<F: Family> Identification<F> {
     pub(super) fn check_unknowns(
         &self,
         task: &FitTask<'_>,
-        globals: &[f64],
         segments: &[Range<usize>],
     ) -> Result<(), IdentificationError> {
-        task.check_modes(globals)?;
         let angles: usize = segments.iter().map(|samples| task.count(samples)).sum();
         let found = angles + self.frequencies.len();
         let states = if segments.is_empty() {
@@ -154,11 +140,7 @@ impl<F: Family> Identification<F> {
         } else {
             task.dimension
         };
-        let needed = match found {
-            0 => 1,
-            _ if states == 0 => 0,
-            _ => task.names.len() + states,
-        };
+        let needed = (task.names.len() + states).max(1);
         match found >= needed {
             true => Ok(()),
             false => Err(IdentificationError::TooFew { found, needed }),

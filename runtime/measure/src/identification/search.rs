@@ -15,6 +15,8 @@ use super::task::{FitTask, split};
 const STARTS: [usize; 3] = [2, 3, 6];
 /// How far further starts are away from the one that was given.
 const OFF: f64 = 0.3;
+/// How many times as large or as small they are where frequencies alone are fitted.
+const FAR: f64 = 3.0;
 /// Part of the first segments that those of further starts have at first, and the samples that
 /// each has at least: the shorter, the nearer the sum of squares to a bowl.
 const SHORT: f64 = 0.25;
@@ -53,10 +55,12 @@ pub(super) struct Search<'a, F> {
 impl<F: Family> Search<'_, F> {
     /// Tries starts, and makes the segments of the best longer.
     pub(super) fn try_starts(mut self, globals: Vec<f64>) -> Result<Fit, IdentificationError> {
+        if self.record.links.is_empty() {
+            return self.try_starts_at_rest(&globals);
+        }
         let first = self.shooting.first;
         let segments = split(self.record.times(), first);
-        self.identification
-            .check_unknowns(&self.task, &globals, &segments)?;
+        self.identification.check_unknowns(&self.task, &segments)?;
         let mut rungs: Vec<Rung> = Vec::new();
         for number in 0..STARTS[2] {
             rungs.extend(self.scout(number, &globals));
@@ -69,8 +73,7 @@ impl<F: Family> Search<'_, F> {
                 false if convergence.agreed > 1 => STARTS[1],
                 false => STARTS[2],
             };
-            // Without angles there is one motion, which rests.
-            if number + 1 >= enough || self.record.links.is_empty() {
+            if number + 1 >= enough {
                 break;
             }
         }
@@ -94,13 +97,16 @@ impl<F: Family> Search<'_, F> {
 
     /// Solves the first segments from a start: the one that was given, in segments of the first
     /// length and in shorter ones, and others around it.
-    fn scout(&mut self, number: usize, globals: &[f64]) -> Option<Rung> {
+    pub(super) fn scout(&mut self, number: usize, globals: &[f64]) -> Option<Rung> {
         let shooting = self.shooting;
         let mut globals = globals.to_vec();
         if number > 1 {
             let parameters = self.task.unknown.len();
             for (index, global) in globals.iter_mut().enumerate().take(parameters) {
-                *global *= 1.0 + OFF * spread(number, index);
+                *global *= match self.record.links.is_empty() {
+                    true => FAR.powf(spread(number, index)),
+                    false => 1.0 + OFF * spread(number, index),
+                };
             }
             self.identification
                 .family
@@ -121,9 +127,9 @@ impl<F: Family> Search<'_, F> {
         };
         let segments = split(times, length);
         let starts = self.task.first_states(&self.smoothed, &globals, &segments);
-        let stage = self
-            .identification
-            .stage(&self.task, segments, starts, globals);
+        let stage =
+            self.identification
+                .stage(&self.task, &self.smoothed, segments, starts, globals);
         let none = Convergence::before(&self.smoothed);
         let rung = self.solve(stage, length, Vec::new(), &none)?;
         let rung = self.lengthen(rung, shooting.first);
@@ -134,9 +140,9 @@ impl<F: Family> Search<'_, F> {
         // In the segments of the others, to be compared with them.
         let globals = rung.stage.globals.clone();
         let starts = self.task.first_states(&self.smoothed, &globals, &segments);
-        let stage = self
-            .identification
-            .stage(&self.task, segments, starts, globals);
+        let stage =
+            self.identification
+                .stage(&self.task, &self.smoothed, segments, starts, globals);
         let same = self.solve(stage, shooting.first, rung.reports.clone(), &none);
         let kept = same.filter(|same| rung.convergence.is_kept(&same.convergence));
         Some(kept.unwrap_or(rung))
@@ -158,7 +164,7 @@ impl<F: Family> Search<'_, F> {
         };
         self.task.tolerance = shooting.tolerance * loosened;
         let choices = if reports.is_empty() { CHOICES } else { 1 };
-        let solved = stage.solve_determined(&self.task, settled, choices)?;
+        let solved = stage.solve_weighed(&self.task, settled, choices)?;
         let errors = self.task.errors(&stage, &solved.residuals);
         let rms = errors.rms();
         reports.push(StageReport {
@@ -209,7 +215,7 @@ impl<F: Family> Search<'_, F> {
     }
 
     /// Makes segments as long as they may be, and judges what is found.
-    fn finish(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
+    pub(super) fn finish(mut self, rung: Rung) -> Result<Fit, IdentificationError> {
         let rung = match rung.convergence.is_followed() {
             true => self.lengthen(rung, f64::INFINITY),
             false => rung,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::convergence::Convergence;
+use super::convergence::{Convergence, ROUNDING};
 use super::error::IdentificationError;
 use super::fit::{AngleErrors, Fit};
 use super::record::{AngleRecord, MeasuredLink};
@@ -70,6 +70,17 @@ impl SmoothedRecord {
 }
 
 impl FitTask<'_> {
+    /// Errors of the angles in the deviations that were given, as far as smoothness shows them; 1
+    /// without angles.
+    pub(super) fn spread(&self, smoothed: &SmoothedRecord) -> f64 {
+        if self.links.is_empty() {
+            return 1.0;
+        }
+        let weights: f64 = self.links.iter().map(|link| link.weight).sum();
+        let noise = smoothed.noise.max(ROUNDING * smoothed.swing);
+        noise * weights / self.links.len() as f64
+    }
+
     /// The segments of a fit; none where it is one of other times or of another tree.
     pub(super) fn segments_of(&self, fit: &Fit) -> Option<Vec<Range<usize>>> {
         let sample = |time: f64| self.times.iter().position(|own| *own == time);

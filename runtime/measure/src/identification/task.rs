@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::family::AnyFamily;
-use super::frequencies::Frequency;
+use super::frequencies::FrequencyDatum;
 use super::sensitivity::Sensitivities;
 use branched_pendulum::integrate::{Dop853, Options, Tolerance};
 use branched_pendulum::system::{Ode, State};
@@ -32,7 +32,7 @@ pub(super) struct FitTask<'a> {
     pub(super) bounds: Vec<[f64; 2]>,
     pub(super) times: &'a [f64],
     pub(super) links: Vec<LinkData<'a>>,
-    pub(super) frequencies: Vec<Frequency>,
+    pub(super) frequencies: Vec<FrequencyDatum>,
     /// Relative tolerance of the motion.
     pub(super) tolerance: f64,
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use branched_pendulum::prelude::*;
-use branched_pendulum_trees::TreeDescription;
+use branched_pendulum_trees::{PendulumTree, TreeDescription};
 use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
@@ -29,10 +29,15 @@ const TRUTH: [(&str, f64); 4] = [
     ("lower_mass", 0.1),
 ];
 
-/// Writes a tree, and angles of its links with noise of 1 mrad, 100 a second.
-fn measured(name: &str) -> (PathBuf, PathBuf) {
+/// The tree with them.
+pub(super) fn tree() -> PendulumTree {
     let tree = TreeDescription::parse(TRIPLE).unwrap();
-    let tree = tree.tree::<f64>(&TRUTH).unwrap();
+    tree.tree(&TRUTH).unwrap()
+}
+
+/// Writes a tree, and angles of its links with noise of 1 mrad, 100 a second.
+pub(super) fn measured(name: &str) -> (PathBuf, PathBuf) {
+    let tree = tree();
     let times: Vec<f64> = (0..800).map(|row| f64::from(row) / 100.0).collect();
     let start = State::at_rest(0.0, &[0.5, -0.2, 0.3]);
     let method = Dop853::new(Options::with_tolerance(1e-11));

@@ -4,6 +4,7 @@ mod answers;
 mod cascade;
 mod differences;
 mod flips;
+mod frequencies;
 mod held_out;
 mod identify;
 mod measured;

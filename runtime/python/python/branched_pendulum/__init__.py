@@ -19,6 +19,7 @@ from ._native import (
 from ._results import (
     Advice,
     Estimate,
+    FittedFrequency,
     Growth,
     Identification,
     MeasuredRun,
@@ -36,6 +37,7 @@ __all__ = [
     "DescriptionError",
     "Estimate",
     "FailedMotions",
+    "FittedFrequency",
     "Growth",
     "Identification",
     "IntegrationError",

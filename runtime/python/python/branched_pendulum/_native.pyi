@@ -280,10 +280,11 @@ class Tree(Pendulum):
     ) -> WorkPrecision: ...
     def identify(
         self,
-        t: ArrayLike,
-        theta: ArrayLike,
-        unknown: Sequence[str] | Mapping[str, float],
+        t: ArrayLike | None = None,
+        theta: ArrayLike | None = None,
+        unknown: Sequence[str] | Mapping[str, float] | None = None,
         *,
+        frequencies: Sequence[tuple[float, float] | tuple[float, float, int]] = ...,
         until: float | None = None,
         offsets: bool = True,
         nonnegative: Sequence[str] = ...,

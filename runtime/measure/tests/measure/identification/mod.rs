@@ -2,6 +2,7 @@
 
 mod chain;
 mod deviations;
+mod frequencies;
 mod measured;
 mod mistakes;
 mod refusals;

@@ -89,6 +89,7 @@ impl crate::frame::Arguments for Arguments {
                 &MethodArguments::OPTIONS,
             ]
             .concat(),
+            ..RecordOptions::default()
         }
     }
 

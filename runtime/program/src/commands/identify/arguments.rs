@@ -2,6 +2,8 @@
 
 use clap::{Parser, ValueEnum};
 
+use branched_pendulum_measure::identification::Frequency;
+
 use crate::frame::RecordOptions;
 use crate::frame::command_line::{number, parts};
 use crate::measured_file::MeasuredFile;
@@ -9,8 +11,8 @@ use crate::motion::MethodArguments;
 use crate::release::{APART, ReleaseArguments};
 use crate::subject::TreeArguments;
 
-/// Masses, lengths, inertias and friction of a pendulum from its measured motion: the parameters
-/// that its description names. Prints how well viscous friction, Coulomb friction and quadratic
+/// Masses, lengths, inertias and friction of a pendulum from its measured motion, or from measured
+/// frequencies of small motions: the parameters that its description names. Prints how well viscous friction, Coulomb friction and quadratic
 /// drag explain it, what the angles determine and what they leave open, and how well the motion
 /// goes on that was not fitted. Without a file the tree is simulated, with parameters that are
 /// known.
@@ -36,6 +38,13 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME[=GUESS][,..]", value_parser = guesses)]
     // By its full path, clap takes each for one value.
     pub unknown: Vec<::std::vec::Vec<(String, Option<f64>)>>,
+    /// measured frequency of a small motion, Hz, with its standard error and the number of its
+    /// mode: 1 is the slowest, as `modes` lists them. Without numbers they are as many as the modes
+    /// that oscillate, in any order. Beside a FILE each datum weighs by its error; without one they
+    /// are fitted alone, and nothing is simulated
+    #[arg(long, value_name = "HZ:ERROR[@MODE][,..]", value_parser = frequencies)]
+    // By its full path, clap takes each for one value.
+    pub frequency: Vec<::std::vec::Vec<Frequency>>,
     /// length of the part that is fitted, s from 1 to 1e4; what follows is predicted. Three
     /// quarters of the record without it
     #[arg(long, value_name = "S", value_parser = number(1.0..=1e4, "s"))]
@@ -119,6 +128,8 @@ impl crate::frame::Arguments for Arguments {
                 &MethodArguments::OPTIONS,
             ]
             .concat(),
+            instead: Some("frequency"),
+            of_both: vec!["fit", "laws", "seed"],
         }
     }
 
@@ -135,6 +146,31 @@ fn laws(text: &str) -> Result<Vec<Law>, String> {
         Ok(laws) => Ok(laws),
         Err(_) => Err("laws are viscous, coulomb and all".to_owned()),
     }
+}
+
+fn frequencies(text: &str) -> Result<Vec<Frequency>, String> {
+    let wrong = |part: &str| {
+        format!(
+            "`{part}` is no frequency with its standard error, both in Hz and positive: write \
+             `0.88:0.005`, or `0.88:0.005@1` for that of mode 1, the slowest"
+        )
+    };
+    let frequency = |part: &str| {
+        let (datum, mode) = match part.split_once('@') {
+            Some((datum, mode)) => (datum, Some(mode.trim().parse::<usize>().ok()?)),
+            None => (part, None),
+        };
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        let positive = |value: &f64| value.is_finite() && *value > 0.0;
+        let (hertz, deviation) = datum.split_once(':')?;
+        Some(Frequency {
+            hertz: number(hertz).filter(positive)?,
+            deviation: number(deviation).filter(positive)?,
+            mode,
+        })
+    };
+    let all = parts(text).map(|part| frequency(part).ok_or_else(|| wrong(part)));
+    all.collect()
 }
 
 fn guesses(text: &str) -> Result<Vec<(String, Option<f64>)>, String> {

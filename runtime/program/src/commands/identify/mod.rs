@@ -3,11 +3,14 @@
 //! - [`arguments`]: the command line, [`unknowns`]: what is known of the tree's parameters,
 //! - [`source`]: angles out of a file, or simulated,
 //! - [`study`]: fits with three laws of friction, and what they leave over,
-//! - [`report`]: words and tables, [`charts`]: charts.
+//! - [`small_motions`]: a fit of frequencies alone,
+//! - [`report`]: words and tables, [`estimates`]: those of one fit, [`charts`]: charts.
 
 pub mod arguments;
 pub mod charts;
+pub mod estimates;
 pub mod report;
+pub mod small_motions;
 pub mod source;
 pub mod study;
 pub mod unknowns;
@@ -23,12 +26,16 @@ use crate::Failure;
 use crate::frame::Job;
 
 /// Reads or simulates the angles, fits them with each law of friction, prints the report and
-/// writes table and chart. Ctrl-C leaves the laws that are done.
+/// writes table and chart. Frequencies in place of a file are fitted alone. Ctrl-C leaves the laws
+/// that are done.
 ///
 /// # Errors
 /// [`Failure`]; where no law was found to follow the motion, too, after the report.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let unknowns = Unknowns::new(arguments)?;
+    if arguments.measured.file.is_none() && !arguments.frequency.is_empty() {
+        return small_motions::run(arguments, &unknowns, job);
+    }
     let measurement = Measurement::new(arguments, &unknowns)?;
     let study = Study::new(arguments, &unknowns, &measurement);
     let laws = unknowns.laws(&arguments.laws);

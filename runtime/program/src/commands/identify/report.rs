@@ -3,15 +3,15 @@
 use std::fmt::Write;
 
 use branched_pendulum_data::Column;
-use branched_pendulum_measure::identification::{DIVIDED, ParameterEstimate, Standing, TIMES};
+use branched_pendulum_measure::identification::Standing;
 use serde_json::{Value, json};
 
 use super::arguments::Arguments;
+use super::estimates;
 use super::source::Measurement;
 use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
-use super::unknowns::{Parameter, Unknowns};
+use super::unknowns::Unknowns;
 use crate::Failure;
-use crate::constants::KnownConstants;
 use crate::frame::Job;
 use crate::smoothed::MOST_LINKS;
 
@@ -88,111 +88,37 @@ pub fn report(
     text
 }
 
-/// The parameters: what the data determine first, then what goes with values that are held.
+/// The parameters of the law that is reported, and the frequencies.
 fn parameters(unknowns: &Unknowns, measurement: &Measurement, reported: &Outcome) -> String {
-    let mut text = String::new();
-    let mut line = |words: String| {
-        let _ = writeln!(text, "{words}");
-    };
     let law = reported.law.name();
-    let fit = match reported.result() {
-        Ok(fit) if reported.one_motion.is_ok() => {
-            line(format!(
-                "Parameters by one motion, friction {law}, SI units:"
-            ));
-            fit
-        }
+    let (heading, fit) = match reported.result() {
+        Ok(fit) if reported.one_motion.is_ok() => ("Parameters by one motion".to_owned(), fit),
         Ok(fit) => {
-            line(format!(
-                "Parameters by windows of {} s, since one motion is not followed, friction {law}, \
-                 SI units:",
-                reported.window()
-            ));
-            fit
+            let window = reported.window();
+            let words =
+                format!("Parameters by windows of {window} s, since one motion is not followed");
+            (words, fit)
         }
         Err(unfound) => {
-            line(format!(
-                "No parameters were found. The best that was tried, friction {law}, SI units:"
-            ));
-            &unfound.best
+            let words = "No parameters were found. The best that was tried";
+            (words.to_owned(), &unfound.best)
         }
     };
-    line(format!(
-        "{:<34} {:>13} {:>11} {:>11} {}",
-        "",
-        "value",
-        "deviation",
-        "naive",
-        if measurement.truth.is_some() {
-            "         true"
-        } else {
-            ""
-        }
-    ));
-    let rank = |estimate: &&ParameterEstimate| match estimate.standing {
-        Standing::Determined => 0,
-        Standing::AtBound => 1,
-        Standing::GoesWith(_) => 2,
-        Standing::Held => 3,
-    };
-    let mut rows: Vec<&ParameterEstimate> = fit.estimates.iter().chain(&fit.ratios).collect();
-    rows.sort_by_key(rank);
-    for estimate in rows {
-        let deviation = |value: Option<f64>| match value {
-            // A bar of a value that hangs on another is none of its error.
-            Some(value) if estimate.standing == Standing::Determined => format!("{value:.1e}"),
-            _ => String::new(),
-        };
-        let mark = match &estimate.standing {
-            Standing::Determined => String::new(),
-            Standing::AtBound => "  at its bound".to_owned(),
-            Standing::GoesWith(held) => format!("  goes with {}", held.join(", ")),
-            Standing::Held => "  held, left open by the data".to_owned(),
-        };
-        let truth = truth(measurement, &estimate.name);
-        let row = format!(
-            "{:<34} {:>13.6e} {:>11} {:>11} {}{mark}",
-            estimate.name,
-            estimate.value,
-            deviation(estimate.deviation()),
-            deviation(estimate.naive),
-            truth.map_or(String::new(), |truth| format!("{truth:>13.6e}"))
+    let mut text = format!("{heading}, friction {law}, SI units:\n");
+    text += &estimates::table(fit, measurement.truth.as_deref());
+    if reported.result().is_ok() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "Deviations are the larger of those by {} blocks of the record and of naive ones, which \
+             take what is left over for white noise.",
+            fit.blocks
         );
-        line(row.trim_end().to_owned());
+        text += &estimates::standing(unknowns, fit);
     }
-    if reported.result().is_err() {
-        return text;
-    }
-    line(format!(
-        "Deviations are the larger of those by {} blocks of the record and of naive ones, which take \
-         what is left over for white noise.",
-        fit.blocks
-    ));
-    line(format!("\n{}", fit.identifiability));
-    for open in &fit.identifiability.open {
-        let own = open
-            .others
-            .iter()
-            .filter(|(_, change)| change.abs() > WORTH);
-        let names = own.map(|(name, _)| name).chain([&open.held]);
-        let is_measurable = |name: &&String| {
-            let own = unknowns.parameter(name);
-            own.is_some_and(Parameter::is_measurable)
-        };
-        let names: Vec<&str> = names.filter(is_measurable).map(String::as_str).collect();
-        if !names.is_empty() {
-            line(format!(
-                "  for {}: weigh or measure {}, and give it by --set",
-                open.held,
-                names.join(" or ")
-            ));
-        }
-    }
-    if let Some(error) = &fit.impossible {
-        line(format!(
-            "No pendulum is such: {error}. What is held, or the law of friction, is not that of \
-             the real one; the motion is the same all the same."
-        ));
+    if !fit.frequencies.is_empty() {
+        text.push('\n');
+        text += &estimates::frequencies(fit);
     }
     text
 }
@@ -219,19 +145,6 @@ fn energy(energies: &Energies) -> String {
     )
 }
 
-/// The true value of an unknown or of a ratio, of a simulated record.
-fn truth(measurement: &Measurement, name: &str) -> Option<f64> {
-    let truth = measurement.truth.as_ref()?;
-    let of = |factor: &str| {
-        let own = truth.iter().find(|(name, _)| *name == factor);
-        // Offsets are none.
-        own.map_or(0.0, |(_, value)| *value)
-    };
-    let mut divided = name.split(DIVIDED);
-    let product: f64 = divided.next()?.split(TIMES).map(of).product();
-    Some(divided.fold(product, |value, divisor| value / of(divisor)))
-}
-
 fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [Option<f64>; 2] {
     [
         (f64::NEG_INFINITY, measurement.until),
@@ -239,9 +152,6 @@ fn one_motion(measurement: &Measurement, outcome: &Outcome) -> [Option<f64>; 2] 
     ]
     .map(|(from, until)| Some(outcome.errors.as_ref()?.rms_between(from, until)))
 }
-
-/// Share in an open change for which a parameter is worth to be measured.
-const WORTH: f64 = 0.1;
 
 /// Writes the parameters of the tree where they were found, what is left over of each angle, and
 /// the energies.
@@ -256,21 +166,11 @@ pub fn write(
     energies: Option<&Energies>,
 ) -> Result<(), Failure> {
     if let Ok(fit) = outcome.result() {
-        let values = unknowns.parameters.iter().zip(fit.parameters());
         let links = measurement.links.iter().zip(&measurement.offsets);
-        let found = KnownConstants {
-            values: values
-                .map(|(own, value)| (own.name.clone(), *value))
-                .collect(),
-            // Those of the fit come to those by which the file was read.
-            offsets: links
-                .map(|(link, offset)| (link.clone(), offset + fit.offset(link)))
-                .collect(),
-        };
-        let table = found.table();
-        job.report("parameters", table.clone());
-        let table = format!("{:#}\n", Value::Object(table));
-        job.write("parameters.json", table.as_bytes())?;
+        // Those of the fit come to those by which the file was read.
+        let offsets = links.map(|(link, offset)| (link.clone(), offset + fit.offset(link)));
+        estimates::write_parameters(job, unknowns, fit, offsets.collect())?;
+        estimates::write_frequencies(job, fit)?;
     }
     let mut columns = vec![Column::new("time", "s")];
     for kind in ["window", "one_motion"] {
@@ -350,7 +250,7 @@ pub fn record(
 }
 
 /// A search in the record of the run.
-fn searched(found: &Found) -> Value {
+pub fn searched(found: &Found) -> Value {
     let fit = best(found);
     let parameters = fit.estimates.iter().chain(&fit.ratios).map(|estimate| {
         json!({
@@ -368,6 +268,7 @@ fn searched(found: &Found) -> Value {
         "failure": found.as_ref().err().map(ToString::to_string),
         "noise": fit.convergence.noise,
         "residual": fit.convergence.rms,
+        "frequencies": estimates::recorded_frequencies(fit),
         "starts": fit.convergence.starts,
         "agreed": fit.convergence.agreed,
         "determined": fit.identifiability.determined(),

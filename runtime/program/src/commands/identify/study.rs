@@ -143,31 +143,13 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn identification(&self, law: Law) -> Identification<TreeDescription> {
-        let task = Identification::new(self.unknowns.family()).with_offsets();
-        let parameters = &self.unknowns.parameters;
-        parameters.iter().fold(task, |task, own| {
-            let name = &own.name;
-            let task = match own.knowledge {
-                Knowledge::Known(value) => return task.known(name, value),
-                _ if own.law() > law => return task.known(name, 0.0),
-                Knowledge::Guess(value) => task.unknown(name, value),
-                Knowledge::Size(size) => task.unknown_from_zero(name, size),
-            };
-            match (self.arguments.friction, own.is_friction()) {
-                (Sign::Nonnegative, true) => task.at_least(name, 0.0),
-                _ => task,
-            }
-        })
-    }
-
     /// Fits with one law, beginning where the fit with a poorer one has ended.
     ///
     /// # Errors
     /// [`Failure::Identification`].
     pub fn outcome(&self, law: Law, poorer: Option<&Outcome>) -> Result<Outcome, Failure> {
         let (fitted, later) = (self.measurement.fitted(), self.measurement.later());
-        let task = self.identification(law);
+        let task = identification(self.arguments, self.unknowns, law);
         let short = task.clone().with_shooting(Shooting {
             first: WINDOW,
             longest: WINDOW,
@@ -260,7 +242,7 @@ impl<'a> Study<'a> {
             frictions: &[],
         };
         let exact = equations.smooth(record, &smooth.mean)?;
-        let fitted = self.identification(law).predict(fit, times)?;
+        let fitted = identification(self.arguments, self.unknowns, law).predict(fit, times)?;
         Ok(Some(Energies {
             times: times.to_vec(),
             by_smoothness: energies(&smooth),
@@ -273,8 +255,36 @@ impl<'a> Study<'a> {
     }
 }
 
-/// A search that ended nowhere is no mistake of the request.
-fn found(result: Result<Fit, IdentificationError>) -> Result<Found, IdentificationError> {
+/// What is looked for with a law of friction, by angles with offsets and by the frequencies of the
+/// arguments.
+pub fn identification(
+    arguments: &Arguments,
+    unknowns: &Unknowns,
+    law: Law,
+) -> Identification<TreeDescription> {
+    let task = Identification::new(unknowns.family()).with_offsets();
+    let frequencies = arguments.frequency.iter().flatten();
+    let task = frequencies.fold(task, |task, own| task.with_frequency(*own));
+    unknowns.parameters.iter().fold(task, |task, own| {
+        let name = &own.name;
+        let task = match own.knowledge {
+            Knowledge::Known(value) => return task.known(name, value),
+            _ if own.law() > law => return task.known(name, 0.0),
+            Knowledge::Guess(value) => task.unknown(name, value),
+            Knowledge::Size(size) => task.unknown_from_zero(name, size),
+        };
+        match (arguments.friction, own.is_friction()) {
+            (Sign::Nonnegative, true) => task.at_least(name, 0.0),
+            _ => task,
+        }
+    })
+}
+
+/// Takes a search that ended nowhere for no mistake of the request.
+///
+/// # Errors
+/// Mistakes of the request.
+pub fn found(result: Result<Fit, IdentificationError>) -> Result<Found, IdentificationError> {
     match result {
         Ok(fit) => Ok(Ok(fit)),
         Err(IdentificationError::NotFound(unfound)) => Ok(Err(unfound)),

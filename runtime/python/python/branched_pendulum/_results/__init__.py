@@ -5,13 +5,14 @@ from ._advice import Advice, MeasuredRun
 from ._budgets import ScaleAverages, ScaleBudget, SectorBudget
 from ._common import Result
 from ._growth import Growth, ReleaseMap
-from ._identification import Estimate, Identification
+from ._identification import Estimate, FittedFrequency, Identification
 from ._motion import Report, Solution
 from ._work_precision import WorkPrecision
 
 __all__ = [
     "Advice",
     "Estimate",
+    "FittedFrequency",
     "Growth",
     "Identification",
     "MeasuredRun",
