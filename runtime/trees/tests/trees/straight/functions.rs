@@ -122,6 +122,36 @@ fn laws_of_one_line_add() {
     assert!(pushed > 0.01 && bound < 1e-3 * pushed, "{bound} {pushed}");
 }
 
+/// Each lane has magnets of its own strength.
+#[test]
+fn lanes_have_repulsions_of_their_own() {
+    let tree = |strength: f64| {
+        let own = format!("repulsion = {strength}, exponent = 3");
+        PendulumTree::parse(&GUYED.replace("repulsion = 0.002, exponent = 3", &own)).unwrap()
+    };
+    let trees: Vec<PendulumTree> = (1..7)
+        .map(|number| tree(0.001 * f64::from(number)))
+        .collect();
+    let start = State::at_rest(0.0, &[0.3, 0.8, -0.4, 0.2, 1.1, -0.7, 0.5]);
+    let method = Dop853::new(Options::with_tolerance(1e-12));
+    let lanes: Vec<_> = trees
+        .iter()
+        .map(|tree| (AbsoluteAngles(tree), start.clone()))
+        .collect();
+    let moved = Ensemble::new().integrate_models_in_lanes(&method, &lanes, 0.5);
+    let mut before = start.values.clone();
+    for (tree, moved) in trees.iter().zip(moved) {
+        let alone = method.integrate(&AbsoluteAngles(tree), &start, 0.5, go_on);
+        let [own, alone] = [moved, alone].map(|end| end.unwrap().state.values);
+        for (own, alone) in own.iter().zip(&alone) {
+            assert!((own - alone).abs() < 1e-9, "{own} {alone}");
+        }
+        let changed = own.iter().zip(&before).any(|(a, b)| (a - b).abs() > 1e-4);
+        assert!(changed, "{own:?}");
+        before = own;
+    }
+}
+
 /// What knows nothing of straight springs refuses them.
 #[test]
 fn forms_without_straight_springs_refuse_them() {
