@@ -1,19 +1,22 @@
-//! Translational spring-dampers: straight springs and viscous dampers between points of links.
+//! Translational spring-dampers: straight springs, forces by a power of the distance and viscous
+//! dampers between points of links.
 //!
 //! The line from the first point to the second one is d = d₀ + Σ R(θ_i) r_i: a part d₀ that no
-//! angle turns, and an arm r_i of each link on the way between the points. With the length
-//! ℓ = |d| the energy of the spring is ½ κ (ℓ − L₀)², the power of the damper −c ℓ̇², and the
-//! torque on link i is −(κ (ℓ − L₀) + c ℓ̇) ∂ℓ/∂θ_i.
+//! angle turns, and an arm r_i of each link on the way between the points. The energy U is a sum of
+//! terms of the length ℓ = |d|: ½ κ (ℓ − L₀)² of a spring, A/ℓⁿ of a force by a power of the
+//! distance. The power of the damper is −c ℓ̇², and the torque on link i is
+//! −(dU/dℓ + c ℓ̇) ∂ℓ/∂θ_i.
 //!
 //! Where the points meet, ℓ = 0, a line has no direction: torques are NaN there, but for those of
-//! a spring without length at rest, whose energy is ½ κ d·d, and which has no damper.
+//! a spring without length at rest, whose energy is ½ κ d·d, and which has no damper. The energy
+//! A/ℓⁿ is infinite there.
 
 use alloc::vec::Vec;
 
 use crate::scalar::Scalar;
 
 /// The part of a line that turns with a link.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LineArm<T> {
     /// Number of the link.
     pub link: usize,
@@ -23,18 +26,36 @@ pub struct LineArm<T> {
     pub lateral: T,
 }
 
-/// A straight spring and a viscous damper between two points, in SI units.
-#[derive(Clone, Debug, PartialEq)]
+/// A term of the energy that a line stores, by its length ℓ. In SI units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LinePotential<T> {
+    /// The energy ½ κ (ℓ − L₀)² of a spring.
+    Spring {
+        /// Stiffness κ, N/m.
+        stiffness: T,
+        /// Length L₀ at rest, m; none for a spring whose length at rest is zero.
+        rest: Option<T>,
+    },
+    /// The energy A/ℓⁿ of a force by a power of the distance, which repels where A is positive.
+    InversePower {
+        /// Strength A, J mⁿ.
+        strength: T,
+        /// Exponent n: 1 of charges, 3 of point dipoles whose axes stand perpendicular to the plane.
+        exponent: u32,
+    },
+}
+
+/// What stores energy by the length of the line between two points, and a viscous damper along it,
+/// in SI units.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct TranslationalSpringDamper<T> {
     /// Arms of the line, of each link one at most.
     pub arms: Vec<LineArm<T>>,
     /// The part of the line that no angle turns: x, and y against the direction of links of
     /// angle 0.
     pub offset: [T; 2],
-    /// Stiffness κ of the spring, N/m.
-    pub spring: T,
-    /// Length L₀ at rest, m; none for a spring whose length at rest is zero.
-    pub rest: Option<T>,
+    /// Terms of the energy, in the order in which they are added.
+    pub potentials: Vec<LinePotential<T>>,
     /// Viscous friction c, N s/m, where there is a damper.
     pub friction: Option<T>,
 }
@@ -65,15 +86,91 @@ impl<T: Scalar> LineArm<T> {
 }
 
 impl<T: Scalar> Line<T> {
+    fn square(&self) -> T {
+        dot(self.offset, self.offset)
+    }
+
     fn length(&self) -> T {
-        dot(self.offset, self.offset).sqrt()
+        self.square().sqrt()
+    }
+
+    /// A power of the length.
+    fn length_to(&self, exponent: u32) -> T {
+        let root = match exponent % 2 {
+            0 => T::from_f64(1.0),
+            _ => self.length(),
+        };
+        let square = self.square();
+        (0..exponent / 2).fold(root, |power, _| power * square)
     }
 }
 
-impl<T: Scalar> TranslationalSpringDamper<T> {
+impl<T: Copy> LinePotential<T> {
+    /// Returns it on other scalars.
+    #[must_use]
+    pub fn map<S>(&self, convert: impl Fn(T) -> S) -> LinePotential<S> {
+        match *self {
+            Self::Spring { stiffness, rest } => LinePotential::Spring {
+                stiffness: convert(stiffness),
+                rest: rest.map(convert),
+            },
+            Self::InversePower { strength, exponent } => LinePotential::InversePower {
+                strength: convert(strength),
+                exponent,
+            },
+        }
+    }
+}
+
+impl<T: Scalar> LinePotential<T> {
+    /// dU/dℓ over the length of the line.
+    #[inline(always)]
+    fn pull(&self, line: &Line<T>) -> T {
+        match *self {
+            Self::Spring {
+                stiffness,
+                rest: None,
+            } => stiffness,
+            Self::Spring {
+                stiffness,
+                rest: Some(rest),
+            } => {
+                let length = line.length();
+                stiffness * (length - rest) / length
+            }
+            Self::InversePower { strength, exponent } => {
+                let slope = T::from_f64(-f64::from(exponent)) * strength;
+                slope / line.length_to(exponent.saturating_add(2))
+            }
+        }
+    }
+
+    /// U.
+    #[inline(always)]
+    fn energy(&self, line: &Line<T>) -> T {
+        let half = T::from_f64(0.5);
+        match *self {
+            Self::Spring {
+                stiffness,
+                rest: None,
+            } => half * stiffness * line.square(),
+            Self::Spring {
+                stiffness,
+                rest: Some(rest),
+            } => {
+                let stretch = line.length() - rest;
+                half * stiffness * stretch * stretch
+            }
+            Self::InversePower { strength, exponent } => strength / line.length_to(exponent),
+        }
+    }
+}
+
+impl<T: Copy> TranslationalSpringDamper<T> {
     /// Returns it on other scalars.
     #[must_use]
     pub fn map<S>(&self, convert: impl Fn(T) -> S) -> TranslationalSpringDamper<S> {
+        let potentials = self.potentials.iter();
         let arms = self.arms.iter().map(|arm| LineArm {
             link: arm.link,
             along: convert(arm.along),
@@ -82,12 +179,13 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         TranslationalSpringDamper {
             arms: arms.collect(),
             offset: self.offset.map(&convert),
-            spring: convert(self.spring),
-            rest: self.rest.map(&convert),
+            potentials: potentials.map(|own| own.map(&convert)).collect(),
             friction: self.friction.map(&convert),
         }
     }
+}
 
+impl<T: Scalar> TranslationalSpringDamper<T> {
     /// Returns true if all links are among so many, and none has two arms.
     fn fits(&self, links: usize) -> bool {
         let mut arms = self.arms.iter().enumerate();
@@ -114,37 +212,19 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
         Line { offset, rate }
     }
 
-    /// Pull of the spring over the length of the line.
+    /// Pull of what stores energy over the length of the line.
     #[inline(always)]
-    fn spring_pull(&self, line: &Line<T>) -> T {
-        match self.rest {
-            None => self.spring,
-            Some(rest) => {
-                let length = line.length();
-                self.spring * (length - rest) / length
-            }
-        }
+    fn stored_pull(&self, line: &Line<T>) -> Option<T> {
+        let pulls = self.potentials.iter().map(|own| own.pull(line));
+        pulls.reduce(|sum, own| sum + own)
     }
 
     /// Pull of the damper over the length of the line.
     #[inline(always)]
     fn damper_pull(&self, line: &Line<T>) -> Option<T> {
-        let square = dot(line.offset, line.offset);
         let stretching = dot(line.offset, line.rate);
-        self.friction.map(|friction| friction * stretching / square)
-    }
-
-    /// Energy of the spring.
-    #[inline(always)]
-    fn energy(&self, line: &Line<T>) -> T {
-        let half = T::from_f64(0.5) * self.spring;
-        match self.rest {
-            None => half * dot(line.offset, line.offset),
-            Some(rest) => {
-                let stretch = line.length() - rest;
-                half * stretch * stretch
-            }
-        }
+        self.friction
+            .map(|friction| friction * stretching / line.square())
     }
 
     /// Subtracts the torques of a pull, given over the length of the line.
@@ -171,15 +251,14 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
 ///
 /// ```
 /// use branched_pendulum::translational::{
-///     LineArm, TranslationalSpringDamper, TranslationalSpringDampers,
+///     LineArm, LinePotential, TranslationalSpringDamper, TranslationalSpringDampers,
 /// };
 ///
 /// let guy = TranslationalSpringDamper {
 ///     // From the end to the peg at x = 0.4 m.
 ///     arms: vec![LineArm { link: 0, along: -0.3, lateral: 0.0 }],
 ///     offset: [0.4, 0.0],
-///     spring: 10.0,
-///     rest: Some(0.2),
+///     potentials: vec![LinePotential::Spring { stiffness: 10.0, rest: Some(0.2) }],
 ///     friction: None,
 /// };
 /// let guys = TranslationalSpringDampers::new(1, vec![guy]).unwrap();
@@ -237,16 +316,15 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
     }
 
     /// Adds the torques (N m) on all links at their angles (rad) and angular velocities (rad/s).
-    /// NaN for slices of another length than there are links, and where points meet between which
-    /// there is a damper or a spring with a length at rest. O(arms).
+    /// NaN for slices of another length than there are links, and where points meet, but for a
+    /// spring alone without a length at rest. O(arms).
     #[inline(always)]
     pub fn add_torques(&self, given: [&[T]; 2], torques: &mut [T]) {
         self.add(given, torques, |own, line| {
-            let spring = own.spring_pull(line);
-            Some(match own.damper_pull(line) {
-                Some(damper) => spring + damper,
-                None => spring,
-            })
+            let pulls = own.stored_pull(line).into_iter();
+            pulls
+                .chain(own.damper_pull(line))
+                .reduce(|sum, own| sum + own)
         });
     }
 
@@ -274,18 +352,20 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         }
     }
 
-    /// Energy (J) of the springs; NaN for another number of angles than there are links.
+    /// Energy (J) that the lines store; NaN for another number of angles than there are links.
+    /// Where points meet, A/ℓⁿ is infinite.
     #[must_use]
     pub fn energy(&self, theta: &[T]) -> T {
         if theta.len() != self.links {
             return T::from_f64(f64::NAN);
         }
-        let zero = T::from_f64(0.0);
-        let energies = self
-            .list
-            .iter()
-            .map(|own| own.energy(&own.line(theta, None)));
-        energies.fold(zero, |sum, energy| sum + energy)
+        let energies = self.list.iter().flat_map(|own| {
+            let line = own.line(theta, None);
+            own.potentials
+                .iter()
+                .map(move |potential| potential.energy(&line))
+        });
+        energies.fold(T::from_f64(0.0), |sum, energy| sum + energy)
     }
 
     /// Power (W) of the dampers, never positive; NaN likewise, and where the points of a damper

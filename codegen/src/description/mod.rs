@@ -128,9 +128,9 @@ pub(crate) const SIBLINGS: &str = "siblings";
 pub(crate) const GUY: &str = "guy";
 
 impl SpringDamperClause {
-    /// Returns true if spring and damper are straight, along the line between two points.
+    /// Returns true if what acts is straight, along the line between two points.
     pub fn is_straight(&self) -> bool {
-        self.name == GUY || self.gives("at")
+        self.name == GUY || self.gives("at") || self.gives("repulsion")
     }
 
     /// Returns true if it has a property of that name.

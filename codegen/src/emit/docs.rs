@@ -4,7 +4,7 @@ use super::Emission;
 use super::doc_text::doc_lines;
 use crate::functions::{Argument, Purpose};
 use crate::program::{Entry, Rounding};
-use crate::scene::{Reduction, Solve};
+use crate::scene::{DescribedLinePotential, Reduction, Solve};
 use proc_macro2::TokenStream;
 
 impl Emission<'_> {
@@ -16,11 +16,21 @@ impl Emission<'_> {
 
     /// The state of potential energy zero, for docs.
     pub(super) fn zero_of_potential(&self) -> &'static str {
-        match self.has_rest_angles() {
-            true => {
+        let mut stored = self
+            .scene
+            .translational
+            .iter()
+            .flat_map(|own| &own.potentials);
+        let repels = stored.any(|own| matches!(own, DescribedLinePotential::InversePower { .. }));
+        match (self.has_rest_angles(), repels) {
+            (_, true) => {
+                "that of gravity zero where all are zero, that of springs where they are at rest, \
+                 that of repulsions at infinite distances"
+            }
+            (true, false) => {
                 "that of gravity zero where all are zero, that of springs where they are at rest"
             }
-            false => "zero where all are zero",
+            (false, false) => "zero where all are zero",
         }
     }
 

@@ -64,8 +64,8 @@ pub(super) struct Derivation<'s> {
     pub(super) composites: BTreeMap<SymbolId, CompositeObservable>,
     /// K and U of a frame of which symbols alone are derived.
     pub(super) energies: Option<EnergySymbols>,
-    /// Derivatives that are symbols of their own: function, variable, slope.
-    pub(super) given_slopes: BTreeMap<(SymbolId, SymbolId), SymbolId>,
+    /// Derivatives in other symbols than those that the meaning has: function, variable, slope.
+    pub(super) given_slopes: BTreeMap<(SymbolId, SymbolId), Formula>,
 }
 
 impl<'s> Derivation<'s> {
@@ -272,8 +272,8 @@ impl<'s> Derivation<'s> {
     /// ∂/∂(coordinate or velocity) of a symbol that stands for a function, if it depends
     /// on it.
     pub(super) fn slope(&self, symbol: SymbolId, coordinate: SymbolId) -> Option<Formula> {
-        if let Some(&slope) = self.given_slopes.get(&(symbol, coordinate)) {
-            return Some(Formula::symbol(slope));
+        if let Some(slope) = self.given_slopes.get(&(symbol, coordinate)) {
+            return Some(slope.clone());
         }
         if let Some(joint) = self.joints.get(&symbol) {
             return joint.slope(coordinate);

@@ -24,6 +24,17 @@ pub(super) fn dissipated(friction: &Formula, rate: &Formula) -> Formula {
     half(&(friction * &rate.pow(2)))
 }
 
+/// Energy A/ℓⁿ of a force by a power of the distance, and its push over the distance, n A/ℓⁿ⁺²,
+/// given the powers of ℓ.
+pub(super) fn inverse_power(
+    strength: &Formula,
+    exponent: i32,
+    distance_to: impl Fn(i32) -> Formula,
+) -> [Formula; 2] {
+    let push = &Formula::integer(exponent.into()) * &distance_to(-exponent - 2);
+    [strength * &distance_to(-exponent), strength * &push]
+}
+
 fn half(formula: &Formula) -> Formula {
     &Formula::integer(2).pow(-1) * formula
 }

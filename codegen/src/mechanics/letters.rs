@@ -46,6 +46,11 @@ pub(super) const STRAIGHT_SPRING: Letter = letter("straight_spring", "K", "K", "
 pub(super) const REST_LENGTH: Letter = letter("rest_length", "L", "L", "m");
 pub(super) const STRAIGHT_FRICTION: Letter = letter("straight_friction", "γ", "\\gamma", "N s/m");
 
+/// The strength of a repulsion, whose unit depends on the exponent.
+pub(super) const fn repulsion(unit: &'static str) -> Letter {
+    letter("repulsion", "A", "A", unit)
+}
+
 impl Derivation<'_> {
     /// A constant of an orbit, of one and another above it, or of what acts between links,
     /// named by a letter.

@@ -1,18 +1,17 @@
-//! Lines of straight springs and dampers (physics §19): their length, its slopes and its rate are
-//! symbols of their own, so that no small stretch is formed of large products.
+//! Lines of straight springs, repulsions and dampers (physics §19): their length, its slopes and its
+//! rate are symbols of their own, so that no small stretch is formed of large products.
 //!
 //! ```text
 //! Δ = d₀ + Σ R(θ_i) r_i      N_i = Δ·∂Δ/∂θ_i      ℓ = |Δ|      J_i = ∂ℓ/∂θ_i = N_i/ℓ
-//! U = ½ K s², s = ℓ − L      R = ½ γ ℓ̇², ℓ̇ = Σ J_i ω_i
+//! R = ½ γ ℓ̇², ℓ̇ = Σ J_i ω_i
 //! ```
-//!
-//! A spring without length at rest has U = K q with q = ½ Δ·Δ, whose slopes are N_i: no root.
 
 use super::algebra::Formula;
 use super::derivation::Derivation;
 use super::expression::{Expr, Role, SymbolId};
-use super::laws::{dissipated, stored};
+use super::laws::dissipated;
 use super::letters;
+use super::line_potentials::square_of_length;
 use super::meaning::{DerivedLine, DerivedLineSymbol, LineMeaning};
 use crate::scene::{
     DescribedTranslationalSpringDamper, LineEnds, LinkId, Scene, SpringDamperEnds, SpringLine,
@@ -31,7 +30,7 @@ pub struct LineTorque {
 impl Scene {
     /// Names of what a straight spring is between, by which its constants are called; a number
     /// besides where one before is between the same.
-    fn straight_names(&self, index: usize) -> Vec<String> {
+    pub(super) fn straight_names(&self, index: usize) -> Vec<String> {
         let name = |LinkId(link): &LinkId| self.links[*link].name.clone();
         let ends = |own: &DescribedTranslationalSpringDamper| match &own.ends {
             LineEnds::Links(SpringDamperEnds::Links(links), _) => links.each_ref().map(name),
@@ -77,14 +76,14 @@ impl Derivation<'_> {
                 .filter(|own| own.line.links == line.links);
             let names = numbered(names, before.count());
             let mut line = self.line(line, names, angles);
-            self.pull_of_spring(&mut line);
+            self.pulls_of_potentials(&mut line);
             self.pull_of_damper(&mut line, velocities);
             self.lines.list.push(line);
         }
     }
 
     /// A symbol of a line with its meaning.
-    fn line_symbol(
+    pub(super) fn line_symbol(
         &mut self,
         letters: [&str; 3],
         names: &[String],
@@ -159,7 +158,7 @@ impl Derivation<'_> {
     }
 
     /// ℓ and J_i, named when they are asked for first.
-    fn length(&mut self, line: &mut DerivedLine) -> (SymbolId, Vec<SymbolId>) {
+    pub(super) fn length(&mut self, line: &mut DerivedLine) -> (SymbolId, Vec<SymbolId>) {
         if let Some(known) = &line.length {
             return known.clone();
         }
@@ -175,7 +174,7 @@ impl Derivation<'_> {
             &format!("√({x}² + {y}²)"),
             &format!("\\sqrt{{{latex_x}^2 + {latex_y}^2}}"),
         );
-        let square = &Formula::symbol(dx).pow(2) + &Formula::symbol(dy).pow(2);
+        let square = square_of_length(line);
         let root = LineMeaning::Root { square, shown };
         let coordinates = line.coordinates.clone();
         let letters = ["length", "ℓ", "\\ell"];
@@ -188,58 +187,25 @@ impl Derivation<'_> {
             let slope = self.line_symbol(["length_slope", "J", "J"], &of_link, slope, &coordinates);
             slopes.push(slope);
         }
-        self.give_slopes(length, &coordinates, &slopes);
+        self.give_slopes(
+            length,
+            &coordinates,
+            slopes.iter().copied().map(Formula::symbol),
+        );
         line.length = Some((length, slopes.clone()));
         (length, slopes)
     }
 
-    /// Notes the derivatives of a symbol that are symbols of their own.
-    fn give_slopes(&mut self, symbol: SymbolId, variables: &[SymbolId], slopes: &[SymbolId]) {
-        for (&variable, &slope) in variables.iter().zip(slopes) {
+    /// Notes the derivatives of a symbol in other symbols than those of its meaning.
+    pub(super) fn give_slopes(
+        &mut self,
+        symbol: SymbolId,
+        variables: &[SymbolId],
+        slopes: impl IntoIterator<Item = Formula>,
+    ) {
+        for (&variable, slope) in variables.iter().zip(slopes) {
             self.given_slopes.insert((symbol, variable), slope);
         }
-    }
-
-    fn pull_of_spring(&mut self, line: &mut DerivedLine) {
-        let (scene, index) = (self.scene, line.line.spring_damper);
-        let own = &scene.translational[index];
-        if own.spring.is_zero() {
-            return;
-        }
-        let constants = scene.straight_names(index);
-        let meaning = format!("stiffness of the straight spring of `{}`", own.what);
-        let value = self.quantity(&own.spring);
-        let stiffness = self.lettered(letters::STRAIGHT_SPRING, &constants, &meaning, value);
-        let coordinates = line.coordinates.clone();
-        let (strain, slopes) = match own.rest.is_zero() {
-            true => {
-                let [dx, dy] = line.offset.map(Formula::symbol);
-                let square = &dx.pow(2) + &dy.pow(2);
-                let half = &Formula::integer(2).pow(-1) * &square;
-                (("half_square", "q", "q", half), line.moments.clone())
-            }
-            false => {
-                let (length, slopes) = self.length(line);
-                let meaning = format!("length at rest of the spring of `{}`", own.what);
-                let value = self.quantity(&own.rest);
-                let rest = self.lettered(letters::REST_LENGTH, &constants, &meaning, value);
-                (
-                    ("stretch", "s", "s", &Formula::symbol(length) - &rest),
-                    slopes,
-                )
-            }
-        };
-        let (code, text, latex, strain) = strain;
-        let strain = LineMeaning::Formula(strain);
-        let strain = self.line_symbol([code, text, latex], &line.names, strain, &coordinates);
-        self.give_slopes(strain, &coordinates, &slopes);
-        let strain = Formula::symbol(strain);
-        let (energy, pull) = match own.rest.is_zero() {
-            true => (&stiffness * &strain, stiffness),
-            false => (stored(&stiffness, &strain), &stiffness * &strain),
-        };
-        self.lines.energy = &self.lines.energy + &energy;
-        line.pulls.push((pull, slopes));
     }
 
     fn pull_of_damper(&mut self, line: &mut DerivedLine, velocities: &[SymbolId]) {
@@ -262,7 +228,7 @@ impl Derivation<'_> {
         let coordinates = line.coordinates.clone();
         let letters = ["length_rate", "ℓ̇", "\\dot\\ell"];
         let rate = self.line_symbol(letters, &line.names, rate, &coordinates);
-        self.give_slopes(rate, &rates, &slopes);
+        self.give_slopes(rate, &rates, slopes.iter().copied().map(Formula::symbol));
         let rate = Formula::symbol(rate);
         self.lines.losses.push(dissipated(&friction, &rate));
         line.pulls.push((&friction * &rate, slopes));

@@ -166,7 +166,7 @@ pub(super) struct DerivedLine {
     pub(super) moments: Vec<SymbolId>,
     /// ℓ, and J_i of the arms.
     pub(super) length: Option<(SymbolId, Vec<SymbolId>)>,
-    /// Pull and slopes of the spring, and of the damper.
+    /// Pulls and slopes of what stores energy, and of the damper.
     pub(super) pulls: Vec<(Formula, Vec<SymbolId>)>,
 }
 
@@ -174,7 +174,7 @@ pub(super) struct DerivedLine {
 pub(super) struct DerivedLines {
     pub(super) list: Vec<DerivedLine>,
     pub(super) symbols: BTreeMap<SymbolId, DerivedLineSymbol>,
-    /// Energy of all straight springs.
+    /// Energy that all lines store.
     pub(super) energy: Formula,
     /// Terms of Rayleigh's function of straight dampers.
     pub(super) losses: Vec<Formula>,

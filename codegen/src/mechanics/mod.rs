@@ -24,6 +24,7 @@ mod joint_forces;
 mod lagrangian;
 mod laws;
 mod letters;
+mod line_potentials;
 mod lines;
 mod link;
 mod link_pairs;

@@ -43,6 +43,7 @@ impl Derivation<'_> {
                 },
             );
             for (&coordinate, &slope) in frame.coordinates.iter().zip(&slopes) {
+                let slope = Formula::symbol(slope);
                 self.given_slopes.insert((symbol, coordinate), slope);
             }
             (symbol, slopes)
@@ -51,6 +52,7 @@ impl Derivation<'_> {
         let (potential, potential_slopes) = energy("potential_energy", "U");
         // ∂K/∂v_i = p_i
         for (&velocity, &momentum) in frame.velocities.iter().zip(&frame.momenta) {
+            let momentum = Formula::symbol(momentum);
             self.given_slopes.insert((kinetic, velocity), momentum);
         }
         let energies = EnergySymbols {

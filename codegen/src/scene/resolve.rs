@@ -204,14 +204,19 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
     }
     let lines = scene.lines();
     for (index, (clause, own)) in clauses.into_iter().zip(&scene.translational).enumerate() {
-        let (span, what) = (clause.name.span(), || own.what.clone());
+        let span = clause.name.span();
         if let Some((_, request)) = refused.iter().find(|(is_wanted, _)| *is_wanted) {
-            let (what, request) = (what(), *request);
-            report.error(span, OutputMessage::StraightSpring { what, request });
+            let message = OutputMessage::StraightSpring {
+                line: own.in_words(),
+                noun: own.noun(),
+                request,
+            };
+            report.error(span, message);
         }
         let mut lines = lines.iter().filter(|line| line.spring_damper == index);
         if lines.any(SpringLine::is_rigid) {
-            report.error(span, TreeMessage::RigidLine { what: what() });
+            let what = own.what.clone();
+            report.error(span, TreeMessage::RigidLine { what });
         }
     }
 }
@@ -222,11 +227,11 @@ fn check_straight_in_loops(description: &Description, scene: &Scene, report: &mu
     let clause = clauses.find(|own| own.is_straight());
     if let (Some(clause), Some(own), true) = (clause, scene.translational.first(), scene.in_loops())
     {
-        let what = own.what.clone();
-        report.error(
-            clause.name.span(),
-            OutputMessage::StraightSpringInLoops { what },
-        );
+        let message = OutputMessage::StraightSpringInLoops {
+            line: own.in_words(),
+            noun: own.noun(),
+        };
+        report.error(clause.name.span(), message);
     }
 }
 

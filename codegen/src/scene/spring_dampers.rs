@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use super::bodies::{COMMON, Dimension, GivenProperties};
 use super::expand::ExpandedTree;
 use super::layout::Layout;
+use super::line_properties::{LineProperties, line_properties};
 use super::link_pairs::{LinkPair, SpringDamperEnds};
 use super::passive::{PassiveTorques, check_idle, known_once};
 use super::prescribed::LinkNames;
 use super::properties::evaluate;
-use super::translational::{DescribedTranslationalSpringDamper, LineProperties, line_properties};
+use super::translational::DescribedTranslationalSpringDamper;
 use super::values::Values;
 use super::{Coordinate, CoordinateKind, LinkId, OrbitId, Quantity, Reduction, Scene, WholeNode};
 use crate::description::{BETWEEN, Description, GUY, SIBLINGS, SpringDamperClause, Value};
@@ -277,7 +278,12 @@ fn straight(
         (!reductions.locked.is_empty(), "locked"),
     ];
     if let Some((_, reduction)) = merged.into_iter().find(|(is_there, _)| *is_there) {
-        let message = TreeMessage::StraightSpringInReduction { what, reduction };
+        let noun = line.noun();
+        let message = TreeMessage::StraightSpringInReduction {
+            what,
+            noun,
+            reduction,
+        };
         report.error(clause.name.span(), message);
         return None;
     }

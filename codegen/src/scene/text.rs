@@ -137,8 +137,7 @@ impl Scene {
         let DescribedTranslationalSpringDamper {
             what,
             ends,
-            spring,
-            rest,
+            potentials,
             friction,
         } = own;
         let shown = |quantity: &Quantity| quantity.display(&self.parameters).to_string();
@@ -158,11 +157,8 @@ impl Scene {
                 )?;
             }
         }
-        for (name, value, unit) in [
-            ("spring", spring, "N/m"),
-            ("rest", rest, "m"),
-            ("friction", friction, "N s/m"),
-        ] {
+        let stored = potentials.iter().flat_map(|own| own.quantities());
+        for (name, value, unit) in stored.chain([("friction", friction, "N s/m")]) {
             if !value.is_zero() {
                 write!(f, ", {name} {} {unit}", shown(value))?;
             }

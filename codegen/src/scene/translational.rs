@@ -1,28 +1,20 @@
-//! Translational spring-dampers: straight springs and dampers between points of links, and guys
-//! from a link to the ground.
+//! Translational spring-dampers: straight springs, forces by a power of the distance and dampers
+//! between points of links, and guys from a link to the ground.
 
 use std::collections::BTreeMap;
 
-use super::bodies::{Dimension, optional};
 use super::link_pairs::SpringDamperEnds;
-use super::passive::{check_rest, known_once};
-use super::properties::evaluate;
-use super::values::{Usage, Values};
-use super::{Layout, Link, LinkId, Offset, Quantity, Scene, Sign};
-use crate::description::{BETWEEN, GUY, Property, SpringDamperClause, Value};
-use crate::report::{Faults, TreeMessage, ValueMessage};
+use super::{DescribedLinePotential, Layout, Link, LinkId, Offset, Quantity, Scene};
 
-/// A straight spring and a viscous damper along the line between two points.
+/// What stores energy by the length of the line between two points, and a viscous damper along it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DescribedTranslationalSpringDamper {
     /// The clause in words, as in `between(a, b)`.
     pub what: String,
     /// The points.
     pub ends: LineEnds,
-    /// Stiffness κ of the spring, N/m.
-    pub spring: Quantity,
-    /// Length L₀ of the spring at rest, m.
-    pub rest: Quantity,
+    /// Terms of the energy that the line stores.
+    pub potentials: Vec<DescribedLinePotential>,
     /// Viscous friction c of the damper, N s/m.
     pub friction: Quantity,
 }
@@ -37,6 +29,20 @@ pub enum LineEnds {
 }
 
 impl DescribedTranslationalSpringDamper {
+    /// What acts along the line: a "spring", or a "repulsion" alone.
+    pub fn noun(&self) -> &'static str {
+        DescribedLinePotential::noun(&self.potentials)
+    }
+
+    /// The same with its clause, as in "straight spring `between(a, b)`".
+    pub fn in_words(&self) -> String {
+        let straight = match self.noun() {
+            "spring" => "straight ",
+            _ => "",
+        };
+        format!("{straight}{} `{}`", self.noun(), self.what)
+    }
+
     /// Components of the points.
     pub fn places(&self) -> [&Quantity; 4] {
         match &self.ends {
@@ -189,168 +195,5 @@ impl Scene {
         });
         arms.filter(|(_, arm)| !(arm.along.is_zero() && arm.lateral.is_zero()))
             .collect()
-    }
-}
-
-/// Properties of a straight spring and damper.
-const PROPERTIES: &[Dimension] = &[
-    optional("at", "m", Sign::Any),
-    optional("to", "m", Sign::Any),
-    optional("spring", "N/m", Sign::NonNegative),
-    optional("rest", "m", Sign::NonNegative),
-    optional("friction", "N s/m", Sign::NonNegative),
-];
-
-/// Properties that a clause may have.
-fn dimensions(clause: &SpringDamperClause) -> impl Iterator<Item = &'static Dimension> {
-    let is_guy = clause.name == GUY;
-    let known = PROPERTIES.iter();
-    known.filter(move |known| known.name != "to" || is_guy)
-}
-
-/// The properties of a straight spring and damper.
-#[derive(Default)]
-pub(super) struct LineProperties {
-    /// Points of the links, one or two.
-    at: Vec<Offset>,
-    to: Option<[Quantity; 2]>,
-    spring: Option<Quantity>,
-    rest: Option<Quantity>,
-    friction: Option<Quantity>,
-}
-
-/// Reads the properties of a clause; what is wrong goes to `report`.
-pub(super) fn line_properties(
-    clause: &SpringDamperClause,
-    what: &str,
-    values: &mut Values,
-    report: &mut Faults,
-) -> LineProperties {
-    let mut given = LineProperties::default();
-    let known: Vec<&Dimension> = dimensions(clause).collect();
-    let body = format!("a straight `{}`", clause.name);
-    for (known, property) in known_once(&clause.properties, &known, body, report) {
-        let one = |property: &Property, values: &mut Values, report: &mut Faults| {
-            if let Value::Each { span, .. } = &property.value {
-                report.error(*span, ValueMessage::EachWithoutCopies);
-                return None;
-            }
-            evaluate(known, property, what, values, report)
-        };
-        match known.name {
-            "at" => given.at = points(property, known, clause, what, values, report),
-            "to" => given.to = peg(property, what, values, report),
-            "spring" => given.spring = one(property, values, report).map(|own| own.along),
-            "rest" => given.rest = one(property, values, report).map(|own| own.along),
-            _ => given.friction = one(property, values, report).map(|own| own.along),
-        }
-    }
-    if clause.damaged {
-        return given;
-    }
-    check_rest(&clause.properties, what, "N/m", report);
-    if !clause.gives("spring") && !clause.gives("friction") {
-        let what = what.to_owned();
-        report.error(clause.name.span(), TreeMessage::IdleStraightSpring { what });
-    }
-    for name in ["at", "to"] {
-        if clause.name == GUY && !clause.gives(name) {
-            let (link, body) = (what.to_owned(), "a `guy`".to_owned());
-            let message = TreeMessage::MissingProperty { name, link, body };
-            report.error(clause.name.span(), message);
-        }
-    }
-    given
-}
-
-/// The points of `at`: one, or `each(...)` with one for each of two links.
-fn points(
-    property: &Property,
-    known: &Dimension,
-    clause: &SpringDamperClause,
-    what: &str,
-    values: &mut Values,
-    report: &mut Faults,
-) -> Vec<Offset> {
-    let Value::Each {
-        values: points,
-        span,
-    } = &property.value
-    else {
-        return Vec::from_iter(evaluate(known, property, what, values, report));
-    };
-    if clause.name != BETWEEN || points.len() != 2 {
-        let what = what.to_owned();
-        report.error(*span, TreeMessage::NotTwoPoints { what });
-        return Vec::new();
-    }
-    let points = points.iter().filter_map(|point| {
-        let property = Property {
-            value: point.clone(),
-            ..property.clone()
-        };
-        evaluate(known, &property, what, values, report)
-    });
-    points.collect()
-}
-
-/// The place that a guy is tied to.
-fn peg(
-    property: &Property,
-    what: &str,
-    values: &mut Values,
-    report: &mut Faults,
-) -> Option<[Quantity; 2]> {
-    let Value::Pair(x, y) = &property.value else {
-        report.error(property.name.span(), TreeMessage::NotAPeg);
-        return None;
-    };
-    let mut at = |axis: &str, value| {
-        let usage = Usage {
-            what: format!("{axis} of the peg of `{what}`"),
-            unit: "m",
-            sign: Sign::Any,
-        };
-        values.evaluate(value, &usage, report)
-    };
-    let (x, y) = (at("x", x), at("y", y));
-    Some([x?, y?])
-}
-
-impl LineProperties {
-    /// The spring between points of these links.
-    pub(super) fn between(
-        self,
-        what: String,
-        ends: SpringDamperEnds,
-    ) -> Option<DescribedTranslationalSpringDamper> {
-        let mut points = self.at.iter().cloned().cycle();
-        let points = [points.next()?, points.next()?];
-        Some(self.spring_damper(what, LineEnds::Links(ends, points)))
-    }
-
-    /// The guy of a link.
-    pub(super) fn guy(
-        self,
-        what: String,
-        link: LinkId,
-    ) -> Option<DescribedTranslationalSpringDamper> {
-        let (at, to) = (self.at.first()?.clone(), self.to.clone()?);
-        Some(self.spring_damper(what, LineEnds::Guy(link, at, to)))
-    }
-
-    fn spring_damper(self, what: String, ends: LineEnds) -> DescribedTranslationalSpringDamper {
-        let or_zero = |value: Option<Quantity>| value.unwrap_or_else(Quantity::zero);
-        let spring = or_zero(self.spring);
-        DescribedTranslationalSpringDamper {
-            what,
-            ends,
-            rest: match spring.is_zero() {
-                true => Quantity::zero(),
-                false => or_zero(self.rest),
-            },
-            spring,
-            friction: or_zero(self.friction),
-        }
     }
 }

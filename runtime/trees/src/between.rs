@@ -5,9 +5,9 @@ use std::hash::Hash;
 use branched_pendulum::scalar::Scalar;
 use branched_pendulum::spring_dampers::SpringDampers;
 use branched_pendulum::translational::{
-    LineArm, TranslationalSpringDamper, TranslationalSpringDampers,
+    LineArm, LinePotential, TranslationalSpringDamper, TranslationalSpringDampers,
 };
-use branched_pendulum_codegen::scene::{LinkId, Quantity, Scene};
+use branched_pendulum_codegen::scene::{DescribedLinePotential, LinkId, Quantity, Scene};
 
 use crate::numbers::{self, value};
 
@@ -45,10 +45,7 @@ impl<T: Scalar> Between<T> {
         let torsional: Vec<_> = torsional
             .map(|own| (own.links, own.law.is_some()))
             .collect();
-        let translational = self.translational.iter().map(|own| {
-            let links: Vec<usize> = own.arms.iter().map(|arm| arm.link).collect();
-            (links, own.rest.is_some(), own.friction.is_some())
-        });
+        let translational = self.translational.iter().map(|own| own.map(|_| ()));
         (torsional, translational.collect::<Vec<_>>())
     }
 
@@ -88,6 +85,18 @@ impl<T: Scalar> Between<T> {
 fn straight<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<TranslationalSpringDamper<S>> {
     let at = |quantity: &Quantity| value(quantity, parameters);
     let given = |quantity: &Quantity| (!quantity.is_zero()).then(|| at(quantity));
+    let potential = |own: &DescribedLinePotential| match own {
+        DescribedLinePotential::Spring { stiffness, rest } => LinePotential::Spring {
+            stiffness: at(stiffness),
+            rest: given(rest),
+        },
+        DescribedLinePotential::InversePower { strength, exponent } => {
+            LinePotential::InversePower {
+                strength: at(strength),
+                exponent: *exponent,
+            }
+        }
+    };
     let lines = scene.lines().into_iter().filter_map(|line| {
         let own = scene.translational.get(line.spring_damper)?;
         let arms = line.arms.iter().map(|(LinkId(link), arm)| LineArm {
@@ -98,8 +107,7 @@ fn straight<S: Scalar>(scene: &Scene, parameters: &[S]) -> Vec<TranslationalSpri
         Some(TranslationalSpringDamper {
             arms: arms.collect(),
             offset: line.offset.each_ref().map(at),
-            spring: at(&own.spring),
-            rest: given(&own.rest),
+            potentials: own.potentials.iter().map(potential).collect(),
             friction: given(&own.friction),
         })
     });

@@ -67,13 +67,13 @@ pub enum TreeError {
     CoupledSectors,
     /// Energies of sectors, or what is made of them, of a tree with straight springs.
     #[error(
-        "symmetric coordinates know no lengths between points, and the tree has the straight spring \
-         `{what}`: write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or \
+        "symmetric coordinates know no lengths between points, and the tree has the {line}: \
+         write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or \
          watch an energy of your own by `observe(...)`"
     )]
     StraightSpring {
-        /// The clause, as in `between(a, b)`.
-        what: String,
+        /// What acts along the line with its clause, as in "straight spring `between(a, b)`".
+        line: String,
     },
     /// Symmetric coordinates, or what is made of them, of a tree without copies.
     #[error(

@@ -69,7 +69,8 @@ pub enum ParameterUse {
     CoulombFriction,
     /// Friction that grows with the square of the rate.
     QuadraticFriction,
-    /// A spring's stiffness, or its angle or length at rest, or the width of a law of friction.
+    /// A spring's stiffness, or its angle or length at rest, or the strength of a repulsion, or the
+    /// width of a law of friction.
     Joint,
     /// The drive.
     Drive,
@@ -269,14 +270,16 @@ impl TreeDescription {
 }
 
 /// Returns whether quantities of straight springs have that property: where they are tied, what
-/// their dampers take, and what their springs are.
+/// their dampers take, and what stores their energy.
 fn straight_uses(
     all: &[DescribedTranslationalSpringDamper],
     is_one: impl Fn(&Quantity) -> bool,
 ) -> [bool; 3] {
+    let stored = all.iter().flat_map(|own| &own.potentials);
+    let mut stored = stored.flat_map(|own| own.quantities());
     [
         all.iter().any(|own| own.places().into_iter().any(&is_one)),
         all.iter().any(|own| is_one(&own.friction)),
-        (all.iter()).any(|own| is_one(&own.spring) || is_one(&own.rest)),
+        stored.any(|(_, quantity, _)| is_one(quantity)),
     ]
 }

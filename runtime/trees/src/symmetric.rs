@@ -120,7 +120,7 @@ fn symmetric<T: Scalar>(
     match (symmetry.has_copies, description.scene.translational.first()) {
         (false, _) => Err(TreeError::NoCopies),
         (true, Some(own)) => Err(TreeError::StraightSpring {
-            what: own.what.clone(),
+            line: own.in_words(),
         }),
         (true, None) => unchecked(description, values, symmetry),
     }

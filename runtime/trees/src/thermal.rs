@@ -36,7 +36,7 @@ impl PendulumTree<f64> {
         for own in &mut scene.translational {
             own.friction = Quantity::zero();
         }
-        scene.translational.retain(|own| !own.spring.is_zero());
+        scene.translational.retain(|own| !own.potentials.is_empty());
         let scene = Arc::new(scene);
         Self::of(TreeDescription { scene }, self.described.values().to_vec())
     }

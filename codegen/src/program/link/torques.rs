@@ -103,7 +103,7 @@ impl Lowering<'_> {
         torques
     }
 
-    /// Adds −(K s + γ ℓ̇) ∂ℓ/∂θ_i of each line.
+    /// Adds −(dU/dℓ + γ ℓ̇) ∂ℓ/∂θ_i of each line.
     fn line_torques(
         &mut self,
         scene: &Scene,

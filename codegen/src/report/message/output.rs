@@ -47,20 +47,22 @@ messages! {
          one link, or watch an energy of your own by `observe(...)`",
     ),
     /// An output that straight springs are not part of.
-    StraightSpring { what: String, request: &'static str } => (
-        format!("`{request}` beside the straight spring `{what}`"),
+    StraightSpring { line: String, noun: &'static str, request: &'static str } => (
+        format!("`{request}` beside the {line}"),
         format!("not part of `{request}`"),
         format!(
             "leave `{request}` out, since symmetric coordinates know no lengths between points; or \
              write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or hand \
-             over the spring's forces by `emit(positions, forces)`"
+             over the {noun}'s forces by `emit(positions, forces)`"
         ),
     ),
     /// A straight spring in loops.
-    StraightSpringInLoops { what: String } => (
-        format!("the straight spring `{what}` in a tree that is taken through loops"),
+    StraightSpringInLoops { line: String, noun: &'static str } => (
+        format!("the {line} in a tree that is taken through loops"),
         "loops know no points of other links",
-        "write `code = unrolled`, or hand over the spring's forces by `emit(positions, forces)`",
+        format!(
+            "write `code = unrolled`, or hand over the {noun}'s forces by `emit(positions, forces)`"
+        ),
     ),
     /// A form of the budget beside `scales` that loops do not have.
     BesideScales => (

@@ -217,11 +217,26 @@ messages! {
         "nothing acts",
         "write `spring = ...` in N m or `friction = ...` in N m s behind the links",
     ),
-    /// A straight spring-damper with neither spring nor friction.
+    /// A line along which nothing acts.
     IdleStraightSpring { what: String } => (
         format!("`{what}` has neither spring nor friction"),
         "nothing acts",
-        "write `spring = ...` in N/m or `friction = ...` in N s/m behind the links",
+        "write `spring = ...` in N/m, `friction = ...` in N s/m, or `repulsion = ...` and its \
+         `exponent = ...` behind the links",
+    ),
+    /// A power of the distance without a law that has one.
+    IdleExponent { what: String } => (
+        format!("`{what}` has an exponent, but no repulsion"),
+        "a power of no law",
+        "add `repulsion = ...`, the strength A of the energy A/ℓⁿ at the distance ℓ, or leave \
+         `exponent` out",
+    ),
+    /// A power of the distance that no law has.
+    NotAnExponent { what: String, largest: u32 } => (
+        format!("the exponent of `{what}` is not a whole number from 1 to {largest}"),
+        "not such a number",
+        "write the power n of the energy A/ℓⁿ at the distance ℓ as a number, as in \
+         `repulsion = 1e-5, exponent = 3` for dipoles across the plane",
     ),
     /// Points of a straight spring that are not one for each link.
     NotTwoPoints { what: String } => (
@@ -244,11 +259,11 @@ messages! {
          `guy(mast, at = 0.3, to = (0.4, 0), spring = 60, rest = 0.5)`",
     ),
     /// A straight spring beside links that do not move by themselves.
-    StraightSpringInReduction { what: String, reduction: &'static str } => (
+    StraightSpringInReduction { what: String, noun: &'static str, reduction: &'static str } => (
         format!("`{what}` between points beside `{reduction}(...)`"),
         "no points of links that are merged",
         format!(
-            "leave `{reduction}(...)` out, or hand over the spring's forces by \
+            "leave `{reduction}(...)` out, or hand over the {noun}'s forces by \
              `emit(positions, forces)`"
         ),
     ),
@@ -295,6 +310,7 @@ messages! {
 fn unit_note(name: &str) -> &'static str {
     match name {
         "mass" | "bob_mass" => ", in kg",
+        "exponent" => ", the power n of the energy A/ℓⁿ at the distance ℓ",
         "inertia" => ", in kg m² about the centre of mass",
         "com" => ", in m from its pivot",
         "length" | "width" | "radius" => ", in m",

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use branched_pendulum::Positions;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Model;
+use branched_pendulum::translational::LinePotential;
 use branched_pendulum_charts::{Film, verbatim};
 use branched_pendulum_trees::PendulumTree;
 use clap::Parser;
@@ -146,11 +147,7 @@ fn straight(tree: &PendulumTree) -> String {
         if place == 0 {
             text.push_str("\nbetween points\n");
         }
-        let mut parts = Vec::new();
-        if own.spring != 0.0 {
-            let rest = own.rest.unwrap_or(0.0);
-            parts.push(format!("spring {} N/m, at rest at {rest} m", own.spring));
-        }
+        let mut parts: Vec<String> = own.potentials.iter().filter_map(stored).collect();
         if let Some(friction) = own.friction.filter(|friction| *friction != 0.0) {
             parts.push(format!("friction {friction} N s/m"));
         }
@@ -161,6 +158,19 @@ fn straight(tree: &PendulumTree) -> String {
         let _ = writeln!(text, "  {what}: {}", parts.join("; "));
     }
     text
+}
+
+/// A law of the energy that a line stores; none for a strength of zero.
+fn stored(potential: &LinePotential<f64>) -> Option<String> {
+    match *potential {
+        LinePotential::Spring { stiffness, rest } => (stiffness != 0.0).then(|| {
+            let rest = rest.unwrap_or(0.0);
+            format!("spring {stiffness} N/m, at rest at {rest} m")
+        }),
+        LinePotential::InversePower { strength, exponent } => {
+            (strength != 0.0).then(|| format!("repulsion {strength} J m^{exponent}"))
+        }
+    }
 }
 
 /// Parameters with their values, and sectors where there are copies.

@@ -51,14 +51,16 @@ fn straight_springs_are_described_and_taken() {
     let text =
         "gravity = 9.8, a: rod(mass = 0.1, length = 0.2) [b: rod(mass = 0.1, length = 0.2) * 2],
         guy(a, at = 0.2, to = (0.3, 0), spring = k, rest = 0.1, friction = 0.2),
-        siblings(b, at = 0.1, spring = 2)";
+        siblings(b, at = 0.1, spring = 2), between(a, b_1, at = 0.1, repulsion = m, exponent = 3)";
     let tree = folder.file("tree.txt", text);
-    let tree = ["--tree", &tree, "--set", "k=3"];
+    let tree = ["--tree", &tree, "--set", "k=3", "--set", "m=1e-5"];
     let printed = folder.answer(&[&["describe"][..], &tree].concat());
     for line in [
         "between points\n  guy(a): spring 3 N/m, at rest at 0.1 m; friction 0.2 N s/m\n",
         "  siblings(b): spring 2 N/m, at rest at 0 m\n",
+        "  between(a, b_1): repulsion 0.00001 J m^3\n",
         "k = 3: spring of `guy(a)`, N/m",
+        "m = 0.00001: repulsion of `between(a, b_1)`, J m³",
     ] {
         assert!(printed.contains(line), "{line}: {printed}");
     }

@@ -128,7 +128,7 @@ fn systems_of_a_tree_go_to_other_scalars() {
 }
 
 /// Trees whose constants alone would not tell them apart share no lanes: another drive, other
-/// links that are held, another side that is up.
+/// links that are held, another side that is up, another power of the distance.
 #[test]
 fn trees_that_differ_in_more_than_constants_share_no_lanes() {
     let tree = |gravity: f64, more: &str| {
@@ -147,6 +147,10 @@ fn trees_that_differ_in_more_than_constants_share_no_lanes() {
     let lifted = "drive(y = 0.1 * sin(3 * t))";
     refused([tree(9.81, lifted), tree(-9.81, lifted)]);
     refused([tree(9.81, "prescribed(a)"), tree(9.81, "prescribed(b)")]);
+    let [charge, magnet] = [1, 3].map(|exponent| {
+        format!("guy(b, at = 0.2, to = (1, 0), repulsion = 1e-3, exponent = {exponent})")
+    });
+    refused([tree(9.81, &charge), tree(9.81, &magnet)]);
     // One tree, of which other sets are held.
     let tree = tree(9.81, "prescribed(a), prescribed(b)");
     let releases: Vec<_> = (0..2)

@@ -76,15 +76,17 @@ const TREES: [(&str, &[usize]); 14] = [
         between(trunk, hand_3, spring = 0.1, rest = 0.2, friction = 1e-3)",
         &[1, 3, 5],
     ),
-    // Straight springs: a guy, lines from a link to each copy, and one between copies that is as
-    // long as they are apart.
+    // Straight springs: a guy, lines from a link to each copy, with repulsions, and one between
+    // copies that is as long as they are apart.
     (
         "trunk: rod(mass = 0.4, length = 0.3) [
             arm: rod(mass = 0.2, length = 0.2) [hand: rod(mass = 0.1, length = 0.1)] * 2
         ],
         guy(trunk, at = 0.2, to = (0.4, 0.1), spring = 3, rest = 0.2, friction = 0.1),
-        between(trunk, hand_1, at = each(0.05, 0.1), spring = 2, rest = 0.1, friction = 0.05),
-        between(trunk, hand_2, at = each(0.05, 0.1), spring = 2, rest = 0.1, friction = 0.05),
+        between(trunk, hand_1, at = each(0.05, 0.1), spring = 2, rest = 0.1, friction = 0.05,
+            repulsion = 1e-3, exponent = 3),
+        between(trunk, hand_2, at = each(0.05, 0.1), spring = 2, rest = 0.1, friction = 0.05,
+            repulsion = 1e-3, exponent = 3),
         siblings(arm, at = 0.15, spring = 4)",
         &[1, 3],
     ),

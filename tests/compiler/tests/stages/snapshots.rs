@@ -227,6 +227,29 @@ fn guyed() {
     }
 }
 
+/// Repulsions by an odd and by an even power of the distance, the first beside a spring and a
+/// damper.
+#[test]
+fn repelled() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         mast: rod(mass = 1, length = 1) [ arm: rod(mass = 0.5, length = 0.5) ], \
+         between(mast, arm, at = each(0.3, 0.4), spring = 2, rest = 0.5, friction = c, \
+             repulsion = magnets, exponent = 3), \
+         guy(arm, at = 0.5, to = (0.8, 0), repulsion = -0.02, exponent = 2), \
+         emit(energies, modes))] struct Repelled;",
+    );
+    insta::assert_snapshot!("repelled_description", stages.description.to_string());
+    insta::assert_snapshot!("repelled_scene", stages.scene.to_string());
+    insta::assert_snapshot!("repelled_mechanics", stages.mechanics.to_string());
+    for name in ["accelerations", "potential_energy", "stiffness_matrix"] {
+        insta::assert_snapshot!(
+            format!("repelled_code_{name}"),
+            function(&stages.tokens, name)
+        );
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {

@@ -1,4 +1,4 @@
-//! Straight springs and dampers, and guys: compiled code against trees at run time, and emitted
+//! Straight springs, repulsions and dampers, and guys: compiled code against trees at run time, and emitted
 //! models against the energy along their motions and against each other's series.
 
 use std::f64::consts::PI;
@@ -14,10 +14,11 @@ use crate::support::{Worst, compile};
 
 const STATES: usize = 25;
 
-/// Clauses between random points of links of those names.
+/// Clauses between random points of links of those names. A repulsion stands beside a spring without
+/// length at rest, and beside one with such a length, and an attraction by itself.
 fn clauses(names: &[String], random: &mut Random) -> String {
     let mut text = String::new();
-    for number in 0..3 {
+    for number in 0..4 {
         let first = random.below(names.len());
         let second = (first + 1 + random.below(names.len() - 1)) % names.len();
         let mut point = || {
@@ -34,10 +35,15 @@ fn clauses(names: &[String], random: &mut Random) -> String {
             0 => String::new(),
             _ => format!(", rest = {rest:.3}"),
         };
-        text.push_str(&format!(
-            ", {ends}, spring = {:.3}{rest}, friction = {friction:.3})",
-            20.0 * spring
-        ));
+        let exponent = 1 + random.below(12);
+        let strength = (0.3_f64).powi(exponent as i32) * random.between(0.05, 0.3);
+        let spring = format!(", spring = {:.3}{rest}", 20.0 * spring);
+        let acts = match number {
+            2 => spring,
+            3 => format!(", repulsion = {:e}, exponent = {exponent}", -0.2 * strength),
+            _ => format!("{spring}, repulsion = {strength:e}, exponent = {exponent}"),
+        };
+        text.push_str(&format!(", {ends}{acts}, friction = {friction:.3})"));
     }
     text
 }
@@ -125,7 +131,8 @@ fn functions_are_those_of_trees_at_run_time() {
     canonical.assert_below(1e-10, "rates of momenta");
 }
 
-/// A Y with a guy, a spring and damper across, and one without length at rest.
+/// A Y with a guy, a spring and damper across beside magnets, a spring without length at rest, and an
+/// attraction to a place out of reach.
 #[branched_pendulum(
     gravity = -9.80665,
     mast: rod(mass = 0.3, length = 0.4) [
@@ -136,8 +143,10 @@ fn functions_are_those_of_trees_at_run_time() {
     ],
     guy(mast, at = 0.4, to = (-0.4, 0), spring = stiffness, rest = 0.5),
     guy(mast, at = (0.35, 0.01), to = (0.4, 0), spring = stiffness, rest = 0.5, friction = loss),
-    between(left, right, at = each(0.2, 0.1), spring = 8, rest = 0.1, friction = loss),
+    between(left, right, at = each(0.2, 0.1), spring = 8, rest = 0.1, friction = loss,
+        repulsion = magnets, exponent = 3),
     between(left, tip, at = each(0.1, 0.05), spring = 2),
+    guy(tip, at = 0.1, to = (0.9, 0.3), repulsion = -2 * magnets, exponent = 2),
     emit(energies, forces, momenta, taylor, modes, positions),
     observe(energy = kinetic_energy + potential_energy),
     prescribed(right),
@@ -145,6 +154,8 @@ fn functions_are_those_of_trees_at_run_time() {
 struct Guyed;
 
 const LINKS: usize = 4;
+/// Strength of the magnets, J m³.
+const MAGNETS: f64 = 5e-4;
 /// Number of the link that is held.
 const RIGHT: usize = 2;
 
@@ -153,8 +164,12 @@ fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
 }
 
 fn model(loss: f64) -> Guyed {
-    let stiffness = 60.0;
-    Guyed::new(GuyedParameters { stiffness, loss }).expect("springs are positive")
+    let parameters = GuyedParameters {
+        stiffness: 60.0,
+        loss,
+        magnets: MAGNETS,
+    };
+    Guyed::new(parameters).expect("springs are positive")
 }
 
 const START: [f64; 2 * LINKS] = [0.2, 0.4, -0.6, 0.3, 1.0, -2.0, 0.5, 3.0];
@@ -191,17 +206,18 @@ fn the_energy_is_balanced_along_a_run() {
     }
 }
 
+/// A start that is off by 1e-10 is off by 3e-7 at 1.5 s.
 #[test]
 fn taylor_series_are_those_of_dop853() {
     let model = model(0.05);
     let system = AbsoluteAngles(&model);
     let options = || Options::with_tolerance(1e-13);
     let start = State::new(0.0, START.to_vec());
-    let by_series = Taylor::new(options()).integrate(&system, &start, 2.0, go_on);
-    let by_stages = Dop853::new(options()).integrate(&system, &start, 2.0, go_on);
+    let by_series = Taylor::new(options()).integrate(&system, &start, 1.5, go_on);
+    let by_stages = Dop853::new(options()).integrate(&system, &start, 1.5, go_on);
     let [by_series, by_stages] = [by_series, by_stages].map(|end| end.expect("smooth").state);
     for (a, b) in by_series.values.iter().zip(&by_stages.values) {
-        assert!((a - b).abs() < 1e-8, "{a} {b}");
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
     }
 }
 
@@ -236,7 +252,7 @@ fn emitted_code_agrees_with_the_tree_at_run_time() {
         .expect("it is above");
     let (text, _) = rest.split_once(")]\nstruct Guyed;").expect("it ends");
     let description = TreeDescription::parse(text).expect("the compiler takes it");
-    let values = [("stiffness", 60.0), ("loss", 0.05)];
+    let values = [("stiffness", 60.0), ("loss", 0.05), ("magnets", MAGNETS)];
     let tree = description.tree(&values).expect("the model takes them");
     let model = model(0.05);
     let mut random = Random::new(9);

@@ -6,7 +6,7 @@ use branched_pendulum::scalar::Dual;
 use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum::taylor::Quad;
 use branched_pendulum::transfer::Given;
-use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
+use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription, TreeError};
 
 use super::{GUYED, go_on};
 
@@ -39,11 +39,12 @@ fn observables_know_straight_springs() {
 #[test]
 fn parameters_of_straight_springs_have_derivatives() {
     let text = "gravity = 9.81, rod: rod(mass = 0.2, length = 0.3),
-        guy(rod, at = p, to = (x, 0), spring = k, rest = l, friction = c)";
+        guy(rod, at = p, to = (x, 0), spring = k, rest = l, repulsion = a, exponent = 3, friction = c)";
     let description = TreeDescription::parse(text).unwrap();
-    let values = [0.25, 0.4, 20.0, 0.1, 0.3];
+    let values = [0.25, 0.4, 20.0, 0.1, 1e-3, 0.3];
+    assert_eq!(description.uses_of("a"), [ParameterUse::Joint]);
     let state = [0.5, 2.0];
-    let rates = |values: [Dual<f64, 1>; 5]| {
+    let rates = |values: [Dual<f64, 1>; 6]| {
         let mut rates = [Dual::constant(0.0); 2];
         let state = state.map(Dual::constant);
         description
@@ -51,7 +52,7 @@ fn parameters_of_straight_springs_have_derivatives() {
             .rates(Dual::constant(0.0), &state, &mut rates);
         rates[1]
     };
-    for place in 0..5 {
+    for place in 0..6 {
         let mut dual = values.map(Dual::constant);
         dual[place] = Dual::variable(values[place], 0);
         let step = 1e-5;
@@ -66,7 +67,7 @@ fn parameters_of_straight_springs_have_derivatives() {
             "{found} {expected}"
         );
     }
-    let refused = [0.25, 0.4, -20.0, 0.1, 0.3];
+    let refused = [0.25, 0.4, -20.0, 0.1, -1e-3, 0.3];
     let names = description.parameters().map(str::to_owned);
     let named: Vec<(String, f64)> = names.zip(refused).collect();
     let named: Vec<(&str, f64)> = named
@@ -78,6 +79,77 @@ fn parameters_of_straight_springs_have_derivatives() {
         error.to_string().contains("spring of `guy(rod)`"),
         "{error}"
     );
+}
+
+/// The law of Lennard-Jones is two clauses, whose forces cancel at the distance of least energy, and
+/// a spring and a repulsion on one line are those on two.
+#[test]
+fn laws_of_one_line_add() {
+    let tree = |clauses: &str| {
+        PendulumTree::parse(&format!(
+            "gravity = 0, rod: point(mass = 1, length = 0.3), {clauses}"
+        ))
+        .unwrap()
+    };
+    let guy = "guy(rod, at = 0.3, to = (0.4, 0.1)";
+    let one = tree(&format!(
+        "{guy}, spring = 3, rest = 0.1, repulsion = 1e-3, exponent = 3)"
+    ));
+    let two = tree(&format!(
+        "{guy}, spring = 3, rest = 0.1), {guy}, repulsion = 1e-3, exponent = 3)"
+    ));
+    assert_eq!(two.translational_spring_dampers().iter().count(), 2);
+    for angle in [-2.0, 0.3, 1.1] {
+        let [own, other] = [&one, &two].map(|tree| tree.accelerations(0.0, &[angle], &[0.0])[0]);
+        assert!((own - other).abs() < 1e-13 * own.abs(), "{own} {other}");
+        let [own, other] = [&one, &two].map(|tree| tree.potential_energy_of(&[angle]));
+        assert!((own - other).abs() < 1e-13 * own.abs(), "{own} {other}");
+    }
+    // U = A/ℓ¹² − B/ℓ⁶ is least at ℓ⁶ = 2 A/B, −B²/(4 A) there.
+    let (depth, sixth) = (2.0, f64::powi(0.2, 6));
+    let [repulsion, attraction] = [depth * sixth * sixth, 2.0 * depth * sixth];
+    let guy = "guy(rod, at = 0.3, to = (0, -0.5)";
+    let pair = tree(&format!(
+        "{guy}, repulsion = {repulsion}, exponent = 12), {guy}, repulsion = {}, exponent = 6)",
+        -attraction
+    ));
+    assert!((pair.potential_energy_of(&[0.0]) + depth).abs() < 1e-13);
+    // cos θ of the angle at which the end is as far from the peg once more, beside it.
+    let near = tree(&format!("{guy}, repulsion = {attraction}, exponent = 6)"));
+    let angle = 1e-3;
+    let bound = pair.accelerations(0.0, &[angle], &[0.0])[0].abs();
+    let pushed = near.accelerations(0.0, &[angle], &[0.0])[0].abs();
+    assert!(pushed > 0.01 && bound < 1e-3 * pushed, "{bound} {pushed}");
+}
+
+/// Each lane has magnets of its own strength.
+#[test]
+fn lanes_have_repulsions_of_their_own() {
+    let tree = |strength: f64| {
+        let own = format!("repulsion = {strength}, exponent = 3");
+        PendulumTree::parse(&GUYED.replace("repulsion = 0.002, exponent = 3", &own)).unwrap()
+    };
+    let trees: Vec<PendulumTree> = (1..7)
+        .map(|number| tree(0.001 * f64::from(number)))
+        .collect();
+    let start = State::at_rest(0.0, &[0.3, 0.8, -0.4, 0.2, 1.1, -0.7, 0.5]);
+    let method = Dop853::new(Options::with_tolerance(1e-12));
+    let lanes: Vec<_> = trees
+        .iter()
+        .map(|tree| (AbsoluteAngles(tree), start.clone()))
+        .collect();
+    let moved = Ensemble::new().integrate_models_in_lanes(&method, &lanes, 0.5);
+    let mut before = start.values.clone();
+    for (tree, moved) in trees.iter().zip(moved) {
+        let alone = method.integrate(&AbsoluteAngles(tree), &start, 0.5, go_on);
+        let [own, alone] = [moved, alone].map(|end| end.unwrap().state.values);
+        for (own, alone) in own.iter().zip(&alone) {
+            assert!((own - alone).abs() < 1e-9, "{own} {alone}");
+        }
+        let changed = own.iter().zip(&before).any(|(a, b)| (a - b).abs() > 1e-4);
+        assert!(changed, "{own:?}");
+        before = own;
+    }
 }
 
 /// What knows nothing of straight springs refuses them.
@@ -117,6 +189,23 @@ fn clauses_that_say_nothing_are_refused() {
         (
             "between(a, b_1, at = 0.3, rest = 1, friction = 1)",
             "length at rest, but no spring",
+        ),
+        (
+            "between(a, b_1, at = 0.3, repulsion = 1)",
+            "has no `exponent`",
+        ),
+        (
+            "between(a, b_1, at = 0.3, exponent = 3)",
+            "an exponent, but no repulsion",
+        ),
+        (
+            "between(a, b_1, at = 0.3, repulsion = 1, exponent = 0)",
+            "not a whole number from 1 to 12",
+        ),
+        ("siblings(b, repulsion = 1, exponent = 3)", "has no `at`"),
+        (
+            "between(a, b_1, at = 1, repulsion = 1, exponent = 3), emit(symmetric)",
+            "`symmetric` beside the repulsion",
         ),
         (
             "between(a, b_1, at = each(1, 0), spring = 1)",

@@ -1,5 +1,5 @@
-//! Straight springs and dampers between points of links, and guys to the ground, against Cartesian
-//! positions.
+//! Straight springs, repulsions and dampers between points of links, and guys to the ground, against
+//! Cartesian positions.
 
 mod functions;
 mod motion;
@@ -11,13 +11,16 @@ use branched_pendulum_trees::PendulumTree;
 
 use super::plain::Numbers;
 
-/// Siblings with a spring without length at rest, one across, and a guy.
+/// Siblings with a spring without length at rest, one across, a guy, magnets across that repel each
+/// other, and an attraction to a point out of reach.
 const GUYED: &str = "gravity = 9.81,
     a: rod(mass = 0.4, length = 0.5) [
         b: rod(mass = 0.2, length = 0.35) [c: rod(mass = 0.1, length = 0.25) * 2] * 2
     ],
     siblings(b, at = 0.3, spring = 12), between(b_1, c_2_1, at = each((0.1, 0.05), 0.2), spring = 5),
-    guy(a, at = 0.4, to = (0.9, -0.1), spring = 30, rest = 0.3)";
+    guy(a, at = 0.4, to = (0.9, -0.1), spring = 30, rest = 0.3),
+    between(b_2, c_1_1, at = each((0.1, 0.05), 0.2), repulsion = 0.002, exponent = 3),
+    guy(b_2, at = 0.3, to = (-1.2, 0.2), repulsion = -0.02, exponent = 2)";
 
 fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
     ControlFlow::Continue(())
@@ -26,6 +29,63 @@ fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
 /// A point of a link, or of the ground for `None`.
 type End = (Option<usize>, [f64; 2]);
 
+/// What acts between two points.
+struct Line {
+    ends: [End; 2],
+    stiffness: f64,
+    rest: f64,
+    friction: f64,
+    /// A and n.
+    repulsion: Option<(f64, u32)>,
+}
+
+impl Line {
+    fn random(numbers: &mut Numbers, ends: [End; 2]) -> Self {
+        // A spring at rest at no length is one in three.
+        let rest = [0.0, 1.0, 1.0][numbers.below(3)] * numbers.between(0.1, 0.5);
+        let exponent = 1 + numbers.below(12) as u32;
+        let strength = numbers.between(-0.3, 0.3) * 0.3_f64.powi(exponent as i32);
+        Self {
+            ends,
+            rest,
+            stiffness: numbers.between(0.0, 20.0),
+            friction: numbers.between(0.0, 0.5),
+            repulsion: (numbers.below(2) == 0).then_some((strength, exponent)),
+        }
+    }
+
+    /// Energy at a length.
+    fn energy<T: Scalar>(&self, length: T) -> T {
+        let stretch = length - T::from_f64(self.rest);
+        let spring = T::from_f64(0.5 * self.stiffness) * stretch * stretch;
+        let Some((strength, exponent)) = self.repulsion else {
+            return spring;
+        };
+        let divided = (0..exponent).fold(T::from_f64(strength), |all, _| all / length);
+        spring + divided
+    }
+
+    fn text(&self) -> String {
+        let [(a, [x, y]), (b, [u, v])] = self.ends;
+        let a = a.unwrap();
+        let ends = match b {
+            Some(b) => format!("between(l{a}, l{b}, at = each(({x}, {y}), ({u}, {v}))"),
+            None => format!("guy(l{a}, at = ({x}, {y}), to = ({u}, {v})"),
+        };
+        let rest = match self.rest {
+            0.0 => String::new(),
+            rest => format!(", rest = {rest}"),
+        };
+        let repulsion = self
+            .repulsion
+            .map_or_else(String::new, |(strength, exponent)| {
+                format!(", repulsion = {strength}, exponent = {exponent}")
+            });
+        let (stiffness, friction) = (self.stiffness, self.friction);
+        format!(", {ends}, spring = {stiffness}{rest}{repulsion}, friction = {friction})")
+    }
+}
+
 /// A random tree with lateral offsets, with straight springs, in plain numbers.
 struct StraightTree {
     stands: bool,
@@ -33,8 +93,7 @@ struct StraightTree {
     /// Pivot on the parent, along and across.
     pivots: Vec<[f64; 2]>,
     bodies: Vec<[f64; 4]>,
-    /// The points, κ, L₀ and c.
-    springs: Vec<([End; 2], [f64; 3])>,
+    lines: Vec<Line>,
 }
 
 impl StraightTree {
@@ -44,16 +103,13 @@ impl StraightTree {
         let parents: Vec<Option<usize>> = (0..links)
             .map(|link| (link > 0).then(|| numbers.below(link)))
             .collect();
-        let spring = |numbers: &mut Numbers| {
+        let line = |numbers: &mut Numbers| {
             let first = numbers.below(links);
             let second = (first + 1 + numbers.below(links - 1)) % links;
             let on_ground = numbers.below(3) == 0;
             let other = if on_ground { None } else { Some(second) };
             let ends = [(Some(first), pair(numbers)), (other, pair(numbers))];
-            // A spring at rest at no length is one in three.
-            let rest = [0.0, 1.0, 1.0][numbers.below(3)] * numbers.between(0.1, 0.5);
-            let stiffness = numbers.between(0.0, 20.0);
-            (ends, [stiffness, rest, numbers.between(0.0, 0.5)])
+            Line::random(numbers, ends)
         };
         Self {
             stands: numbers.below(2) == 0,
@@ -64,12 +120,12 @@ impl StraightTree {
                         .map(|(low, high)| numbers.between(low, high))
                 })
                 .collect(),
-            springs: (0..1 + numbers.below(4)).map(|_| spring(numbers)).collect(),
+            lines: (0..1 + numbers.below(4)).map(|_| line(numbers)).collect(),
             parents,
         }
     }
 
-    fn text(&self, with_springs: bool) -> String {
+    fn text(&self, with_lines: bool) -> String {
         fn written(tree: &StraightTree, own: usize) -> String {
             let [mass, com, across, inertia] = tree.bodies[own];
             let [along, lateral] = tree.pivots[own];
@@ -89,21 +145,8 @@ impl StraightTree {
         }
         let sign = if self.stands { "-" } else { "" };
         let mut text = format!("gravity = {sign}9.81, {}", written(self, 0));
-        for ([(a, [x, y]), (b, [u, v])], [stiffness, rest, friction]) in
-            self.springs.iter().filter(|_| with_springs)
-        {
-            let a = a.unwrap();
-            let ends = match b {
-                Some(b) => format!("between(l{a}, l{b}, at = each(({x}, {y}), ({u}, {v}))"),
-                None => format!("guy(l{a}, at = ({x}, {y}), to = ({u}, {v})"),
-            };
-            let rest = match *rest {
-                0.0 => String::new(),
-                rest => format!(", rest = {rest}"),
-            };
-            text.push_str(&format!(
-                ", {ends}, spring = {stiffness}{rest}, friction = {friction})"
-            ));
+        for line in self.lines.iter().filter(|_| with_lines) {
+            text.push_str(&line.text());
         }
         text
     }
@@ -134,33 +177,34 @@ impl StraightTree {
     }
 
     fn energy(&self, theta: &[f64]) -> f64 {
-        let energies = self.springs.iter().map(|(ends, [stiffness, rest, _])| {
-            0.5 * stiffness * (self.length(*ends, theta) - rest).powi(2)
-        });
+        let energies = self.lines.iter();
+        let energies = energies.map(|line| line.energy(self.length(line.ends, theta)));
         energies.sum()
     }
 
-    /// Torques of all springs and dampers, by differences of lengths in 106 bits, and the power of
+    /// Torques of all lines, by differences of energies and of lengths in 106 bits, and the power of
     /// the dampers.
     fn torques(&self, theta: &[f64], omega: &[f64]) -> (Vec<f64>, f64) {
-        let step = 1e-8;
+        // The third derivative of a short line's energy is large.
+        let step = 1e-11;
         let (mut torques, mut power) = (vec![0.0; theta.len()], 0.0);
-        for (ends, [stiffness, rest, friction]) in &self.springs {
-            let slope = |link: usize| {
+        for line in &self.lines {
+            // Of the length, and of the energy.
+            let slopes = |link: usize| -> [f64; 2] {
                 let [high, low] = [step, -step].map(|step| {
                     let mut moved: Vec<Double> =
                         theta.iter().copied().map(Double::from_f64).collect();
                     moved[link] += Double::from_f64(step);
-                    self.length(*ends, &moved)
+                    let length = self.length(line.ends, &moved);
+                    [length, line.energy(length)]
                 });
-                (high - low).high() / (2.0 * step)
+                [0, 1].map(|place| (high[place] - low[place]).high() / (2.0 * step))
             };
-            let slopes: Vec<f64> = (0..theta.len()).map(slope).collect();
-            let rate: f64 = slopes.iter().zip(omega).map(|(a, b)| a * b).sum();
-            let pull = stiffness * (self.length(*ends, theta) - rest) + friction * rate;
-            power -= friction * rate * rate;
-            for (torque, slope) in torques.iter_mut().zip(&slopes) {
-                *torque -= pull * slope;
+            let slopes: Vec<[f64; 2]> = (0..theta.len()).map(slopes).collect();
+            let rate: f64 = slopes.iter().zip(omega).map(|([a, _], b)| a * b).sum();
+            power -= line.friction * rate * rate;
+            for (torque, [slope, force]) in torques.iter_mut().zip(&slopes) {
+                *torque -= force + line.friction * rate * slope;
             }
         }
         (torques, power)
@@ -175,8 +219,12 @@ fn order(tree: &PendulumTree) -> Vec<usize> {
 #[test]
 fn accelerations_energies_and_powers_are_those_of_cartesian_points() {
     let mut numbers = Numbers(11);
+    let mut exponents = [0; 12];
     for _ in 0..200 {
         let plain = StraightTree::random(&mut numbers);
+        for (_, exponent) in plain.lines.iter().filter_map(|line| line.repulsion) {
+            exponents[exponent as usize - 1] += 1;
+        }
         let text = plain.text(true);
         let tree = PendulumTree::parse(&text).unwrap();
         let free = PendulumTree::parse(&plain.text(false)).unwrap();
@@ -242,4 +290,5 @@ fn accelerations_energies_and_powers_are_those_of_cartesian_points() {
             "{text}"
         );
     }
+    assert!(exponents.iter().all(|&count| count > 5), "{exponents:?}");
 }

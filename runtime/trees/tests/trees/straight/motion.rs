@@ -187,6 +187,47 @@ fn modes_of_two_coupled_rods_are_the_closed_form() {
     }
 }
 
+/// Magnets push the rods apart by the angle φ. Against each other they move in one coordinate of the
+/// line, and together they turn a line that is under pressure.
+#[test]
+fn modes_of_two_rods_with_magnets_are_the_closed_form() {
+    let (inertia, weight) = (MASS * LENGTH * LENGTH / 3.0, MASS * 9.81 * LENGTH / 2.0);
+    let apart = 0.1;
+    for (strength, n) in [(3e-5, 3), (2e-3, 1), (1e-6, 4), (-1e-7, 3), (-3e-6, 2)] {
+        let length = |angle: f64| apart + 2.0 * LENGTH * angle.sin();
+        let push = |angle: f64| f64::from(n) * strength / length(angle).powi(n + 1);
+        // m g ℓ/2 sin φ balances the push at the lever ℓ cos φ.
+        let balance = |angle: f64| weight * angle.sin() - push(angle) * LENGTH * angle.cos();
+        let mut range = if strength > 0.0 {
+            [0.0, 1.5]
+        } else {
+            [-0.03, 0.0]
+        };
+        for _ in 0..100 {
+            let middle = 0.5 * (range[0] + range[1]);
+            range[usize::from(balance(middle) > 0.0)] = middle;
+        }
+        let angle = range[0];
+        let more = format!(", repulsion = {strength}, exponent = {n}");
+        let tree = PendulumTree::parse(&rods(apart, &more)).unwrap();
+        let modes: Modes = tree.modes(&[0.0, -angle, angle]).unwrap();
+        let (sin, cos) = angle.sin_cos();
+        let own = push(angle);
+        let steep = f64::from(n + 1) * own / length(angle);
+        let against = 2.0 * LENGTH * LENGTH * cos * cos * steep + own * LENGTH * sin;
+        let together = own * apart * LENGTH * sin / length(angle);
+        for stiffness in [against, together].map(|line| weight * cos + line) {
+            let expected = f64::sqrt(stiffness / inertia) / std::f64::consts::TAU;
+            let found = modes.frequencies_hz.iter();
+            let apart = found.fold(1.0, |least: f64, own| {
+                least.min((own / expected - 1.0).abs())
+            });
+            let all = &modes.frequencies_hz;
+            assert!(apart < 1e-12, "{strength}, {n}: {expected}: {all:?}");
+        }
+    }
+}
+
 /// Where points meet a spring without length at rest pulls at nothing, and others have no
 /// direction.
 #[test]
@@ -209,12 +250,17 @@ fn points_may_meet_where_no_length_is_at_rest() {
         tree(", spring = 7").potential_energy_of(&theta),
         tree(", spring = 0").potential_energy_of(&theta)
     );
-    for more in [", spring = 7, rest = 0.1", ", friction = 0.1"] {
+    let repelled = ", repulsion = 1e-5, exponent = 3";
+    for more in [", spring = 7, rest = 0.1", ", friction = 0.1", repelled] {
         let found = tree(more).accelerations(0.0, &theta, &omega);
         assert!(
             found.iter().any(|alpha| alpha.is_nan()),
             "{more}: {found:?}"
         );
+    }
+    for (sign, energy) in [("", f64::INFINITY), ("-", f64::NEG_INFINITY)] {
+        let repelled = repelled.replace("1e-5", &format!("{sign}1e-5"));
+        assert_eq!(tree(&repelled).potential_energy_of(&theta), energy);
     }
 }
 
