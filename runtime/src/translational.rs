@@ -76,7 +76,7 @@ fn dot<T: Scalar>([a, b]: [T; 2], [x, y]: [T; 2]) -> T {
 impl<T: Scalar> LineArm<T> {
     /// The arm at an angle of its link.
     #[inline(always)]
-    fn turned(&self, angle: T) -> [T; 2] {
+    pub(crate) fn turned(&self, angle: T) -> [T; 2] {
         let (sin, cos) = angle.sin_cos();
         [
             self.along * sin + self.lateral * cos,
@@ -93,16 +93,16 @@ impl<T: Scalar> Line<T> {
     fn length(&self) -> T {
         self.square().sqrt()
     }
+}
 
-    /// A power of the length.
-    fn length_to(&self, exponent: u32) -> T {
-        let root = match exponent % 2 {
-            0 => T::from_f64(1.0),
-            _ => self.length(),
-        };
-        let square = self.square();
-        (0..exponent / 2).fold(root, |power, _| power * square)
-    }
+/// A power of the length of a line.
+pub(crate) fn length_to<T: Scalar>(offset: [T; 2], exponent: u32) -> T {
+    let square = dot(offset, offset);
+    let root = match exponent % 2 {
+        0 => T::from_f64(1.0),
+        _ => square.sqrt(),
+    };
+    (0..exponent / 2).fold(root, |power, _| power * square)
 }
 
 impl<T: Copy> LinePotential<T> {
@@ -123,6 +123,20 @@ impl<T: Copy> LinePotential<T> {
 }
 
 impl<T: Scalar> LinePotential<T> {
+    /// Returns so many times the energy.
+    fn times(&self, factor: T) -> Self {
+        match *self {
+            Self::Spring { stiffness, rest } => Self::Spring {
+                stiffness: factor * stiffness,
+                rest,
+            },
+            Self::InversePower { strength, exponent } => Self::InversePower {
+                strength: factor * strength,
+                exponent,
+            },
+        }
+    }
+
     /// dU/dℓ over the length of the line.
     #[inline(always)]
     fn pull(&self, line: &Line<T>) -> T {
@@ -140,7 +154,19 @@ impl<T: Scalar> LinePotential<T> {
             }
             Self::InversePower { strength, exponent } => {
                 let slope = T::from_f64(-f64::from(exponent)) * strength;
-                slope / line.length_to(exponent.saturating_add(2))
+                slope / length_to(line.offset, exponent.saturating_add(2))
+            }
+        }
+    }
+
+    /// The part of that which changes with the length: a factor, and m of the power ℓ⁻ᵐ.
+    #[inline(always)]
+    pub(crate) fn power_of_length(&self) -> Option<(T, u32)> {
+        match *self {
+            Self::Spring { stiffness, rest } => Some((-(stiffness * rest?), 1)),
+            Self::InversePower { strength, exponent } => {
+                let slope = T::from_f64(-f64::from(exponent)) * strength;
+                Some((slope, exponent.saturating_add(2)))
             }
         }
     }
@@ -161,7 +187,9 @@ impl<T: Scalar> LinePotential<T> {
                 let stretch = line.length() - rest;
                 half * stiffness * stretch * stretch
             }
-            Self::InversePower { strength, exponent } => strength / line.length_to(exponent),
+            Self::InversePower { strength, exponent } => {
+                strength / length_to(line.offset, exponent)
+            }
         }
     }
 }
@@ -186,6 +214,17 @@ impl<T: Copy> TranslationalSpringDamper<T> {
 }
 
 impl<T: Scalar> TranslationalSpringDamper<T> {
+    /// Returns the same line with so many times the energy, and as many times the friction.
+    #[must_use]
+    pub fn times(&self, factor: T) -> Self {
+        let potentials = self.potentials.iter();
+        Self {
+            potentials: potentials.map(|own| own.times(factor)).collect(),
+            friction: self.friction.map(|friction| factor * friction),
+            ..self.clone()
+        }
+    }
+
     /// Returns true if all links are among so many, and none has two arms.
     fn fits(&self, links: usize) -> bool {
         let mut arms = self.arms.iter().enumerate();
@@ -217,6 +256,13 @@ impl<T: Scalar> TranslationalSpringDamper<T> {
     fn stored_pull(&self, line: &Line<T>) -> Option<T> {
         let pulls = self.potentials.iter().map(|own| own.pull(line));
         pulls.reduce(|sum, own| sum + own)
+    }
+
+    /// Pull of what stores energy over the length of a line from the first point to the second.
+    #[inline(always)]
+    pub(crate) fn pull_of_energy(&self, offset: [T; 2]) -> Option<T> {
+        let rate = [T::from_f64(0.0); 2];
+        self.stored_pull(&Line { offset, rate })
     }
 
     /// Pull of the damper over the length of the line.

@@ -12,12 +12,6 @@ use crate::simd::Quad;
     note = "a model knows them with `emit(taylor)` in its attribute"
 )]
 pub trait TaylorPendulum<T: Scalar>: Pendulum<T> {
-    /// Returns false if the coefficients of this one are not known: a run of
-    /// [`Taylor`](crate::integrate::Taylor) is refused then.
-    fn has_taylor_coefficients(&self) -> bool {
-        true
-    }
-
     /// Groups of four numbers that an expansion to order `order` works in.
     fn taylor_workspace(&self, order: usize) -> usize;
 
@@ -62,7 +56,6 @@ by_reference! {
             pendulum: &Self::Of<S>, time: S, theta: &[S], omega: &[S], coefficients: &mut [S],
             work: &mut [Quad<S>]
         );
-        fn has_taylor_coefficients(&self) -> bool;
         fn taylor_workspace(&self, order: usize) -> usize;
         fn taylor_coefficients_into(
             &self, time: T, theta: &[T], omega: &[T], coefficients: &mut [T],
@@ -148,11 +141,6 @@ by_reference! {
 }
 
 impl<T: Scalar, P: TaylorPendulum<T>> TaylorOde<T> for AbsoluteAngles<P> {
-    #[inline(always)]
-    fn has_series(&self) -> bool {
-        self.0.has_taylor_coefficients()
-    }
-
     fn workspace(&self, order: usize) -> usize {
         self.0.taylor_workspace(order)
     }

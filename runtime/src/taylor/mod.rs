@@ -17,6 +17,7 @@ mod elimination;
 mod expand;
 mod friction;
 mod lent;
+mod lines;
 mod links;
 mod orders;
 mod reciprocal;

@@ -1,7 +1,8 @@
 //! What acts on the links of a tree beside gravity, order by order: friction, drag and
-//! springs of links, and a drive.
+//! springs of links, what acts between them, and a drive.
 
 use super::bias::{Bias, KnownState};
+use super::lines::{LineSeries, line_room};
 use super::links::TreeLinks;
 use super::tree::SeriesTree;
 use crate::scalar::Scalar;
@@ -16,6 +17,10 @@ pub(super) struct TreeTorques<'a, T> {
     pub(super) laws: &'a mut [Quad<T>],
     /// How many quads each has.
     pub(super) room: usize,
+    /// Room of the lines between points, one after the other.
+    pub(super) lines: &'a mut [Quad<T>],
+    /// The last order.
+    pub(super) last: usize,
 }
 
 impl<T: Scalar> TreeTorques<'_, T> {
@@ -79,6 +84,17 @@ impl<T: Scalar> TreeTorques<'_, T> {
                 oppose(other, -torque);
             }
         }
+        let mut free = &mut *self.lines;
+        for line in &tree.lines {
+            let (room, rest) = free.split_at_mut(line_room(line, self.last));
+            let orders = self.last + 1;
+            let mut series = LineSeries { line, room, orders };
+            series.write::<START>(order, [theta, omega]);
+            for (arm, own) in line.arms.iter().enumerate() {
+                oppose(own.link, series.torque(arm, order));
+            }
+            free = rest;
+        }
         if let Some(Quad([_, _, torque, _])) = self.drive.and_then(|drive| drive.get(order)) {
             oppose(0, -(*torque * tree.share));
         }
@@ -93,12 +109,14 @@ impl<T: Scalar> Bias<T> for TreeTorques<'_, T> {
         let SeriesTree {
             passive,
             spring_dampers,
+            lines,
             rough,
             ..
         } = self.tree;
         let own = [
             passive.is_empty(),
             spring_dampers.is_empty(),
+            lines.is_empty(),
             rough.is_empty(),
         ];
         own.contains(&false) || self.drive.is_some()

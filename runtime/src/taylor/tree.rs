@@ -7,6 +7,7 @@ use super::friction::RoughFriction;
 use super::links::TreeLinks;
 use crate::scalar::Scalar;
 use crate::spring_dampers::SpringDamper;
+use crate::translational::TranslationalSpringDamper;
 
 /// A link of a tree as the recurrences of Taylor coefficients take it, in any units of mass
 /// and length that go together.
@@ -49,6 +50,8 @@ pub struct SeriesTree<T> {
     pub(super) passive: Vec<[T; 4]>,
     /// Springs and viscous friction between links that are not parent and child.
     pub(super) spring_dampers: Vec<SpringDamper<T>>,
+    /// What acts along lines between points.
+    pub(super) lines: Vec<TranslationalSpringDamper<T>>,
     pub(super) rough: Vec<RoughFriction<T>>,
     /// What torques are multiplied by.
     pub(super) share: T,
@@ -146,6 +149,7 @@ impl<T: Scalar> SeriesTree<T> {
             lateral_weights: links.iter().map(|own| own.weight[1]).collect(),
             passive: passive.collect(),
             spring_dampers: Vec::new(),
+            lines: Vec::new(),
             rough: rough.into_iter().filter(|law| is_of(law, count)).collect(),
             share,
         }
@@ -174,6 +178,17 @@ impl<T: Scalar> SeriesTree<T> {
         self
     }
 
+    /// Returns the tree with what acts along lines between points, with lengths in m and torques
+    /// in the units of the links; lines with arms of links that there are not are left out.
+    #[must_use]
+    pub fn with_lines(mut self, lines: Vec<TranslationalSpringDamper<T>>) -> Self {
+        let count = self.inertias.len();
+        let is_of =
+            |own: &TranslationalSpringDamper<T>| own.arms.iter().all(|arm| arm.link < count);
+        self.lines.extend(lines.into_iter().filter(is_of));
+        self
+    }
+
     /// Takes every constant through `convert`.
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> SeriesTree<S> {
         let pairs = |pairs: &[[T; 2]]| pairs.iter().map(|pair| pair.map(&convert)).collect();
@@ -192,6 +207,7 @@ impl<T: Scalar> SeriesTree<T> {
                 .iter()
                 .map(|own| own.map(&convert))
                 .collect(),
+            lines: self.lines.iter().map(|own| own.map(&convert)).collect(),
             rough: rough.collect(),
             share: convert(self.share),
         }

@@ -3,6 +3,7 @@
 use super::expand::{Expansion, workspace};
 use super::friction::law_room;
 use super::lent::{LentRooms, lent};
+use super::lines::line_room;
 use super::links::TreeLinks;
 use super::room::RoomsOfFew;
 use super::start::{Constants, Origin};
@@ -18,7 +19,8 @@ impl<T: Scalar> SeriesTree<T> {
     pub fn workspace(&self, order: usize) -> usize {
         let links = self.inertias.len();
         let laws = self.rough.len() * law_room(order);
-        workspace(links, order) + lent(links) + 3 * links.div_ceil(4) + laws
+        let lines = self.lines.iter().map(|line| line_room(line, order));
+        workspace(links, order) + lent(links) + 3 * links.div_ceil(4) + laws + lines.sum::<usize>()
     }
 
     /// Writes the Taylor coefficients of the motion through angles `theta` and angular
@@ -61,13 +63,16 @@ impl<T: Scalar> SeriesTree<T> {
         let (free, rest) = rest.split_at_mut(lent(links));
         let (sines, rest) = rest.split_at_mut(quads);
         let (cosines, rest) = rest.split_at_mut(quads);
-        let (first, laws) = rest.split_at_mut(quads);
+        let (first, rest) = rest.split_at_mut(quads);
+        let (laws, lines) = rest.split_at_mut(self.rough.len() * law_room(order));
         turn(theta, sines, cosines);
         let mut torques = TreeTorques {
             tree: self,
             drive,
             laws,
             room: law_room(order),
+            lines,
+            last: order,
         };
         torques.start([theta, omega], first);
         let expansion = Expansion {

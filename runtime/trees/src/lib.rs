@@ -46,6 +46,7 @@ mod ways;
 #[path = "ways_by_link.rs"]
 mod ways;
 
+pub use branched_pendulum_codegen::scene::strength_unit;
 pub use description::TreeDescription;
 pub use error::{DescriptionError, Mistake, TreeError};
 pub use in_phase::{DifferenceGrowth, InPhaseTree};

@@ -1,10 +1,11 @@
 //! Taylor coefficients of the motion.
 
 use branched_pendulum::scalar::{Double, Scalar};
-use branched_pendulum::spring_dampers::{SpringDamper, SpringDampers};
+use branched_pendulum::spring_dampers::SpringDamper;
 use branched_pendulum::system::TaylorPendulum;
 use branched_pendulum::taylor::{Quad, RoughFriction, SeriesForm, SeriesLink, SeriesTree};
 
+use crate::between::Between;
 use crate::carried::carried;
 use crate::numbers::LinkNumbers;
 use crate::rows::are_rough;
@@ -15,7 +16,7 @@ use crate::tree::{PendulumTree, constant};
 /// Weights are at gravity, or where there is a drive at a gravity of one.
 pub(crate) fn series_of<T: Scalar>(
     links: &[LinkNumbers],
-    spring_dampers: &SpringDampers<Double>,
+    between: &Between<Double>,
     gravity: Double,
     is_driven: bool,
 ) -> SeriesTree<T> {
@@ -79,17 +80,16 @@ pub(crate) fn series_of<T: Scalar>(
             .law
             .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
     };
-    let spring_dampers = spring_dampers.iter().map(|own| units(own).map(constant));
+    let spring_dampers = between.torsional.iter();
+    let spring_dampers = spring_dampers.map(|own| units(own).map(constant));
+    let lines = between.translational.iter();
+    let lines = lines.map(|own| own.times(unit).map(constant));
     SeriesTree::new(&constants, laws.collect(), constant(unit), form)
         .with_spring_dampers(spring_dampers.collect())
+        .with_lines(lines.collect())
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
-    /// The recurrences know nothing of the length of a straight spring.
-    fn has_taylor_coefficients(&self) -> bool {
-        self.between().translational.is_empty()
-    }
-
     fn taylor_workspace(&self, order: usize) -> usize {
         let drive = self.drive.as_ref().map_or(0, |drive| drive.room(order));
         self.series.workspace(order) + drive
@@ -104,9 +104,6 @@ impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {
         coefficients: &mut [T],
         work: &mut [Quad<T>],
     ) {
-        if !self.has_taylor_coefficients() {
-            return coefficients.fill(T::from_f64(f64::NAN));
-        }
         let order = (coefficients.len() / (2 * self.names().len()).max(1)).saturating_sub(1);
         let (mut orders, mut rest) = (None, work);
         if let Some(drive) = &self.drive {

@@ -154,7 +154,7 @@ impl<T: Scalar> PendulumTree<T> {
         let rows = in_numbers(&form.rows(links, &carries));
         let rule = ByRule::of(scene, links, &carries, gravity);
         let between = Between::of(scene, links.len(), &parameters);
-        let series = series_of(links, &between.torsional, gravity, drive.is_some());
+        let series = series_of(links, &between, gravity, drive.is_some());
         #[cfg(feature = "strips")]
         let held = HeldLinks::of(scene, &parents, above, || {
             in_numbers(&rows::held(links, &carries))

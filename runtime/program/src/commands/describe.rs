@@ -7,7 +7,7 @@ use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::Model;
 use branched_pendulum::translational::LinePotential;
 use branched_pendulum_charts::{Film, verbatim};
-use branched_pendulum_trees::PendulumTree;
+use branched_pendulum_trees::{PendulumTree, strength_unit};
 use clap::Parser;
 
 use crate::Failure;
@@ -168,7 +168,7 @@ fn stored(potential: &LinePotential<f64>) -> Option<String> {
             format!("spring {stiffness} N/m, at rest at {rest} m")
         }),
         LinePotential::InversePower { strength, exponent } => {
-            (strength != 0.0).then(|| format!("repulsion {strength} J m^{exponent}"))
+            (strength != 0.0).then(|| format!("repulsion {strength} {}", strength_unit(exponent)))
         }
     }
 }

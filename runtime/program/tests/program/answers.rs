@@ -58,7 +58,7 @@ fn straight_springs_are_described_and_taken() {
     for line in [
         "between points\n  guy(a): spring 3 N/m, at rest at 0.1 m; friction 0.2 N s/m\n",
         "  siblings(b): spring 2 N/m, at rest at 0 m\n",
-        "  between(a, b_1): repulsion 0.00001 J m^3\n",
+        "  between(a, b_1): repulsion 0.00001 J m³\n",
         "k = 3: spring of `guy(a)`, N/m",
         "m = 0.00001: repulsion of `between(a, b_1)`, J m³",
     ] {

@@ -229,8 +229,8 @@ impl<T: Real> fmt::Display for InputError<T> {
             Self::NoSeries => write!(
                 f,
                 "these equations give no Taylor coefficients: a model does so where its \
-                 description says `emit(taylor)`, a tree that is read at run time where it has no \
-                 straight springs; all other methods need rates alone"
+                 description says `emit(taylor)`, and so does a tree that is read at run time; all \
+                 other methods need rates alone"
             ),
             Self::EmptyState => {
                 write!(f, "the state has no components: it must have at least one")

@@ -3,8 +3,6 @@
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
-use branched_pendulum::system::TaylorPendulum;
-use branched_pendulum::taylor::Quad;
 use branched_pendulum::transfer::Given;
 use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription, TreeError};
 
@@ -162,19 +160,6 @@ fn forms_without_straight_springs_refuse_them() {
         "{refused}"
     );
     assert!(tree.copies().is_none());
-    let mut coefficients = vec![0.0; 2 * tree.links() * 3];
-    let mut work = vec![Quad([0.0; 4]); tree.taylor_workspace(2)];
-    let zeros = vec![0.0; tree.links()];
-    tree.taylor_coefficients_into(0.0, &zeros, &zeros, &mut coefficients, &mut work);
-    assert!(coefficients.iter().all(|own| own.is_nan()));
-    let start = State::at_rest(0.0, &zeros);
-    let series = Taylor::new(Options::with_tolerance(1e-10));
-    let refused = series.integrate(&AbsoluteAngles(&tree), &start, 1.0, go_on);
-    let refused = refused.unwrap_err().to_string();
-    assert!(refused.contains("straight springs"), "{refused}");
-    let lanes = vec![(AbsoluteAngles(&tree), start); 3];
-    let moved = Ensemble::new().integrate_models_in_lanes(&series, &lanes, 1.0);
-    assert!(moved.iter().all(Result::is_err));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 
 mod functions;
 mod motion;
+mod series;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::{Double, Dual, Scalar};

@@ -80,6 +80,18 @@ const SEEDS: &[&str] = &[
         emit(energies, symmetric, transfer(exact)),
     )]
     struct Braked;",
+    "#[branched_pendulum(
+        gravity = g,
+        mast: rod(mass = 0.3, length = 0.4) [
+            left: rod(mass = 0.12, length = 0.3, at = (0, -0.1)),
+            right: rod(mass = 0.12, length = 0.3, at = (0, 0.1)) [leaf: rod(mass = 0.1, length = 0.1) * 2],
+        ],
+        between(left, right, at = each(0.3, (0.2, 0.01)), spring = k, rest = 0.2, repulsion = 3e-5, exponent = 3),
+        siblings(leaf, at = 0.1, spring = 4, friction = 0.1),
+        guy(mast, at = 0.4, to = (-0.4, 0), spring = 60, rest = 0.5, friction = 0.2),
+        emit(energies, momenta, modes, taylor),
+    )]
+    struct Guyed;",
 ];
 
 /// Tokens to put in, beside those of the seeds.
@@ -89,6 +101,7 @@ const TOKENS: &str = "0 1 2 -1 0.5 1e300 1e-300 1e999 1e99999999999 4294967296 0
      mass_ratio length_ratio gravity drive torque x y t sin cos emit crate energies momenta transfer angle amplitude exact \
      viscous coulomb quadratic width friction(coulomb = 1) drag(quadratic = q, width = 0) \
      observe budget canonical parseval matrix each each(1, 2) \
+     between siblings guy to spring rest repulsion exponent \
      sin cos sqrt theta_a theta_d omega_b_1 p_m twist kinetic_energy point rod disc generations parent child m g l pi self type Self _ é Ω true struct enum fn pub where <T> #";
 
 /// Applies one random change somewhere in the tokens.

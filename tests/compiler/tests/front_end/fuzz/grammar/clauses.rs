@@ -37,12 +37,11 @@ impl Grammar<'_> {
         format!("locked({link}, {angle})")
     }
 
-    /// Springs and friction between two links, or between the copies of one.
+    /// Springs and friction between two links, between the copies of one, or to a place: on their
+    /// angles, or straight ones between points, which may repel each other.
     pub(super) fn spring_damper(&mut self) -> String {
-        let (word, count) = match self.one_in(2) {
-            true => ("siblings", 1),
-            false => ("between", 2),
-        };
+        let word = self.pick(&["siblings", "between", "guy"]);
+        let count = if word == "between" { 2 } else { 1 };
         let mut parts: Vec<String> = (0..count).map(|_| self.link()).collect();
         if count == 2 {
             for link in &mut parts {
@@ -50,14 +49,31 @@ impl Grammar<'_> {
                 link.push_str(&copy);
             }
         }
+        let is_straight = (word == "guy" || self.one_in(2)) != self.is_odd();
+        if is_straight {
+            self.copies = count;
+            parts.push(self.property("at"));
+        }
         self.copies = 1;
+        if (word == "guy") != self.is_odd() {
+            let (x, y) = (self.value(), self.value());
+            parts.push(format!("to = ({x}, {y})"));
+        }
         for property in ["spring", "friction"] {
             if self.one_in(2) || self.is_odd() {
                 parts.push(self.property(property));
             }
         }
-        if self.one_in(6) {
+        if self.one_in(if is_straight { 2 } else { 6 }) {
             parts.push(self.property("rest"));
+        }
+        if (is_straight && self.one_in(2)) != self.is_odd() {
+            parts.push(self.property("repulsion"));
+            let exponents: &[&str] = match self.is_odd() {
+                true => &["0", "-1", "2.5", "13", "m", "2 + 1"],
+                false => &["1", "2", "3", "6", "12"],
+            };
+            parts.push(format!("exponent = {}", self.pick(exponents)));
         }
         format!("{word}({})", parts.join(", "))
     }
