@@ -34,9 +34,7 @@ fn words(failure: &Failure<f64>) -> String {
             format!("{failure} (rtol, atol)")
         }
         Failure::Input(InputError::NoSeries) => {
-            "method: a compiled model has no Taylor series, a Tree without straight springs has \
-             them"
-                .to_owned()
+            "method: a compiled model has no Taylor series, a Tree has them".to_owned()
         }
         Failure::StepLimit { .. } => format!("{failure}: more are made with max_steps="),
         failure => failure.to_string(),
