@@ -16,19 +16,17 @@ const DAMPER: u32 = 2;
 /// Series of each arm: ω, x, y and the moment.
 const OF_ARM: usize = 4;
 
-/// Series of a line beside those of its arms and powers: the components of d and of its rate,
-/// q, d·ḋ and the pull.
-const OF_LINE: usize = 7;
+/// Series of a line beside those of its arms and powers: the components of d, q, d·ḋ and the pull.
+const OF_LINE: usize = 5;
 
-/// The series of a line.
+/// What a line has a series of.
 #[derive(Clone, Copy)]
-enum Place {
+enum LineQuantity {
     Rate(usize),
     X(usize),
     Y(usize),
     Moment(usize),
     Offset(usize),
-    Moving(usize),
     Square,
     Stretching,
     Pull,
@@ -39,7 +37,12 @@ enum Place {
 pub(super) fn line_room<T>(line: &TranslationalSpringDamper<T>, order: usize) -> usize {
     let powers = line.potentials.len() + 1;
     let series = OF_ARM * line.arms.len() + OF_LINE + powers;
-    (series * (order + 1)).div_ceil(4)
+    (series * columns(order)).div_ceil(4)
+}
+
+/// Orders of each series: angles follow one order further than rates are known.
+const fn columns(order: usize) -> usize {
+    order + 2
 }
 
 /// The series of a line up to some order.
@@ -47,44 +50,43 @@ pub(super) struct LineSeries<'a, T> {
     pub(super) line: &'a TranslationalSpringDamper<T>,
     /// As [`line_room`] says.
     pub(super) room: &'a mut [Quad<T>],
-    /// Number of orders that there is room for.
-    pub(super) orders: usize,
+    /// The last order.
+    pub(super) last: usize,
 }
 
 impl<T: Scalar> LineSeries<'_, T> {
     #[inline(always)]
-    fn index(&self, series: Place, order: usize) -> usize {
+    fn index(&self, series: LineQuantity, order: usize) -> usize {
         let line = OF_ARM * self.line.arms.len();
         let series = match series {
-            Place::Rate(arm) => OF_ARM * arm,
-            Place::X(arm) => OF_ARM * arm + 1,
-            Place::Y(arm) => OF_ARM * arm + 2,
-            Place::Moment(arm) => OF_ARM * arm + 3,
-            Place::Offset(axis) => line + axis,
-            Place::Moving(axis) => line + 2 + axis,
-            Place::Square => line + 4,
-            Place::Stretching => line + 5,
-            Place::Pull => line + 6,
-            Place::Power(number) => line + OF_LINE + number,
+            LineQuantity::Rate(arm) => OF_ARM * arm,
+            LineQuantity::X(arm) => OF_ARM * arm + 1,
+            LineQuantity::Y(arm) => OF_ARM * arm + 2,
+            LineQuantity::Moment(arm) => OF_ARM * arm + 3,
+            LineQuantity::Offset(axis) => line + axis,
+            LineQuantity::Square => line + 2,
+            LineQuantity::Stretching => line + 3,
+            LineQuantity::Pull => line + 4,
+            LineQuantity::Power(number) => line + OF_LINE + number,
         };
-        series * self.orders + order
+        series * columns(self.last) + order
     }
 
     #[inline(always)]
-    fn at(&self, series: Place, order: usize) -> T {
+    fn at(&self, series: LineQuantity, order: usize) -> T {
         let index = self.index(series, order);
         self.room[index / 4].0[index % 4]
     }
 
     #[inline(always)]
-    fn put(&mut self, series: Place, order: usize, value: T) {
+    fn put(&mut self, series: LineQuantity, order: usize, value: T) {
         let index = self.index(series, order);
         self.room[index / 4].0[index % 4] = value;
     }
 
     /// Order k of a product.
     #[inline(always)]
-    fn product(&self, one: Place, other: Place, k: usize) -> T {
+    fn product(&self, one: LineQuantity, other: LineQuantity, k: usize) -> T {
         let terms = (0..=k).map(|j| self.at(one, j) * self.at(other, k - j));
         terms.fold(T::from_f64(0.0), |sum, term| sum + term)
     }
@@ -93,30 +95,59 @@ impl<T: Scalar> LineSeries<'_, T> {
     #[inline(always)]
     pub(super) fn write<const START: bool>(&mut self, k: usize, [theta, omega]: [&[T]; 2]) {
         let line = self.line;
-        let zero = T::from_f64(0.0);
-        let mut offset = if START { line.offset } else { [zero; 2] };
-        for (number, arm) in line.arms.iter().enumerate() {
-            let [rate, x, y] = [Place::Rate(number), Place::X(number), Place::Y(number)];
-            let turned = match k.checked_sub(1) {
-                None => arm.turned(theta[arm.link]),
-                Some(before) => [
-                    -self.product(rate, y, before) / whole(k),
-                    self.product(rate, x, before) / whole(k),
-                ],
-            };
-            self.put(rate, k, omega[arm.link]);
-            self.put(x, k, turned[0]);
-            self.put(y, k, turned[1]);
-            offset = [offset[0] + turned[0], offset[1] + turned[1]];
+        if START {
+            let turned = |arm: usize| line.arms[arm].turned(theta[line.arms[arm].link]);
+            self.stretch(0, line.offset, |_, arm| turned(arm));
         }
-        let [dx, dy] = [0, 1].map(Place::Offset);
+        for (number, arm) in line.arms.iter().enumerate() {
+            self.put(LineQuantity::Rate(number), k, omega[arm.link]);
+        }
+        let next = whole::<T>(k + 1);
+        self.stretch(k + 1, [T::from_f64(0.0); 2], |own, arm| {
+            let [rate, x, y] = [
+                LineQuantity::Rate(arm),
+                LineQuantity::X(arm),
+                LineQuantity::Y(arm),
+            ];
+            [
+                -own.product(rate, y, k) / next,
+                own.product(rate, x, k) / next,
+            ]
+        });
+        let pull = self.pull::<START>(k);
+        self.put(LineQuantity::Pull, k, pull);
+        let [dx, dy] = [0, 1].map(LineQuantity::Offset);
+        for arm in 0..line.arms.len() {
+            let [x, y] = [LineQuantity::X(arm), LineQuantity::Y(arm)];
+            let moment = self.product(dy, x, k) - self.product(dx, y, k);
+            self.put(LineQuantity::Moment(arm), k, moment);
+        }
+    }
+
+    /// Writes order k of arms, of the line, which begins with `offset`, and of q.
+    #[inline(always)]
+    fn stretch(&mut self, k: usize, mut offset: [T; 2], turned: impl Fn(&Self, usize) -> [T; 2]) {
+        for arm in 0..self.line.arms.len() {
+            let [x, y] = turned(self, arm);
+            self.put(LineQuantity::X(arm), k, x);
+            self.put(LineQuantity::Y(arm), k, y);
+            offset = [offset[0] + x, offset[1] + y];
+        }
+        let [dx, dy] = [0, 1].map(LineQuantity::Offset);
         self.put(dx, k, offset[0]);
         self.put(dy, k, offset[1]);
         let square = self.product(dx, dx, k) + self.product(dy, dy, k);
-        self.put(Place::Square, k, square);
-        let mut pull = zero;
+        self.put(LineQuantity::Square, k, square);
+    }
+
+    /// Order k of the pull over the length.
+    #[inline(always)]
+    fn pull<const START: bool>(&mut self, k: usize) -> T {
+        let line = self.line;
+        let mut pull = T::from_f64(0.0);
         if START {
-            pull = line.pull_of_energy(offset).unwrap_or(zero);
+            let offset = [0, 1].map(|axis| self.at(LineQuantity::Offset(axis), 0));
+            pull = line.pull_of_energy(offset).unwrap_or(pull);
         }
         for (number, potential) in line.potentials.iter().enumerate() {
             if let Some((factor, exponent)) = potential.power_of_length() {
@@ -126,30 +157,25 @@ impl<T: Scalar> LineSeries<'_, T> {
                 }
             }
         }
-        if let Some(friction) = line.friction {
-            pull = pull + friction * self.damping::<START>(k);
-        }
-        self.put(Place::Pull, k, pull);
-        for arm in 0..line.arms.len() {
-            let [x, y] = [Place::X(arm), Place::Y(arm)];
-            let moment = self.product(dy, x, k) - self.product(dx, y, k);
-            self.put(Place::Moment(arm), k, moment);
+        match line.friction {
+            Some(friction) => pull + friction * self.damping::<START>(k),
+            None => pull,
         }
     }
 
     /// Order k of ℓ⁻ᵐ, the power of this number.
     #[inline(always)]
     fn power<const START: bool>(&mut self, k: usize, number: usize, exponent: u32) -> T {
-        let own = Place::Power(number);
-        let start = self.at(Place::Square, 0);
+        let own = LineQuantity::Power(number);
+        let start = self.at(LineQuantity::Square, 0);
         let value = if START {
-            let offset = [0, 1].map(|axis| self.at(Place::Offset(axis), 0));
+            let offset = [0, 1].map(|axis| self.at(LineQuantity::Offset(axis), 0));
             T::from_f64(1.0) / length_to(offset, exponent)
         } else {
             let half = 0.5 * f64::from(exponent);
             let weight = |j: usize| T::from_f64((1.0 - half) * j as f64 - k as f64);
-            let terms =
-                (1..=k).map(|j| weight(j) * (self.at(Place::Square, j) * self.at(own, k - j)));
+            let terms = (1..=k)
+                .map(|j| weight(j) * (self.at(LineQuantity::Square, j) * self.at(own, k - j)));
             let sum = terms.fold(T::from_f64(0.0), |sum, term| sum + term);
             sum / (whole::<T>(k) * start)
         };
@@ -157,32 +183,20 @@ impl<T: Scalar> LineSeries<'_, T> {
         value
     }
 
-    /// Order k of (d·ḋ)/q.
+    /// Order k of (d·ḋ)/q, with d·ḋ half of the rate of q.
     #[inline(always)]
     fn damping<const START: bool>(&mut self, k: usize) -> T {
-        let zero = T::from_f64(0.0);
-        let mut moving = [zero; 2];
-        for arm in 0..self.line.arms.len() {
-            let [rate, x, y] = [Place::Rate(arm), Place::X(arm), Place::Y(arm)];
-            moving = [
-                moving[0] - self.product(rate, y, k),
-                moving[1] + self.product(rate, x, k),
-            ];
-        }
-        for (axis, value) in moving.into_iter().enumerate() {
-            self.put(Place::Moving(axis), k, value);
-        }
-        let along = |axis: usize| self.product(Place::Offset(axis), Place::Moving(axis), k);
-        let stretching = along(0) + along(1);
-        self.put(Place::Stretching, k, stretching);
+        let half = T::from_f64(0.5) * whole::<T>(k + 1);
+        let stretching = half * self.at(LineQuantity::Square, k + 1);
+        self.put(LineQuantity::Stretching, k, stretching);
         let number = self.line.potentials.len();
         self.power::<START>(k, number, DAMPER);
-        self.product(Place::Stretching, Place::Power(number), k)
+        self.product(LineQuantity::Stretching, LineQuantity::Power(number), k)
     }
 
     /// Returns order k of the torque on the link of an arm, against its turning.
     #[inline(always)]
     pub(super) fn torque(&self, arm: usize, k: usize) -> T {
-        self.product(Place::Pull, Place::Moment(arm), k)
+        self.product(LineQuantity::Pull, LineQuantity::Moment(arm), k)
     }
 }

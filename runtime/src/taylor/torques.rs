@@ -87,8 +87,8 @@ impl<T: Scalar> TreeTorques<'_, T> {
         let mut free = &mut *self.lines;
         for line in &tree.lines {
             let (room, rest) = free.split_at_mut(line_room(line, self.last));
-            let orders = self.last + 1;
-            let mut series = LineSeries { line, room, orders };
+            let last = self.last;
+            let mut series = LineSeries { line, room, last };
             series.write::<START>(order, [theta, omega]);
             for (arm, own) in line.arms.iter().enumerate() {
                 oppose(own.link, series.torque(arm, order));
