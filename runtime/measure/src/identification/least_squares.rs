@@ -209,13 +209,14 @@ impl FitStage {
             let is_same = (spread - self.spread).abs() <= SAME_WEIGHT * self.spread;
             self.spread = spread;
             if is_same {
-                break;
+                return Some(solved);
             }
             let steps = solved.steps;
             solved = self.solve_determined(task, settled, 1)?;
             solved.steps += steps;
         }
-        Some(solved)
+        // Weights that come to no end are none.
+        None
     }
 
     /// Iterates to the least sum of squares that is near, until a step gains less than the
