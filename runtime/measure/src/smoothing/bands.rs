@@ -59,13 +59,9 @@ pub fn bands<R: AsRef<[f64]> + AsMut<[f64]> + Clone>(
             means.iter_mut().for_each(|row| row.as_mut().fill(0.0));
             squares = means.clone();
         }
-        let lengths = |rows: &[R]| {
-            rows.iter()
-                .map(|row| row.as_ref().len())
-                .collect::<Vec<_>>()
-        };
+        let [own, first] = [&rows, &means].map(|rows| rows.iter().map(|row| row.as_ref().len()));
         let mut values = rows.iter().flat_map(|row| row.as_ref());
-        if lengths(&rows) != lengths(&means) || !values.all(|value| value.is_finite()) {
+        if !own.eq(first) || !values.all(|value| value.is_finite()) {
             continue;
         }
         count += 1;
