@@ -175,9 +175,9 @@ fn fitted<'py>(py: Python<'py>, own: &FittedFrequency) -> PyResult<Bound<'py, Py
 }
 
 /// A measured frequency: its value and its standard error, with the number of its mode or without.
-pub(crate) struct Measured(Frequency);
+pub(crate) struct MeasuredFrequency(Frequency);
 
-impl<'a, 'py> FromPyObject<'a, 'py> for Measured {
+impl<'a, 'py> FromPyObject<'a, 'py> for MeasuredFrequency {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
@@ -351,7 +351,7 @@ impl Tree {
         t: Option<Numbers<'py>>,
         theta: Option<Numbers<'py>>,
         unknown: Option<GuessesOrNames>,
-        frequencies: Vec<Measured>,
+        frequencies: Vec<MeasuredFrequency>,
         until: Option<f64>,
         offsets: bool,
         nonnegative: Vec<String>,
@@ -380,7 +380,7 @@ impl Tree {
         if offsets {
             task = task.with_offsets();
         }
-        for Measured(frequency) in frequencies {
+        for MeasuredFrequency(frequency) in frequencies {
             task = task.with_frequency(frequency);
         }
         let until = until.unwrap_or(f64::INFINITY);

@@ -371,33 +371,3 @@ fn advice_is_right() {
         .unwrap();
     assert!(ratio <= 1.0, "{ratio}");
 }
-
-/// A record of more links than the equations of motion smooth: by smoothness its budget closes, and
-/// the equations are refused with their limit.
-#[test]
-fn a_record_of_eight_links_is_analysed() {
-    let folder = Folder::new("analyse-eight");
-    let text = "gravity = 9.81, trunk: rod(mass = 0.3, length = 0.3) [
-            arm: rod(mass = 0.1, length = 0.25) [hand: rod(mass = 0.05, length = 0.2)] * 3,
-            stone: rod(mass = 0.2, length = 0.1)
-        ]";
-    let tree = folder.file("eight.txt", text);
-    let analyse = [
-        "analyse", "--tree", &tree, "--start", "trunk=20", "--rate", "500",
-    ];
-    let usual = ["--noise", "1e-4", "--duration", "2", "--draws", "20"];
-    let printed = folder.answer(&[&analyse[..], &usual].concat());
-    assert!(
-        printed.starts_with("The energy budget closes: "),
-        "{printed}"
-    );
-    let header = folder.read("results/estimate.csv");
-    let header = header.lines().next().unwrap();
-    assert_eq!(header.split(',').count(), 1 + 8 + 2 * (8 + 4), "{header}");
-    let refused = folder.run(&[&analyse[..], &usual, &["--model"]].concat());
-    let error = String::from_utf8(refused.stderr).unwrap();
-    assert!(
-        error.contains("up to 6 links, not of 8: describe the part that was measured"),
-        "{error}"
-    );
-}

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-use super::{folder, run, text};
+use super::{Folder, folder, run, text};
 
 /// Angles of a chain of two links in a small swing, at 40 times.
 fn swing() -> Vec<(f64, [f64; 2])> {
@@ -331,4 +331,34 @@ fn sectors_are_told_by_name_and_what_is_not_there_is_refused() {
         assert_eq!(code, Some(1), "{printed}");
         assert!(printed.contains(message), "{options}: {printed}");
     }
+}
+
+/// A record of more links than the equations of motion smooth: by smoothness its budget closes, and
+/// the equations are refused with their limit.
+#[test]
+fn a_record_of_eight_links_is_analysed() {
+    let folder = Folder::new("analyse-eight");
+    let text = "gravity = 9.81, trunk: rod(mass = 0.3, length = 0.3) [
+            arm: rod(mass = 0.1, length = 0.25) [hand: rod(mass = 0.05, length = 0.2)] * 3,
+            stone: rod(mass = 0.2, length = 0.1)
+        ]";
+    let tree = folder.file("eight.txt", text);
+    let analyse = [
+        "analyse", "--tree", &tree, "--start", "trunk=20", "--rate", "500",
+    ];
+    let usual = ["--noise", "1e-4", "--duration", "2", "--draws", "20"];
+    let printed = folder.answer(&[&analyse[..], &usual].concat());
+    assert!(
+        printed.starts_with("The energy budget closes: "),
+        "{printed}"
+    );
+    let header = folder.read("results/estimate.csv");
+    let header = header.lines().next().unwrap();
+    assert_eq!(header.split(',').count(), 1 + 8 + 2 * (8 + 4), "{header}");
+    let refused = folder.run(&[&analyse[..], &usual, &["--model"]].concat());
+    let error = String::from_utf8(refused.stderr).unwrap();
+    assert!(
+        error.contains("up to 6 links, not of 8: describe the part that was measured"),
+        "{error}"
+    );
 }

@@ -329,7 +329,7 @@ impl MeasuredTree {
     /// model lacks act on each coordinate: on copies together and against each other.
     ///
     /// # Errors
-    /// Those of [`SmoothingEquations::smooth`].
+    /// As [`SmoothingEquations::smooth`].
     pub fn by_model(&self, record: Record<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
         let equations = SmoothingEquations {
             system: &linearised(AbsoluteAngles(&self.tree)),
