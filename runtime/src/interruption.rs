@@ -152,8 +152,7 @@ mod watched {
     /// // An hour of it.
     /// let method = Rk4::new(1e-6);
     /// let motion = || {
-    ///     let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-    ///     method.integrate(&oscillator, &start, 1e5, go_on)
+    ///     method.run(&oscillator, &start, 1e5)
     /// };
     /// let begin = Instant::now();
     /// let is_late = move || begin.elapsed() > Duration::from_millis(100);

@@ -63,27 +63,16 @@ fn one_by_one<const N: usize>(name: &'static str, model: impl Pendulum<f64> + 's
 }
 
 fn main() {
-    let run_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let start = State::at_rest(0.0, &[0.8, 1e-3, -1e-3]);
     let starts = near_threshold(64);
     let from = start.clone();
     let dop853 = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));
-        let _ = black_box(method.integrate(
-            &AbsoluteAngles(&BranchedDouble::new()),
-            &from,
-            10.0,
-            run_on,
-        ));
+        let _ = black_box(method.run(&AbsoluteAngles(&BranchedDouble::new()), &from, 10.0));
     };
     let taylor = move || {
         let method = Taylor::new(Options::with_tolerance(1e-9)).with_order(ORDER);
-        let _ = black_box(method.integrate(
-            &AbsoluteAngles(&BranchedDouble::new()),
-            &start,
-            10.0,
-            run_on,
-        ));
+        let _ = black_box(method.run(&AbsoluteAngles(&BranchedDouble::new()), &start, 10.0));
     };
     let lanes = move || {
         let method = Dop853::new(Options::with_tolerance(1e-9));

@@ -193,9 +193,7 @@ fn a_committed_expansion_is_the_scene() {
     let energy = |y: &[f64]| 0.5 * inertia * y[1] * y[1] + moment * (1.0 - y[0].cos());
     let start = State::at_rest(0.0, &[1.0]);
     let method = Dop853::new(Options::with_tolerance(1e-12));
-    let end = method
-        .integrate(&rod, &start, 10.0, |_| ControlFlow::Continue(()))
-        .unwrap();
+    let end = method.run(&rod, &start, 10.0).unwrap();
     let expected = 100.0 * energy(&end.state.values) / energy(&start.values);
     assert!((left - expected).abs() < 1e-4, "{text} {expected}");
 }

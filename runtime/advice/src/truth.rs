@@ -5,7 +5,7 @@ use std::error::Error;
 use crate::extrapolation::extrapolate;
 use crate::paths::{MOVE, OutputValues, Paths};
 use crate::wanted::Wanted;
-use branched_pendulum::integrate::{Dop853, Options, Verner98};
+use branched_pendulum::integrate::{Dop853, Integrator, Options, Verner98};
 use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::system::{CastOde, Ode, State};
 

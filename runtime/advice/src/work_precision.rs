@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use branched_pendulum::integrate::{GaussOrder, Integrator, Method};
@@ -155,7 +154,7 @@ impl WorkPrecision {
             let integrator = method.with(setting).with_step_limit(STEPS).with_halvings(0);
             let run = || {
                 let start = black_box(start);
-                integrator.integrate(system, start, end, |_| ControlFlow::Continue(()))
+                integrator.run(system, start, end)
             };
             let Ok(solution) = run() else {
                 continue;

@@ -284,7 +284,7 @@ mod tests {
             ..Options::with_tolerance(1e-9)
         });
         let start = State::new(0.0, vec![0.0]);
-        let run = method.integrate(&ode, &start, 1.0, |_| std::ops::ControlFlow::Continue(()));
+        let run = method.run(&ode, &start, 1.0);
         run.expect_err("one step does not reach the end")
     }
 
@@ -292,8 +292,7 @@ mod tests {
     fn request() -> IntegrationError<f64> {
         let ode = OdeFn::new(1, |_: f64, _: &[f64], rates: &mut [f64]| rates[0] = 1.0);
         let start = State::new(0.0, vec![0.0]);
-        let go_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
-        let run = Rk4::new(0.1).integrate(&ode, &start, f64::NAN, go_on);
+        let run = Rk4::new(0.1).run(&ode, &start, f64::NAN);
         run.expect_err("NaN is no time")
     }
 

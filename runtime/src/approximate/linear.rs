@@ -47,7 +47,7 @@ use crate::scalar::{Double, Real, Scalar};
 /// }
 /// let start = State::at_rest(0.0, &[0.05; 3]);
 /// let method = Dop853::new(Options::with_tolerance(1e-12));
-/// let full = method.integrate(&AbsoluteAngles(&branch), &start, 1.0, |_| ControlFlow::Continue(()))?;
+/// let full = method.run(&AbsoluteAngles(&branch), &start, 1.0)?;
 /// let error = (state[0] - full.state.values[0]).abs();
 /// assert!(error < estimate && estimate < 1e-3);
 ///

@@ -22,7 +22,7 @@ use std::thread;
 
 pub use self::lanes::Samples;
 use self::queue::Queue;
-use crate::integrate::{DenseStep, IntegrationError, Integrator, Solution};
+use crate::integrate::{IntegrationError, Integrator, Solution};
 use crate::interruption::{self, SharedWatcher, Watcher};
 use crate::scalar::Real;
 use crate::system::{Ode, State};
@@ -183,7 +183,6 @@ impl<'a> Ensemble<'a> {
         O: Ode<T> + Sync + ?Sized,
         M: Integrator<T, O> + Sync,
     {
-        let run_on = |_: &mut DenseStep<'_, T>| std::ops::ControlFlow::Continue(());
-        self.map(starts, |_, start| method.integrate(ode, start, end, run_on))
+        self.map(starts, |_, start| method.run(ode, start, end))
     }
 }

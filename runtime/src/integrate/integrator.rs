@@ -35,7 +35,7 @@ use crate::system::{Ode, State};
 /// fn at_one<O: Ode<f64>>(method: &impl Integrator<f64, O>, ode: &O)
 ///     -> Result<f64, IntegrationError<f64>> {
 ///     let start = State::new(0.0, vec![1.0]);
-///     let solution = method.integrate(ode, &start, 1.0, |_| ControlFlow::Continue(()))?;
+///     let solution = method.run(ode, &start, 1.0)?;
 ///     Ok(solution.state.values[0])
 /// }
 ///
@@ -89,6 +89,29 @@ pub trait Integrator<T: Real, O: Ode<T> + ?Sized> {
         O: Sized,
     {
         Stepper::resumed(self, ode, checkpoint)
+    }
+
+    /// Integrates from `start` to the time `end`, which may lie before it, and returns the
+    /// state there: [`integrate`](Self::integrate) with nobody watching.
+    ///
+    /// # Errors
+    ///
+    /// As [`integrate`](Self::integrate).
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use branched_pendulum::prelude::*;
+    /// use branched_pendulum::system::OdeFn;
+    ///
+    /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
+    /// let method = Dop853::new(Options::with_tolerance(1e-12));
+    /// let end = method.run(&decay, &State::new(0.0, vec![1.0]), 2.0)?.state;
+    /// assert!((end.values[0] - (-2.0_f64).exp()).abs() < 1e-12);
+    /// # Ok::<(), IntegrationError<f64>>(())
+    /// ```
+    fn run(&self, ode: &O, start: &State<T>, end: T) -> Result<Solution<T>, IntegrationError<T>> {
+        self.integrate(ode, start, end, |_| ControlFlow::Continue(()))
     }
 
     /// Integrates from `start` to the time `end`, which may lie before it.

@@ -36,7 +36,7 @@ use crate::system::{State, TaylorOde};
 /// let start = State::new(0.0, vec![1.0]);
 /// let end = method
 ///     .with(1e-10)
-///     .integrate(&RatesOnly(&decay), &start, 1.0, |_| ControlFlow::Continue(()))?;
+///     .run(&RatesOnly(&decay), &start, 1.0)?;
 /// assert!((end.state.values[0] - (-1.0_f64).exp()).abs() < 1e-10);
 ///
 /// let error = "verner89".parse::<Method>().unwrap_err().to_string();

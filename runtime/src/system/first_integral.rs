@@ -48,7 +48,7 @@ impl<T, F: Fn(&[T], &mut [T]) -> T> FirstIntegral<T> for F {
 /// let level: f64 = energy.evaluate(&start.values, &mut [0.0; 4]);
 /// let method = Projected::new(Gauss::new(GaussOrder::Two, 0.05), energy);
 /// let ode = CanonicalVariables(&double);
-/// let end = method.integrate(&ode, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// let end = method.run(&ode, &start, 10.0)?.state;
 /// assert!((energy.evaluate(&end.values, &mut [0.0; 4]) - level).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -95,7 +95,7 @@ impl<T: Scalar, P: Canonical<T> + Energy<T>> FirstIntegral<T> for CanonicalEnerg
 /// let level: f64 = energy.evaluate(&start.values, &mut [0.0; 4]);
 /// let method = Projected::new(Rk4::new(0.01), energy.clone());
 /// let ode = AbsoluteAngles(Double::new());
-/// let end = method.integrate(&ode, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// let end = method.run(&ode, &start, 10.0)?.state;
 /// assert!((energy.evaluate(&end.values, &mut [0.0; 4]) - level).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

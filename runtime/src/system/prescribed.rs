@@ -170,7 +170,7 @@ pub trait LaneCourses<T: Scalar>: LinkCourses<T> {
 /// let held = PrescribedOde::new(&branch, 0, hand).expect("it has that set");
 /// let start = State::from_positions_and_velocities(0.0, &[0.0, 0.0], &[0.6, 0.0])?;
 /// let method = Dop853::new(Options::with_tolerance(1e-10));
-/// let end = method.integrate(&held, &start, 3.0, |_| ControlFlow::Continue(()))?.state;
+/// let end = method.run(&held, &start, 3.0)?.state;
 /// assert!((end.values[0] - 0.3 * 6.0_f64.sin()).abs() < 1e-9);
 ///
 /// // The torque that the hand exerts: under it the free tree moves in the same way.

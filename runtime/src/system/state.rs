@@ -90,7 +90,7 @@ impl<T: Scalar> State<T> {
     /// // The fruit falls.
     /// let bare = state.of_links(&[0, 2]).expect("it has these links");
     /// let method = Dop853::new(Options::with_tolerance(1e-9));
-    /// method.integrate(&AbsoluteAngles(Bare::new()), &bare, 1.0, |_| ControlFlow::Continue(()))?;
+    /// method.run(&AbsoluteAngles(Bare::new()), &bare, 1.0)?;
     ///
     /// // Or snow falls on it.
     /// let (theta, omega) = ([0.5, 0.3, -0.2], [2.0, 1.0, -3.0]);

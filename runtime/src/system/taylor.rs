@@ -102,7 +102,7 @@ by_reference! {
 ///
 /// let method = Taylor::new(Options::with_tolerance(1e-15));
 /// let start = State::new(0.0, vec![1.0]);
-/// let end = method.integrate(&Decay, &start, 1.0, |_| core::ops::ControlFlow::Continue(()))?;
+/// let end = method.run(&Decay, &start, 1.0)?;
 /// assert!((end.state.values[0] - (-1.0_f64).exp()).abs() < 1e-15);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```

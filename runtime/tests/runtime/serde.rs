@@ -21,12 +21,10 @@ fn runs_and_what_they_are_asked_for() {
     assert_eq!(read_back(&options), options);
     let start = State::at_rest(0.1 + 0.2, &[1.0 / 3.0]);
     let method = Dop853::new(options);
-    let run = method
-        .integrate(&harmonic(), &start, 7.7, |_| ControlFlow::Continue(()))
-        .unwrap();
+    let run = method.run(&harmonic(), &start, 7.7).unwrap();
     assert_eq!(read_back(&run), run);
     // Goes on from the file as from the state.
-    let on = |state| method.integrate(&harmonic(), state, 9.9, |_| ControlFlow::Continue(()));
+    let on = |state| method.run(&harmonic(), state, 9.9);
     assert_eq!(on(&read_back(&run.state)).unwrap(), on(&run.state).unwrap());
     let gauss = Gauss::<f32>::for_animation(1.0 / 60.0);
     assert_eq!(read_back(&gauss), gauss);

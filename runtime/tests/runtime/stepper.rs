@@ -158,9 +158,7 @@ fn changed_equations_and_states_are_those_of_the_next_step() {
         let grown = (0.3_f64 - 1.4).exp();
         assert!((stepper.state()[0] - grown).abs() < error, "{stepper:?}");
         // As if it began there.
-        let run = method
-            .integrate(&Growth(-2.0), &before, 1.0, |_| ControlFlow::Continue(()))
-            .unwrap();
+        let run = method.run(&Growth(-2.0), &before, 1.0).unwrap();
         assert!((stepper.state()[0] - run.state.values[0]).abs() < error);
         stepper.set_state(2.0, &[5.0]).unwrap();
         assert_eq!((stepper.time(), stepper.state()), (2.0, &[5.0][..]));
@@ -246,7 +244,7 @@ fn errors_of_observers_reach_the_caller() {
     };
     assert_eq!(error, "late");
     assert!(last.time > 3.0 && (last.values[0] - last.time.cos()).abs() < 1e-8);
-    let rest = dop853().integrate(&ode, &last, 10.0, |_| ControlFlow::Continue(()));
+    let rest = dop853().run(&ode, &last, 10.0);
     assert!(rest.unwrap().report.accepted + report.accepted > report.accepted);
 
     let position = |_: f64, y: &[f64]| y[0];
@@ -271,9 +269,7 @@ fn messages_do_not_show_large_states() {
         rates.fill(f64::NAN);
     });
     let start = State::at_rest(0.0, &[0.25; 50_000]);
-    let error = dop853()
-        .integrate(&ode, &start, 1.0, |_| ControlFlow::Continue(()))
-        .unwrap_err();
+    let error = dop853().run(&ode, &start, 1.0).unwrap_err();
     let message = error.to_string();
     assert!(message.contains("y = [0.25, 0.25, 0.25, 0.25, 0.25, 0.25, … (100000 components)]"));
     assert!(message.len() < 200, "{message}");

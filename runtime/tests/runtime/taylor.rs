@@ -111,10 +111,6 @@ impl TaylorOde<f64> for Cubic {
     }
 }
 
-fn go_on<T>(_: &mut DenseStep<'_, T>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 fn method(tolerance: f64) -> Taylor<f64> {
     Taylor::new(Options::with_tolerance(tolerance))
 }
@@ -133,7 +129,7 @@ fn a_pendulum_is_back_after_its_period() {
     for amplitude in [0.1, 1.0, 3.0] {
         let start = State::at_rest(0.0, &[amplitude]);
         let end = method(1e-15)
-            .integrate(&Mathematical, &start, period(amplitude), go_on)
+            .run(&Mathematical, &start, period(amplitude))
             .unwrap();
         assert!((end.state.values[0] - amplitude).abs() < 1e-14, "{end:?}");
         assert!(end.state.values[1].abs() < 1e-14, "{end:?}");
@@ -173,9 +169,9 @@ fn order_is_as_asked_for() {
                 ..Options::with_tolerance(1e30)
             };
             let found = Taylor::new(loose).with_order(order);
-            let found = found.integrate(&Mathematical, &start, step, go_on).unwrap();
+            let found = found.run(&Mathematical, &start, step).unwrap();
             assert_eq!(found.report.accepted, 1);
-            let exact = method(1e-16).integrate(&Mathematical, &start, step, go_on);
+            let exact = method(1e-16).run(&Mathematical, &start, step);
             (found.state.values[0] - exact.unwrap().state.values[0]).abs()
         };
         let measured = (error(0.8) / error(0.4)).log2();
@@ -189,7 +185,7 @@ fn tighter_tolerances_give_smaller_errors() {
     let start = State::at_rest(0.0, &[2.5]);
     let mut last = f64::INFINITY;
     for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
-        let end = method(tolerance).integrate(&Mathematical, &start, period(2.5), go_on);
+        let end = method(tolerance).run(&Mathematical, &start, period(2.5));
         let error = (end.unwrap().state.values[0] - 2.5).abs();
         assert!(
             error < 10.0 * tolerance && error < last,
@@ -203,7 +199,7 @@ fn tighter_tolerances_give_smaller_errors() {
 fn single_precision() {
     let start = State::at_rest(0.0_f32, &[1.0]);
     let end = Taylor::new(Options::with_tolerance(1e-7_f32))
-        .integrate(&Mathematical, &start, period(1.0) as f32, go_on)
+        .run(&Mathematical, &start, period(1.0) as f32)
         .unwrap();
     assert!((end.state.values[0] - 1.0).abs() < 1e-6, "{end:?}");
 }
@@ -211,7 +207,7 @@ fn single_precision() {
 #[test]
 fn a_polynomial_is_integrated_in_one_step() {
     let end = method(1e-12)
-        .integrate(&Cubic, &State::new(-1.0, vec![-1.0]), 7.0, go_on)
+        .run(&Cubic, &State::new(-1.0, vec![-1.0]), 7.0)
         .unwrap();
     assert_eq!(end.state.values, [343.0]);
     assert_eq!(end.report.accepted, 1);
@@ -243,9 +239,7 @@ fn events_are_located_to_rounding() {
 fn a_stopped_run_continues_bit_for_bit() {
     let start = State::at_rest(0.0, &[2.0]);
     let method = method(1e-13);
-    let whole = method
-        .integrate(&Mathematical, &start, 20.0, go_on)
-        .unwrap();
+    let whole = method.run(&Mathematical, &start, 20.0).unwrap();
     let mut steps = 0;
     let part = method
         .integrate(&Mathematical, &start, 20.0, |_| {
@@ -258,9 +252,7 @@ fn a_stopped_run_continues_bit_for_bit() {
         })
         .unwrap();
     assert_eq!(part.report.stop, StopReason::StoppedByObserver);
-    let rest = method
-        .integrate(&Mathematical, &part.state, 20.0, go_on)
-        .unwrap();
+    let rest = method.run(&Mathematical, &part.state, 20.0).unwrap();
     assert_eq!(rest.state, whole.state);
     assert_eq!(
         part.report.accepted + rest.report.accepted,
@@ -272,9 +264,7 @@ fn a_stopped_run_continues_bit_for_bit() {
 #[test]
 fn an_explosion_ends_with_an_error_and_the_last_state() {
     let start = State::new(0.0, vec![1.0]);
-    let error = method(1e-10)
-        .integrate(&Explosion, &start, 2.0, go_on)
-        .unwrap_err();
+    let error = method(1e-10).run(&Explosion, &start, 2.0).unwrap_err();
     let last = error.last_state().unwrap();
     assert!((last.time - 1.0).abs() < 1e-9, "{error}");
     assert!(last.values[0].is_finite());
@@ -288,9 +278,7 @@ fn an_explosion_ends_with_an_error_and_the_last_state() {
 fn coefficients_that_are_not_finite_are_reported_at_once() {
     // The square of 1e200 is not.
     let start = State::new(0.5, vec![1e200]);
-    let error = method(1e-10)
-        .integrate(&Explosion, &start, 2.0, go_on)
-        .unwrap_err();
+    let error = method(1e-10).run(&Explosion, &start, 2.0).unwrap_err();
     let IntegrationError::NonFinite {
         time,
         values,
@@ -308,16 +296,14 @@ fn coefficients_that_are_not_finite_are_reported_at_once() {
 #[test]
 fn requests_without_sense_are_refused() {
     let start = State::at_rest(0.0, &[1.0]);
-    let order = method(1e-10)
-        .with_order(2)
-        .integrate(&Mathematical, &start, 1.0, go_on);
+    let order = method(1e-10).with_order(2).run(&Mathematical, &start, 1.0);
     let expected = InputError::Order {
         order: 2,
         smallest: 3,
         largest: 100,
     };
     assert_eq!(order.unwrap_err(), expected.into());
-    let tolerance = method(f64::NAN).integrate(&Mathematical, &start, 1.0, go_on);
+    let tolerance = method(f64::NAN).run(&Mathematical, &start, 1.0);
     assert!(matches!(
         tolerance,
         Err(IntegrationError::Input(InputError::Tolerance { .. }))
@@ -326,7 +312,7 @@ fn requests_without_sense_are_refused() {
         step_limit: 3,
         ..Options::with_tolerance(1e-10)
     };
-    let limit = Taylor::new(limited).integrate(&Mathematical, &start, 100.0, go_on);
+    let limit = Taylor::new(limited).run(&Mathematical, &start, 100.0);
     let Err(IntegrationError::StepLimit {
         limit: 3,
         last,
@@ -337,9 +323,7 @@ fn requests_without_sense_are_refused() {
     };
     assert!(last.time > 0.0);
     assert_eq!(report.accepted, 3);
-    let nothing = method(1e-10)
-        .integrate(&Mathematical, &start, 0.0, go_on)
-        .unwrap();
+    let nothing = method(1e-10).run(&Mathematical, &start, 0.0).unwrap();
     assert_eq!((nothing.state, nothing.report.evaluations), (start, 0));
 }
 
@@ -351,7 +335,7 @@ fn a_controller_without_use_is_refused() {
         beta: 0.04,
         ..Options::with_tolerance(1e-10)
     };
-    let refused = Taylor::new(options).integrate(&Mathematical, &start, 1.0, go_on);
+    let refused = Taylor::new(options).run(&Mathematical, &start, 1.0);
     let expected = InputError::BetaUnused { value: 0.04 };
     assert_eq!(refused.unwrap_err(), expected.into());
 }

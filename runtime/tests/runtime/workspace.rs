@@ -1,7 +1,6 @@
 //! Methods evaluate in memory that they keep.
 
 use core::cell::Cell;
-use core::ops::ControlFlow;
 
 use branched_pendulum::analysis::variational::{ByTangents, Variational};
 use branched_pendulum::integrate::Projected;
@@ -30,9 +29,7 @@ impl<T: Scalar> Ode<T> for Counted {
 }
 
 fn run<O: Ode<f64> + ?Sized>(method: &impl Integrator<f64, O>, ode: &O, start: &State<f64>) {
-    method
-        .integrate(ode, start, 1.0, |_| ControlFlow::Continue(()))
-        .unwrap();
+    method.run(ode, start, 1.0).unwrap();
 }
 
 #[test]

@@ -49,7 +49,7 @@ use crate::symmetric::Symmetry;
 /// let start = State::at_rest(0.0, &[0.8, 0.1, -0.1]);
 /// let method = Dop853::new(Options::with_tolerance(1e-12));
 /// let system = AbsoluteAngles(&tree);
-/// let end = method.integrate(&system, &start, 10.0, |_| ControlFlow::Continue(()))?.state;
+/// let end = method.run(&system, &start, 10.0)?.state;
 /// let energy = |state: &State<f64>| tree.energy_of(state.positions(), state.velocities());
 /// assert!((energy(&end) - energy(&start)).abs() < 1e-10 * energy(&start));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

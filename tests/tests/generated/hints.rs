@@ -19,16 +19,16 @@ fn mistake(model: &Model, start: &State<f64>, method: &Dop853<f64>) {
 /// A mistake, and a part of what is said of it.
 const MISTAKES: [(&str, &str); 9] = [
     (
-        "let _ = method.integrate(model, start, 1.0, |_| ControlFlow::Continue(()));",
+        "let _ = method.run(model, start, 1.0);",
         "choose the coordinates of a model: `AbsoluteAngles(&model)`",
     ),
     (
         "let method = Taylor::new(Options::with_tolerance(1e-9)); \
-         let _ = method.integrate(&AbsoluteAngles(model), start, 1.0, |_| ControlFlow::Continue(()));",
+         let _ = method.run(&AbsoluteAngles(model), start, 1.0);",
         "with `emit(taylor)` in its attribute",
     ),
     (
-        "let _ = method.integrate(&CanonicalVariables(model), start, 1.0, |_| ControlFlow::Continue(()));",
+        "let _ = method.run(&CanonicalVariables(model), start, 1.0);",
         "a model has them with `emit(momenta)` in its attribute",
     ),
     (

@@ -267,7 +267,7 @@ fn wind_on_all_links_balances_the_energy() {
         model.kinetic_energy(theta, &omega) + model.potential_energy(theta)
     };
     let method = Dop853::new(Options::with_tolerance(1e-12));
-    let end = method.integrate(&ode, &start, 10.0, |_| ControlFlow::Continue(()));
+    let end = method.run(&ode, &start, 10.0);
     let end = end.unwrap().state.values;
     let brought = end[10];
     assert!(energy(&end) > 0.05);
@@ -282,7 +282,7 @@ fn wind_on_all_links_balances_the_energy() {
         },
     );
     let start = State::at_rest(0.0, &[0.0; 5]);
-    let found = method.integrate(&blown, &start, 10.0, |_| ControlFlow::Continue(()));
+    let found = method.run(&blown, &start, 10.0);
     let found = found.unwrap().state.values;
     let omega = model.velocities(end[..5].try_into().unwrap(), end[5..10].try_into().unwrap());
     for (found, expected) in found.iter().zip(end[..5].iter().chain(&omega)) {

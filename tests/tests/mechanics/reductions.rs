@@ -410,14 +410,13 @@ fn the_motion_in_phase_is_that_of_the_tree_in_loops() {
         .angles(&start, &mut whole)
         .expect("all links");
     let solver = Dop853::new(Options::with_tolerance(1e-13));
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let reduced = AbsoluteAngles(&SevenInPhase::new());
     let reduced = solver
-        .integrate(&reduced, &State::at_rest(0.0, &start), 10.0, go_on)
+        .run(&reduced, &State::at_rest(0.0, &start), 10.0)
         .expect("a regular motion");
     let full = AbsoluteAngles(&Seven::new());
     let full = solver
-        .integrate(&full, &State::at_rest(0.0, &whole), 10.0, go_on)
+        .run(&full, &State::at_rest(0.0, &whole), 10.0)
         .expect("a regular motion");
     SevenInPhase::WHOLE
         .angles(&reduced.state.values[..7], &mut whole)

@@ -70,8 +70,7 @@ where
             }
             continue;
         }
-        let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-        let plain = method.integrate(model, start, END, go_on);
+        let plain = method.run(model, start, END);
         let (end, plain) = (end.as_ref().unwrap(), plain.unwrap());
         assert_eq!(end.state, samples.end.as_ref().unwrap().state);
         assert_eq!(samples.states().len(), times.len());

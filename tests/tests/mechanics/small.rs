@@ -293,7 +293,7 @@ fn energies_are_those_of_the_whole_tree() {
 
 fn end<O: Ode<f64>>(ode: &O, start: &State<f64>, span: f64) -> Vec<f64> {
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let end = method.integrate(ode, start, span, |_| ControlFlow::Continue(()));
+    let end = method.run(ode, start, span);
     end.expect("a regular motion").state.values
 }
 

@@ -252,9 +252,8 @@ fn differences<M: Transverse<f64>>(model: &M, sector: usize, start: &[f64], span
     let mut angles = start.to_vec();
     angles.extend(vec![1.0; links]);
     let method = Dop853::new(Options::with_tolerance(1e-12));
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let end = method
-        .integrate(&ode, &State::at_rest(0.0, &angles), span, go_on)
+        .run(&ode, &State::at_rest(0.0, &angles), span)
         .expect("a regular motion");
     end.state.positions()[start.len()..].to_vec()
 }
@@ -276,14 +275,8 @@ fn grows_alike<M: Transverse<f64>, W: Pendulum<f64>>(
         *angle += SIZE * weight;
     }
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let end = method
-        .integrate(
-            &AbsoluteAngles(whole),
-            &State::at_rest(0.0, &angles),
-            10.0,
-            go_on,
-        )
+        .run(&AbsoluteAngles(whole), &State::at_rest(0.0, &angles), 10.0)
         .expect("a regular motion");
     let first = M::TRANSVERSE[sector].first;
     let mut places = Vec::new();

@@ -74,7 +74,7 @@ where
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 2.0);
     for ((system, start), lane) in releases.iter().zip(lanes) {
-        let plain = method.integrate(system, start, 2.0, |_| ControlFlow::Continue(()));
+        let plain = method.run(system, start, 2.0);
         let (lane, plain) = (lane.unwrap().state, plain.unwrap().state);
         for (lane, plain) in lane.values.iter().zip(&plain.values) {
             assert!((lane - plain).abs() < 1e-8, "{lane} {plain}");

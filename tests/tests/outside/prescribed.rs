@@ -1,8 +1,6 @@
 //! Links whose motion is handed over, against the free tree under the torques that they
 //! say to take.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{PrescribedMotion, PrescribedOde, UnderTorques};
 use branched_pendulum_compiler_tests::random::Random;
@@ -167,10 +165,7 @@ macro_rules! trajectories_and_the_work_of_the_hand {
         let held = PrescribedOde::new(&model, 0, hand).expect("it has that set");
         assert!(PrescribedOde::new(&model, 3, hand).is_none());
         let method = Dop853::new(Options::with_tolerance(1e-12));
-        let end = method
-            .integrate(&held, &start(), 4.0, |_| ControlFlow::Continue(()))
-            .expect("it goes on")
-            .state;
+        let end = method.run(&held, &start(), 4.0).expect("it goes on").state;
         let mut course = [[0.0; 3]];
         hand(end.time, &mut course);
         assert!((end.values[0] - course[0][0]).abs() < 1e-9);
@@ -196,7 +191,7 @@ macro_rules! trajectories_and_the_work_of_the_hand {
             },
         );
         let same = method
-            .integrate(&pushed, &start(), 4.0, |_| ControlFlow::Continue(()))
+            .run(&pushed, &start(), 4.0)
             .expect("it goes on")
             .state;
         for (held, pushed) in end.values.iter().zip(&same.values) {
@@ -223,7 +218,7 @@ macro_rules! trajectories_and_the_work_of_the_hand {
         with_work.values.push(0.0);
         let method = Dop853::new(Options::with_tolerance(1e-13));
         let end = method
-            .integrate(&work, &with_work, 10.0, |_| ControlFlow::Continue(()))
+            .run(&work, &with_work, 10.0)
             .expect("it goes on")
             .state;
         let energy = |values: &[f64]| {

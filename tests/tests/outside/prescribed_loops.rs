@@ -1,7 +1,6 @@
 //! Links whose motion is handed over in trees by rule, in blocks, on threads and in lanes.
 
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
 
 use branched_pendulum::Scalar;
 use branched_pendulum::prelude::*;
@@ -223,7 +222,7 @@ where
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 1.0);
     for ((held, start), lane) in releases.iter().zip(lanes) {
-        let plain = method.integrate(held, start, 1.0, |_| ControlFlow::Continue(()));
+        let plain = method.run(held, start, 1.0);
         let (lane, plain) = (lane.unwrap().state, plain.unwrap().state);
         for (lane, plain) in lane.values.iter().zip(&plain.values) {
             assert!((lane - plain).abs() < 1e-8, "{lane} {plain}");

@@ -1,7 +1,5 @@
 //! Torques on whole trees and on the smaller ones that stand for them.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::UnderTorques;
 
@@ -59,11 +57,10 @@ fn a_reduced_tree_moves_as_the_one_whose_joint_is_locked() {
     let mut ends = Vec::new();
     let small = State::from_positions_and_velocities(0.0, &[0.4, -0.3, 0.6], &[0.5, 1.0, -1.0]);
     let end = method
-        .integrate(
+        .run(
             &UnderTorques::new(&reduced, on_reduced),
             &small.expect("as many"),
             5.0,
-            |_| ControlFlow::Continue(()),
         )
         .expect("it goes on")
         .state;
@@ -86,11 +83,10 @@ fn a_reduced_tree_moves_as_the_one_whose_joint_is_locked() {
         &spread([0.5, 1.0, -1.0]),
     );
     let end = method
-        .integrate(
+        .run(
             &UnderTorques::new(&stiff, on_stiff),
             &large.expect("as many"),
             5.0,
-            |_| ControlFlow::Continue(()),
         )
         .expect("it goes on")
         .state;

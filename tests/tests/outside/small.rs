@@ -1,8 +1,6 @@
 //! Torques from outside on small differences that act back, against the whole tree under
 //! the same torques.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::{
     DifferencePatterns, OdeFn, SmallOde, SmallUnderTorques, UnderTorques,
@@ -209,7 +207,7 @@ fn push(size: f64) -> impl Fn(f64, &[f64], &[f64], &mut [f64]) {
 
 fn end(ode: &impl Ode<f64>, start: &State<f64>, span: f64) -> Vec<f64> {
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let end = method.integrate(ode, start, span, |_| ControlFlow::Continue(()));
+    let end = method.run(ode, start, span);
     end.expect("a regular motion").state.values
 }
 
@@ -279,7 +277,7 @@ fn trajectories_under_torques_in_lanes() {
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 2.0);
     for ((system, start), lane) in releases.iter().zip(lanes) {
-        let plain = method.integrate(system, start, 2.0, |_| ControlFlow::Continue(()));
+        let plain = method.run(system, start, 2.0);
         let (lane, plain) = (lane.unwrap().state, plain.unwrap().state);
         for (lane, plain) in lane.values.iter().zip(&plain.values) {
             assert!((lane - plain).abs() < 1e-8, "{lane} {plain}");

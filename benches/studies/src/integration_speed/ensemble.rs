@@ -112,12 +112,11 @@ pub fn scan_speeds(
     let methods = Methods::new(tolerance);
     let Methods { ensemble, .. } = &methods;
     let releases = || black_box(releases);
-    let run_on = |_: &mut DenseStep<'_, f64>| std::ops::ControlFlow::Continue(());
     best(
         [
             &|| {
                 ensemble.map(releases(), |_, (system, start)| {
-                    methods.dop853.integrate(system, start, end, run_on)
+                    methods.dop853.run(system, start, end)
                 })
             },
             &|| ensemble.integrate_models_in_lanes(&methods.dop853, releases(), end),

@@ -123,8 +123,7 @@ pub fn damped_reference(model: &DampedBranchedDouble) -> Result<f64, Integration
         ..Gauss::new(GaussOrder::Eight, 2e-4)
     };
     let ode = AbsoluteAngles(model);
-    let run_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-    let end = method.integrate(&ode, &start(DAMPED_ANGLE), DAMPED_DURATION, run_on)?;
+    let end = method.run(&ode, &start(DAMPED_ANGLE), DAMPED_DURATION)?;
     Ok(energy_of(&BranchedDouble::new(), &end.state.values))
 }
 

@@ -96,11 +96,10 @@ pub fn rods_at(end: f64, tolerance: f64) -> Result<Vec<f64>, Failure> {
     let model = Rods::<Double>::default();
     let start = State::at_rest(Double::from_f64(0.0), &RODS.map(Double::from_f64));
     let method = Taylor::new(Options::with_tolerance(Double::from_f64(tolerance)));
-    let run_on = |_: &mut DenseStep<'_, Double>| ControlFlow::Continue(());
     let ode = AbsoluteAngles(&model);
     let end = Double::from_f64(end);
     let solution = method
-        .integrate(&ode, &start, end, run_on)
+        .run(&ode, &start, end)
         .map_err(|error| Failure::integration(RODS[0].to_degrees(), error))?;
     let values = solution.state.values.iter();
     Ok(values.map(|value| value.high()).collect())

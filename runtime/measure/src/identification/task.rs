@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use super::family::AnyFamily;
 use super::frequencies::FrequencyDatum;
 use super::sensitivity::Sensitivities;
-use branched_pendulum::integrate::{Dop853, Options, Tolerance};
+use branched_pendulum::integrate::{Dop853, Integrator, Options, Tolerance};
 use branched_pendulum::system::{Ode, State};
 
 /// Relative tolerance of the derivatives and of the motion that they are derivatives of: they

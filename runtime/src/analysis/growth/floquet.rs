@@ -1,12 +1,10 @@
 //! Floquet multipliers: the fate of small deviations from periodic motions.
 
-use core::ops::ControlFlow;
-
 use nalgebra::DMatrix;
 
 use super::{BrakeOrbit, Checked, FINER, GrowthError, TransverseSystem, places};
 use crate::analysis::variational::{Linearised, flow_jacobian};
-use crate::integrate::{Dop853, Options};
+use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::State;
 
 /// The monodromy matrix of small deviations from a periodic motion: what one period of
@@ -48,8 +46,7 @@ impl Floquet {
                 let own = [place.angles.clone(), place.rates.clone()];
                 let places: Vec<usize> = own.into_iter().flatten().collect();
                 start.values[places[column]] = 1.0;
-                let end = method.integrate(ode, &start, period, |_| ControlFlow::Continue(()))?;
-                let end = end.state;
+                let end = method.run(ode, &start, period)?.state;
                 for (row, place) in places.iter().enumerate() {
                     matrix[(row, column)] = end.values[*place];
                 }

@@ -26,7 +26,7 @@ use self::transverse::places;
 pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
 use crate::ensemble::Ensemble;
-use crate::integrate::{Dop853, Options};
+use crate::integrate::{Dop853, Integrator, Options};
 use crate::system::{LaneOde, Ode, State};
 
 /// Computation of the growth of differences.

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use super::error::{TruncationError, check_length};
 use super::{ComparedForms, small_coordinates};
-use crate::integrate::{Options, Verner98};
+use crate::integrate::{Integrator, Options, Verner98};
 use crate::system::State;
 
 /// Bounds of the background: random states have every coordinate and rate

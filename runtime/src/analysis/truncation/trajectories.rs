@@ -5,7 +5,7 @@ use super::error::{TruncationError, check_amplitudes, check_length, check_positi
 use super::motion::{Powers, amplitude, sector_frequencies};
 use super::{ComparedForms, small_coordinates};
 use crate::ensemble::Ensemble;
-use crate::integrate::{Options, Tolerance, Verner98};
+use crate::integrate::{Integrator, Options, Tolerance, Verner98};
 use crate::system::State;
 
 /// Relative error along motions that are released from rest, by the amplitude

@@ -102,7 +102,7 @@ where
     let n = start.values.len();
     let all = Variational::new(system, n);
     let start = with_unit_deviations(start);
-    let mut solution = method.integrate(&all, &start, end, |_| ControlFlow::Continue(()))?;
+    let mut solution = method.run(&all, &start, end)?;
     let columns = solution.state.values.split_off(n);
     Ok((solution.state, columns))
 }

@@ -16,16 +16,13 @@ mod steps;
 mod verner98;
 
 use core::marker::PhantomData;
-use core::ops::ControlFlow;
 
 use self::pair::EmbeddedPair;
 use self::steps::PairSteps;
-use super::dense::DenseStep;
 use super::error::{InputError, IntegrationError};
 use super::evaluator::{Evaluator, NonFinite};
-use super::integrator::Integrator;
 use super::options::Options;
-use super::report::{Report, Solution};
+use super::report::Report;
 use super::request::{all_finite, check_start};
 use super::right_hand_side::StepSpan;
 use super::steps::Failure;
@@ -145,36 +142,6 @@ impl<M: EmbeddedPair, T: Real> ExplicitRungeKutta<M, T> {
     /// The options of the method.
     pub fn options(&self) -> &Options<T> {
         &self.options
-    }
-
-    /// [`Integrator::integrate`], without the trait in scope.
-    ///
-    /// # Errors
-    ///
-    /// As there.
-    pub fn integrate<O: Ode<T> + ?Sized>(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        end: T,
-        observer: impl FnMut(&mut DenseStep<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        Integrator::integrate(self, ode, start, end, observer)
-    }
-
-    /// [`Integrator::sample`], without the trait in scope.
-    ///
-    /// # Errors
-    ///
-    /// As there.
-    pub fn sample<O: Ode<T> + ?Sized>(
-        &self,
-        ode: &O,
-        start: &State<T>,
-        times: &[T],
-        visit: impl FnMut(T, &[T]),
-    ) -> Result<Solution<T>, IntegrationError<T>> {
-        Integrator::sample(self, ode, start, times, visit)
     }
 
     /// One step of length `step` (negative: backwards), whatever its error.

@@ -65,7 +65,7 @@ use crate::system::{FirstIntegral, Ode, State};
 /// };
 /// let start = State::at_rest(0.0, &[2.0]);
 /// let method = Projected::new(Rk4::new(0.1), &energy);
-/// let end = method.integrate(&pendulum, &start, 1000.0, |_| ControlFlow::Continue(()))?;
+/// let end = method.run(&pendulum, &start, 1000.0)?;
 /// let mut gradient = [0.0; 2];
 /// let error = energy(&end.state.values, &mut gradient) - energy(&start.values, &mut gradient);
 /// assert!(error.abs() < 1e-14);

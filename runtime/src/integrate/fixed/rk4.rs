@@ -45,7 +45,7 @@ use crate::system::{Ode, State};
 ///
 /// let decay = OdeFn::new(1, |_time: f64, y: &[f64], rates: &mut [f64]| rates[0] = -y[0]);
 /// let start = State::new(0.0, vec![1.0]);
-/// let solution = Rk4::new(0.01).integrate(&decay, &start, 1.0, |_| ControlFlow::Continue(()))?;
+/// let solution = Rk4::new(0.01).run(&decay, &start, 1.0)?;
 /// assert!((solution.state.values[0] - (-1.0_f64).exp()).abs() < 1e-10);
 /// assert_eq!(solution.report.evaluations, 401);
 /// # Ok::<(), IntegrationError<f64>>(())

@@ -84,7 +84,7 @@ impl<T: Scalar, P> ForcedDifferences<T> for P where
 /// let pushed = SmallUnderTorques::of(Branch::new(), gust);
 /// let method = Dop853::new(Options::with_tolerance(1e-9));
 /// let start = State::at_rest(0.0, &[0.0; 3]);
-/// let end = method.integrate(&pushed, &start, 60.0, |_| ControlFlow::Continue(()))?.state;
+/// let end = method.run(&pushed, &start, 60.0)?.state;
 /// let [_, one, other] = patterns.to_whole(&end.values)[..3] else { unreachable!() };
 /// assert!(one > other && other > 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -117,7 +117,7 @@ pub(super) const fn coordinates(
 /// let parent = |difference: f64| {
 ///     let start = State::at_rest(0.0, &[0.0, 0.2, difference]);
 ///     let method = Dop853::new(Options::with_tolerance(1e-12));
-///     let end = method.integrate(&SmallOde(&model), &start, 1.0, |_| ControlFlow::Continue(()));
+///     let end = method.run(&SmallOde(&model), &start, 1.0);
 ///     end.unwrap().state.values[0]
 /// };
 /// let reaction = |difference: f64| (parent(difference) - parent(0.0)) / difference.powi(2);

@@ -108,22 +108,21 @@ fn energy_is_balanced_in_every_form() {
     let drift =
         |state: &State<f64>| (tree.energy_of(state.positions(), state.velocities()) - first).abs();
     let method = Dop853::new(Options::with_tolerance(1e-14));
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let end = method
-        .integrate(&AbsoluteAngles(&tree), &start, 10.0, go_on)
+        .run(&AbsoluteAngles(&tree), &start, 10.0)
         .unwrap()
         .state;
     assert!(drift(&end) < 1e-10, "{:e}", drift(&end));
     let taylor = Taylor::new(Options::with_tolerance(1e-14));
     let by_series = taylor
-        .integrate(&AbsoluteAngles(&tree), &start, 10.0, go_on)
+        .run(&AbsoluteAngles(&tree), &start, 10.0)
         .unwrap()
         .state;
     assert!(drift(&by_series) < 1e-10, "{:e}", drift(&by_series));
     let momenta = tree.momenta(start.positions(), start.velocities());
     let canonical = State::new(0.0, [start.positions(), &momenta].concat());
     let system = CanonicalVariables(&tree);
-    let end = method.integrate(&system, &canonical, 10.0, go_on).unwrap();
+    let end = method.run(&system, &canonical, 10.0).unwrap();
     let (theta, momenta) = end.state.values.split_at(links);
     let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
     tree.canonical_rates(0.0, theta, momenta, &mut omega, &mut rates);
@@ -135,7 +134,7 @@ fn energy_is_balanced_in_every_form() {
         tree.symmetric_from_absolute(plain, absolute, own);
     }
     let system = SymmetricCoordinates(&tree);
-    let end = method.integrate(&system, &State::new(0.0, coordinates), 10.0, go_on);
+    let end = method.run(&system, &State::new(0.0, coordinates), 10.0);
     let mut moved = State::new(0.0, values.clone());
     let end = end.unwrap().state.values;
     for (own, coordinates) in moved.values.chunks_mut(links).zip(end.chunks(links)) {
@@ -155,11 +154,7 @@ fn energy_is_balanced_in_every_form() {
     let tree = PendulumTree::parse(&braked).unwrap();
     let system = WithLoss(&tree);
     let start = State::new(0.0, [values, vec![0.0; 2]].concat());
-    let end = method
-        .integrate(&system, &start, 10.0, go_on)
-        .unwrap()
-        .state
-        .values;
+    let end = method.run(&system, &start, 10.0).unwrap().state.values;
     let energy = tree.energy_of(&end[..links], &end[links..2 * links]);
     let balance = energy - first - end[2 * links];
     assert!(
@@ -248,11 +243,10 @@ fn springs_within_sectors_have_energies_there() {
     let n = tree.links();
     let start = State::at_rest(0.0, &[0.9, 0.7, 0.5, 0.3, 0.6, 0.4, -0.2]);
     let method = Dop853::new(Options::with_tolerance(1e-13));
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
     let system = AbsoluteAngles(&tree);
     let mut workspace = Workspace::new();
     let mut at = |time: f64| {
-        let state = method.integrate(&system, &start, time, go_on).unwrap();
+        let state = method.run(&system, &start, time).unwrap();
         let (theta, omega) = state.state.values.split_at(n);
         let given = Given::Absolute { theta, omega };
         let mut energies = vec![[0.0; 2]; symmetric.sectors().len()];

@@ -106,7 +106,7 @@ fn systems_of_a_tree_go_to_other_scalars() {
     let smooth: PendulumTree = description.tree(&[("m", 0.07)]).unwrap();
     let pushed = UnderTorques::new(smooth, wind);
     let method = Dop853::new(Options::with_tolerance(1e-11));
-    let end = method.integrate(&pushed, &start, 0.5, |_| ControlFlow::Continue(()));
+    let end = method.run(&pushed, &start, 0.5);
     let end = end.unwrap().state;
     let steady = UnderTorques::of(bent(), Steady(0.02));
     let precise = CastOde::<f64, Double>::cast(&steady, Double::from_f64);

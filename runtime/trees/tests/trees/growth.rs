@@ -138,8 +138,7 @@ fn friction_shrinks_the_plane_of_differences() {
         let time = 3.3;
         let column = |angle: f64, rate: f64| {
             let start = State::new(0.0, vec![0.7, 0.1, angle, 0.0, 0.0, rate]);
-            let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-            let end = method.integrate(&system, &start, time, go_on).unwrap();
+            let end = method.run(&system, &start, time).unwrap();
             [end.state.values[2], end.state.values[5]]
         };
         let ([a, c], [b, d]) = (column(1.0, 0.0), column(0.0, 1.0));

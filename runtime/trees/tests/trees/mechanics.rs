@@ -2,7 +2,7 @@
 
 use branched_pendulum::analysis::ModesError;
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::integrate::{DenseStep, Projected, Rk4};
+use branched_pendulum::integrate::{Projected, Rk4};
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Double;
 use branched_pendulum::system::{LinkPoint, TotalEnergy, UnderTorques};
@@ -152,17 +152,14 @@ fn methods_agree() {
     )
     .unwrap();
     let start = State::at_rest(0.0, &[0.5, 0.4, -0.3, 0.2, 0.1, 0.0, -0.2]);
-    fn run_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
     let options = Options::with_tolerance(1e-12);
     let system = AbsoluteAngles(&tree);
     let ends = [
-        Dop853::new(options.clone()).integrate(&system, &start, 2.0, run_on),
-        Verner98::new(options.clone()).integrate(&system, &start, 2.0, run_on),
-        Dopri5::new(options).integrate(&system, &start, 2.0, run_on),
-        Gauss::new(GaussOrder::Six, 1e-3).integrate(&system, &start, 2.0, run_on),
-        Rk4::new(1e-4).integrate(&system, &start, 2.0, run_on),
+        Dop853::new(options.clone()).run(&system, &start, 2.0),
+        Verner98::new(options.clone()).run(&system, &start, 2.0),
+        Dopri5::new(options).run(&system, &start, 2.0),
+        Gauss::new(GaussOrder::Six, 1e-3).run(&system, &start, 2.0),
+        Rk4::new(1e-4).run(&system, &start, 2.0),
     ];
     let ends = ends.map(|end| end.unwrap().state);
     for end in &ends[1..] {
@@ -171,7 +168,7 @@ fn methods_agree() {
         }
     }
     let held = Projected::new(Gauss::new(GaussOrder::Two, 0.01), TotalEnergy::new(&tree));
-    let end = held.integrate(&system, &start, 2.0, run_on).unwrap().state;
+    let end = held.run(&system, &start, 2.0).unwrap().state;
     let energy = |state: &State<f64>| tree.energy_of(state.positions(), state.velocities());
     near(energy(&end), energy(&start), 1e-13);
 }
@@ -199,9 +196,7 @@ fn ensembles_in_lanes_compute_what_one_thread_computes() {
         .collect();
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, 1.0);
     for (lane, (tree, start)) in lanes.iter().zip(&releases) {
-        let plain = method
-            .integrate(tree, start, 1.0, |_| ControlFlow::Continue(()))
-            .unwrap();
+        let plain = method.run(tree, start, 1.0).unwrap();
         let lane = &lane.as_ref().unwrap().state.values;
         for (lane, plain) in lane.iter().zip(&plain.state.values) {
             assert!((lane - plain).abs() < 1e-7, "{lane} {plain}");

@@ -104,7 +104,7 @@ fn held_trees_in_lanes() {
     let method = Dop853::new(Options::with_tolerance(1e-11));
     let lanes =
         Ensemble::new().integrate_in_lanes(&method, &system, std::slice::from_ref(&start), 0.8);
-    let plain = method.integrate(&system, &start, 0.8, |_| ControlFlow::Continue(()));
+    let plain = method.run(&system, &start, 0.8);
     let (lane, plain) = (lanes[0].as_ref().unwrap(), plain.unwrap());
     for (own, other) in lane.state.values.iter().zip(&plain.state.values) {
         near(*own, *other, 1e-8);

@@ -125,10 +125,7 @@ fn polynomials_are_the_motion() {
             let method = Dop853::new(Options::with_tolerance(Double::from_f64(1e-19)));
             let end = Double::from_f64(time) + Double::from_f64(tau);
             let system = AbsoluteAngles(&exact);
-            let end = method
-                .integrate(&system, &start, end, |_| ControlFlow::Continue(()))
-                .unwrap()
-                .state;
+            let end = method.run(&system, &start, end).unwrap().state;
             let right: Vec<f64> = end.values.iter().map(|value| value.high()).collect();
             let own = polynomial(&coefficients, components, ORDER, tau);
             let error = largest(&own, &right);

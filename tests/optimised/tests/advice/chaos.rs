@@ -147,7 +147,7 @@ fn frames_may_be_candidates() {
     let method = Dop853::new(Options::with_tolerance(1e-9));
     let frame = |state: &mut [f64]| {
         let start = State::new(0.0, state.to_vec());
-        let run = method.integrate(&ode, &start, 1.0 / 60.0, |_| ControlFlow::Continue(()));
+        let run = method.run(&ode, &start, 1.0 / 60.0);
         state.copy_from_slice(&run.unwrap().state.values);
     };
     let ask = |rate: f64| {

@@ -145,9 +145,7 @@ fn driven_trees_that_differ_in_lanes() {
     let lanes = Ensemble::new().integrate_models_in_lanes(&method, &releases, end);
     for ((model, start), lane) in releases.iter().zip(lanes) {
         let lane = lane.unwrap().state;
-        let plain = method
-            .integrate(model, start, end, |_| std::ops::ControlFlow::Continue(()))
-            .unwrap();
+        let plain = method.run(model, start, end).unwrap();
         assert_eq!(lane.time, end);
         for (lane, plain) in lane.values.iter().zip(&plain.state.values) {
             assert!((lane - plain).abs() < 1e-6, "{lane} {plain}");

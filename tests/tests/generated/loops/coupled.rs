@@ -146,10 +146,6 @@ fn a_rule_agrees_with_the_tree_at_run_time() {
     assert!(model.friction_power(&short).is_nan() && model.potential_energy(&short).is_nan());
 }
 
-fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 /// ∫P dt is what the energy loses, the integral beside the motion as one more variable: by
 /// each law alone, by all, and by none.
 #[test]
@@ -187,7 +183,7 @@ fn the_energy_is_balanced_along_a_run() {
         values.push(0.0);
         let start = State::new(0.0, values);
         let method = Dop853::new(Options::with_tolerance(1e-14));
-        let end = method.integrate(&ode, &start, 5.0, go_on);
+        let end = method.run(&ode, &start, 5.0);
         let end = end.expect("a smooth motion").state.values;
         let before = energy(&start.values);
         let lost = before - energy(&end);

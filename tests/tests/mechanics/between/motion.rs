@@ -24,10 +24,6 @@ struct Grove;
 
 const LINKS: usize = 6;
 
-fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 fn start() -> State<f64> {
     let mut random = Random::new(8);
     let values = [
@@ -95,7 +91,7 @@ fn the_energy_is_balanced_along_a_run() {
         let mut start = start();
         start.values.push(0.0);
         let method = Dop853::new(Options::with_tolerance(1e-14));
-        let end = method.integrate(&ode, &start, 5.0, go_on);
+        let end = method.run(&ode, &start, 5.0);
         let end = end.expect("a smooth motion").state.values;
         let lost = energy(&start.values) - energy(&end);
         assert!(lost >= least * energy(&start.values) - 1e-9, "{lost}");
@@ -114,8 +110,8 @@ fn taylor_series_are_those_of_dop853() {
     let model = Grove::new(parameters).expect("friction is positive");
     let system = AbsoluteAngles(&model);
     let options = || Options::with_tolerance(1e-13);
-    let by_series = Taylor::new(options()).integrate(&system, &start(), 2.0, go_on);
-    let by_stages = Dop853::new(options()).integrate(&system, &start(), 2.0, go_on);
+    let by_series = Taylor::new(options()).run(&system, &start(), 2.0);
+    let by_stages = Dop853::new(options()).run(&system, &start(), 2.0);
     let [by_series, by_stages] = [by_series, by_stages].map(|end| end.expect("smooth").state);
     for (a, b) in by_series.values.iter().zip(&by_stages.values) {
         assert!((a - b).abs() < 1e-8, "{a} {b}");

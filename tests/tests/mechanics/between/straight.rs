@@ -159,10 +159,6 @@ const MAGNETS: f64 = 5e-4;
 /// Number of the link that is held.
 const RIGHT: usize = 2;
 
-fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 fn model(loss: f64) -> Guyed {
     let parameters = GuyedParameters {
         stiffness: 60.0,
@@ -197,7 +193,7 @@ fn the_energy_is_balanced_along_a_run() {
         };
         let start = State::new(0.0, [&START[..], &[0.0]].concat());
         let method = Dop853::new(Options::with_tolerance(1e-14));
-        let end = method.integrate(&ode, &start, 10.0, go_on);
+        let end = method.run(&ode, &start, 10.0);
         let end = end.expect("a smooth motion").state.values;
         let lost = energy(&start.values) - energy(&end);
         assert!(lost >= least - 1e-9, "{lost}");
@@ -213,8 +209,8 @@ fn taylor_series_are_those_of_dop853() {
     let system = AbsoluteAngles(&model);
     let options = || Options::with_tolerance(1e-13);
     let start = State::new(0.0, START.to_vec());
-    let by_series = Taylor::new(options()).integrate(&system, &start, 1.5, go_on);
-    let by_stages = Dop853::new(options()).integrate(&system, &start, 1.5, go_on);
+    let by_series = Taylor::new(options()).run(&system, &start, 1.5);
+    let by_stages = Dop853::new(options()).run(&system, &start, 1.5);
     let [by_series, by_stages] = [by_series, by_stages].map(|end| end.expect("smooth").state);
     for (a, b) in by_series.values.iter().zip(&by_stages.values) {
         assert!((a - b).abs() < 1e-9, "{a} {b}");

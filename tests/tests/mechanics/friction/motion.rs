@@ -33,10 +33,6 @@ const PARAMETERS: ChainParameters<f64> = ChainParameters {
     quadratic_hand: 2e-4,
 };
 
-fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 /// Compiled code and the interpreter agree to the bit.
 #[test]
 fn compiled_code_is_what_the_interpreter_computes() {
@@ -88,9 +84,7 @@ fn the_energy_is_balanced_along_a_run() {
         model.kinetic_energy(&theta, &omega) + model.potential_energy(&theta)
     };
     let method = Dop853::new(Options::with_tolerance(1e-12));
-    let end = method
-        .integrate(&ode, &start, 20.0, go_on)
-        .expect("a smooth motion");
+    let end = method.run(&ode, &start, 20.0).expect("a smooth motion");
     let lost = energy(&start.values) - energy(&end.state.values);
     assert!(lost > 0.3 * energy(&start.values), "{lost}");
     let error = lost + end.state.values[4];
@@ -104,13 +98,9 @@ fn taylor_series_agree_with_dop853() {
     let start = State::at_rest(0.0, &[1.2, -0.7]);
     let span = 10.0;
     let taylor = Taylor::new(Options::with_tolerance(1e-13));
-    let taylor = taylor
-        .integrate(&system, &start, span, go_on)
-        .expect("a smooth motion");
+    let taylor = taylor.run(&system, &start, span).expect("a smooth motion");
     let dop853 = Dop853::new(Options::with_tolerance(1e-13));
-    let dop853 = dop853
-        .integrate(&system, &start, span, go_on)
-        .expect("a smooth motion");
+    let dop853 = dop853.run(&system, &start, span).expect("a smooth motion");
     for (a, b) in taylor.state.values.iter().zip(&dop853.state.values) {
         assert!((a - b).abs() < 1e-9, "{a} {b}");
     }

@@ -3,9 +3,7 @@
 
 mod cases;
 
-use std::ops::ControlFlow;
-
-use branched_pendulum::integrate::{Dop853, Options};
+use branched_pendulum::integrate::{Dop853, Integrator, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::report::{Faults, Message, OutputMessage, TreeMessage};
 use branched_pendulum_codegen::{description, scene};
@@ -98,7 +96,7 @@ fn moved(tree: &Tree, theta: &[f64], omega: &[f64], time: f64) -> (Vec<f64>, Vec
     });
     let start = State::new(0.0, [theta, omega].concat());
     let solution = Dop853::new(Options::with_tolerance(1e-15))
-        .integrate(&motion, &start, time, |_| ControlFlow::Continue(()))
+        .run(&motion, &start, time)
         .expect("a short path is integrated");
     let state = solution.state;
     (state.positions().to_vec(), state.velocities().to_vec())

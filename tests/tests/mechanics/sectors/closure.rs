@@ -1,6 +1,6 @@
 //! Budgets along a trajectory: what flows into a sector is what it gains.
 
-use branched_pendulum::integrate::{Dop853, Options};
+use branched_pendulum::integrate::{Dop853, Integrator, Options};
 use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_codegen::functions::{Argument, Purpose, ResultShape};
 use branched_pendulum_codegen::program::Entry;

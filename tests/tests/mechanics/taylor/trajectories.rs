@@ -249,7 +249,7 @@ fn time_running_backwards() {
     let (theta, _) = reference_state("regular");
     let start = State::at_rest(0.0, &theta);
     let go = |from: &State<f64>, to: f64| {
-        let solution = method(1e-16).integrate(&ode, from, to, |_| ControlFlow::Continue(()));
+        let solution = method(1e-16).run(&ode, from, to);
         solution.expect("the motion is smooth").state
     };
     let back = go(&go(&start, 10.0), 0.0);

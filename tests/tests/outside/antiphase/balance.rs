@@ -1,7 +1,5 @@
 //! H_d against what feeds it, all of coordinates and momenta.
 
-use std::ops::ControlFlow;
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::system::OdeFn;
 
@@ -37,7 +35,7 @@ fn changes(
     });
     let start = State::new(0.0, [&theta[..], &omega[..], &[0.0]].concat());
     let end = Dop853::new(Options::with_tolerance(1e-13))
-        .integrate(&system, &start, 5.0, |_| ControlFlow::Continue(()))
+        .run(&system, &start, 5.0)
         .expect("it goes on")
         .state;
     let of = |values: &[f64]| {

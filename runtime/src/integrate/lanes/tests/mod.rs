@@ -9,13 +9,11 @@ mod fixed;
 mod model;
 mod models;
 
-use core::ops::ControlFlow;
-
 use self::model::{Lopsided, LopsidedOde, lopsided};
 use super::{Cases, Ending, LaneMethod, Outcome, Task, integrate};
 use crate::integrate::{
-    DenseStep, Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Options, Rk4,
-    Solution, Solver, Taylor, Verner98,
+    Dop853, Dopri5, Gauss, GaussOrder, IntegrationError, Integrator, Options, Rk4, Solution,
+    Solver, Taylor, Verner98,
 };
 use crate::scalar::{InstructionSet, Lane};
 use crate::system::{AbsoluteAngles, State};
@@ -186,8 +184,7 @@ fn plain<M>(method: &M, model: &LopsidedOde<f64>, start: &State<f64>, end: f64) 
 where
     M: Integrator<f64, LopsidedOde<f64>>,
 {
-    let go_on = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-    method.integrate(model, start, end, go_on)
+    method.run(model, start, end)
 }
 
 /// Debug texts are as many digits as it takes: equal bits.

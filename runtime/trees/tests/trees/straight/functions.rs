@@ -6,7 +6,7 @@ use branched_pendulum::scalar::Dual;
 use branched_pendulum::transfer::Given;
 use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription, TreeError};
 
-use super::{GUYED, go_on};
+use super::GUYED;
 
 /// Observables know the energy of straight springs, and their rates what dampers take.
 #[test]
@@ -139,7 +139,7 @@ fn lanes_have_repulsions_of_their_own() {
     let moved = Ensemble::new().integrate_models_in_lanes(&method, &lanes, 0.5);
     let mut before = start.values.clone();
     for (tree, moved) in trees.iter().zip(moved) {
-        let alone = method.integrate(&AbsoluteAngles(tree), &start, 0.5, go_on);
+        let alone = method.run(&AbsoluteAngles(tree), &start, 0.5);
         let [own, alone] = [moved, alone].map(|end| end.unwrap().state.values);
         for (own, alone) in own.iter().zip(&alone) {
             assert!((own - alone).abs() < 1e-9, "{own} {alone}");

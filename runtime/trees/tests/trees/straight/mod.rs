@@ -23,10 +23,6 @@ const GUYED: &str = "gravity = 9.81,
     between(b_2, c_1_1, at = each((0.1, 0.05), 0.2), repulsion = 0.002, exponent = 3),
     guy(b_2, at = 0.3, to = (-1.2, 0.2), repulsion = -0.02, exponent = 2)";
 
-fn go_on(_: &mut DenseStep<'_, f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 /// A point of a link, or of the ground for `None`.
 type End = (Option<usize>, [f64; 2]);
 

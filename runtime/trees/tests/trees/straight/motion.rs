@@ -7,7 +7,7 @@ use branched_pendulum::system::CanonicalVariables;
 use branched_pendulum_trees::PendulumTree;
 
 use super::super::plain::Numbers;
-use super::{GUYED, go_on};
+use super::GUYED;
 
 /// A tree, and the work of friction as one more number of the state.
 struct WithLoss<'a>(&'a PendulumTree);
@@ -41,13 +41,13 @@ fn energy_is_balanced_in_every_form() {
     let drift =
         |state: &State<f64>| (tree.energy_of(state.positions(), state.velocities()) - first).abs();
     let method = Dop853::new(Options::with_tolerance(1e-14));
-    let end = method.integrate(&AbsoluteAngles(&tree), &start, 10.0, go_on);
+    let end = method.run(&AbsoluteAngles(&tree), &start, 10.0);
     let end = end.unwrap().state;
     assert!(drift(&end) < 1e-10, "{:e}", drift(&end));
     let momenta = tree.momenta(start.positions(), start.velocities());
     let canonical = State::new(0.0, [start.positions(), &momenta].concat());
     let system = CanonicalVariables(&tree);
-    let end = method.integrate(&system, &canonical, 10.0, go_on).unwrap();
+    let end = method.run(&system, &canonical, 10.0).unwrap();
     let (theta, momenta) = end.state.values.split_at(links);
     let [mut omega, mut rates] = [(); 2].map(|()| vec![0.0; links]);
     tree.canonical_rates(0.0, theta, momenta, &mut omega, &mut rates);
@@ -63,7 +63,7 @@ fn energy_is_balanced_in_every_form() {
     let tree = PendulumTree::parse(&braked).unwrap();
     let start = State::new(0.0, [values, vec![0.0; 2]].concat());
     let first = tree.energy_of(&start.values[..links], &start.values[links..2 * links]);
-    let end = method.integrate(&WithLoss(&tree), &start, 10.0, go_on);
+    let end = method.run(&WithLoss(&tree), &start, 10.0);
     let end = end.unwrap().state.values;
     let energy = tree.energy_of(&end[..links], &end[links..2 * links]);
     let lost = end[2 * links];
@@ -157,10 +157,10 @@ fn two_coupled_rods_move_as_their_own_equations_say() {
     }
     let method = Dop853::new(Options::with_tolerance(1e-13));
     let start = [0.7, -0.4, 1.0, 2.0];
-    let expected = method.integrate(&own, &State::new(0.0, start.to_vec()), 3.0, go_on);
+    let expected = method.run(&own, &State::new(0.0, start.to_vec()), 3.0);
     let expected = expected.unwrap().state.values;
     let start = State::new(0.0, vec![0.0, 0.7, -0.4, 0.0, 1.0, 2.0]);
-    let found = method.integrate(&AbsoluteAngles(&tree), &start, 3.0, go_on);
+    let found = method.run(&AbsoluteAngles(&tree), &start, 3.0);
     let found = found.unwrap().state.values;
     let found = [1, 2, 4, 5].map(|place| found[place]);
     for (found, expected) in found.iter().zip(&expected) {

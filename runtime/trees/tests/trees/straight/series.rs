@@ -8,7 +8,7 @@ use branched_pendulum::taylor::Quad;
 use branched_pendulum_trees::{PendulumTree, TreeDescription};
 
 use super::super::plain::Numbers;
-use super::{GUYED, StraightTree, go_on};
+use super::{GUYED, StraightTree};
 
 /// Order to which motions are expanded.
 const ORDER: usize = 10;
@@ -95,8 +95,8 @@ fn motions_by_series_are_those_by_accelerations() {
         let series = Taylor::new(Options::with_tolerance(1e-14));
         let method = Dop853::new(Options::with_tolerance(1e-14));
         let [by_series, by_accelerations] = [
-            series.integrate(&system, &start, 1.0, go_on),
-            method.integrate(&system, &start, 1.0, go_on),
+            series.run(&system, &start, 1.0),
+            method.run(&system, &start, 1.0),
         ]
         .map(|end| end.unwrap().state.values);
         for (one, other) in by_series.iter().zip(&by_accelerations) {
@@ -111,10 +111,7 @@ fn motions_by_series_are_those_by_accelerations() {
         }
         if keeps {
             let energy = |state: &State<f64>| tree.energy_of(state.positions(), state.velocities());
-            let end = series
-                .integrate(&system, &start, 10.0, go_on)
-                .unwrap()
-                .state;
+            let end = series.run(&system, &start, 10.0).unwrap().state;
             let drift = (energy(&end) - energy(&start)).abs();
             assert!(drift < 1e-10, "{drift:e}");
         }
