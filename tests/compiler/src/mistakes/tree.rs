@@ -103,7 +103,7 @@ pub(super) const MISTAKES: &[Mistake] = &[
     emitt(energies), emt(transfer(angle = 1), momenta), obsrve(x = theta_a), observ(h = cos(theta_a)),
     driv(torque = 1), drvie(x = 0.1 * cos(t)), in_phse(b), inphase(all), lockd(a, 0.3),
     perscribed(a), paramters(m, l), crat = ::bp, slove = recursion, cod = loops, emitt(),
-    plots(energies), gravty(9.8), prescribd,
+    plots(energies), gravty(9.8), prescribd, betwen(a, b, spring = 1), sibling(b, spring = 1), gyu(a, at = 1),
 )] struct Pendulum;",
     ),
     (
