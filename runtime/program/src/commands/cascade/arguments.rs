@@ -25,10 +25,10 @@ use crate::subject::{Subject, TreeArguments};
 pub struct Arguments {
     #[command(flatten)]
     tree: TreeArguments,
-    /// generations of a tree by rule in place of `--tree`, 2 to 10: rods with the parameters
+    /// generations of a tree by rule in place of `--tree`, 2 to 16: rods with the parameters
     /// mass_ratio, length_ratio, friction (of the youngest pivots) and friction_ratio (of a
     /// generation over the one above; from 1e6 on nothing but the youngest brakes)
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10), verbatim_doc_comment)]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=16), verbatim_doc_comment)]
     generations: Option<u32>,
     /// rods that hang from each one of a tree by rule, 2 to 5
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(2..=5))]
