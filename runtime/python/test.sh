@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the wheel, tests it in a virtual environment under target/, and uses it in a second
-# one that holds NumPy alone.
+# one that holds an older NumPy alone.
 set -euo pipefail
 cd "$(dirname "$0")"
 # The versions of the workspace, where it has them.
@@ -17,7 +17,7 @@ target/venv/bin/python -m pytest --quiet tests "$@"
 
 rm -rf target/clean
 python3 -m venv target/clean
-target/clean/bin/pip install --quiet "$wheel"
+target/clean/bin/pip install --quiet "$wheel" 'numpy<2'
 target/clean/bin/python - <<'PYTHON'
 import branched_pendulum as bp
 

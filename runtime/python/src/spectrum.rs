@@ -278,8 +278,8 @@ pub(crate) fn lines(
 /// Examples
 /// --------
 /// >>> t = np.linspace(0, 1, 11)
-/// >>> bp.analysis.running_integral(t, 3 * t**2)[-1].round(6)
-/// np.float64(1.0)
+/// >>> round(float(bp.analysis.running_integral(t, 3 * t**2)[-1]), 6)
+/// 1.0
 #[pyfunction]
 pub(crate) fn running_integral<'py>(
     py: Python<'py>,

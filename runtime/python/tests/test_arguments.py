@@ -108,7 +108,7 @@ def test_nothing_is_lost_of_an_array(tree, model, motion):
         ]:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
-                # Python 3.11 tells what was processed in a note behind the message.
+                # What was processed stands in a note behind the message.
                 named = f"{name}'?: .*{match}|{match}(.|\\n)*'{name}'"
                 with pytest.raises(TypeError, match=named):
                     call(bad)
