@@ -1,7 +1,15 @@
 //! Cells of a table: numbers, with their units or without, and what is none.
 
-use super::format::DecimalMark;
 use super::units::{FRAME, Unit};
+
+/// The mark between whole numbers and fractions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DecimalMark {
+    /// `0.5`
+    Point,
+    /// `0,5`
+    Comma,
+}
 
 /// What a cell holds.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::cell::Entry;
+use super::cell::{DecimalMark, Entry};
 
 /// Separator of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,15 +15,6 @@ pub enum Delimiter {
     Tab,
     /// Any number of spaces and tabs.
     Spaces,
-}
-
-/// The mark between whole numbers and fractions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DecimalMark {
-    /// `0.5`
-    Point,
-    /// `0,5`
-    Comma,
 }
 
 /// Ways of writing numbers side by side.

@@ -2,7 +2,8 @@
 
 use super::error::{Place, ReadErrorKind};
 use super::format::TextLine;
-use super::names::{is_time, tracks};
+use super::names::is_time;
+use super::track::{Track, tracks};
 use super::units::{Unit, bare};
 use super::write::Column;
 
@@ -16,19 +17,6 @@ pub enum FileKind {
     /// DeepLabCut's table: rows of the scorer, of the individuals where there are several, of
     /// body parts and of coordinates.
     DeepLabCut,
-}
-
-/// A point that a camera followed: indices of its columns.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Track {
-    /// Name.
-    pub name: String,
-    /// Column of the coordinate to the right.
-    pub x: usize,
-    /// Column of the other coordinate.
-    pub y: usize,
-    /// Column of the likelihood, where there is one.
-    pub likelihood: Option<usize>,
 }
 
 /// Names above the numbers.

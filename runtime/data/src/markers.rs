@@ -6,7 +6,8 @@ use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, counted, listed, rounded};
 use super::header::FileKind;
 use super::points::{Arrow, Places, Point};
-use super::recording::{LinkSeries, Recording, Sample};
+use super::recording::{LinkSeries, Recording};
+use super::sample::Sample;
 use super::table::Table;
 use super::timing::{Clock, Times};
 

@@ -1,6 +1,5 @@
 //! What the name of a column says about it.
 
-use super::header::Track;
 use super::units::{FRAME, Unit};
 use super::write::Column;
 
@@ -18,7 +17,7 @@ pub(crate) enum Meaning {
     Unsaid,
 }
 
-const ANGLE: &[&str] = &[
+pub(super) const ANGLE: &[&str] = &[
     "theta", "th", "θ", "ϑ", "phi", "φ", "ϕ", "psi", "ψ", "angle", "angles", "winkel", "ángulo",
     "angulo", "angolo",
 ];
@@ -106,7 +105,7 @@ const LETTERS: [(&str, &str, &str); 5] = [
 ];
 
 /// Words of a name in small letters, without the numbers behind them; `jointVel` are two.
-fn words(name: &str) -> Vec<String> {
+pub(super) fn words(name: &str) -> Vec<String> {
     let mut spaced = String::with_capacity(name.len());
     let mut before = ' ';
     for letter in name.chars() {
@@ -238,7 +237,7 @@ const SINGLE: &str = "point";
 
 /// The point and the axis (`x`, `y`, or `likelihood`) of a coordinate: `NAME x`, `NAME_x`,
 /// `NAME.X`, `x_NAME`, `x1`, `p1x`, `nameX`, or `x` alone.
-fn coordinate(name: &str) -> Option<(String, &'static str)> {
+pub(super) fn coordinate(name: &str) -> Option<(String, &'static str)> {
     const AXES: [(&str, &str); 5] = [
         ("x", "x"),
         ("X", "x"),
@@ -273,59 +272,6 @@ fn coordinate(name: &str) -> Option<(String, &'static str)> {
         }
     }
     None
-}
-
-/// Points of which both coordinates are columns.
-pub(crate) fn tracks(columns: &[Column]) -> Vec<Track> {
-    let is_length =
-        |column: &&Column| matches!(Unit::named(&column.unit), None | Some(Unit::Length));
-    let coordinate = |column| {
-        Some(column)
-            .filter(is_length)
-            .and_then(|c| coordinate(&c.name))
-    };
-    let coordinates: Vec<_> = columns.iter().map(coordinate).collect();
-    let find = |point: &str, axis: &str| {
-        let mut all = coordinates.iter();
-        all.position(|c| c.as_ref().is_some_and(|(p, a)| p == point && *a == axis))
-    };
-    let rates = [
-        "v",
-        "vel",
-        "velocity",
-        "speed",
-        "acc",
-        "accel",
-        "acceleration",
-        "force",
-    ];
-    let has_rates = coordinates.iter().flatten().any(|(point, _)| {
-        words(point)
-            .last()
-            .is_some_and(|word| rates.contains(&word.as_str()))
-    });
-    let tracks = coordinates
-        .iter()
-        .enumerate()
-        .filter_map(|(x, coordinate)| {
-            let (name, "x") = coordinate.as_ref()? else {
-                return None;
-            };
-            // Components of velocities and of rotations are no points, nor an `a` beside the former.
-            let last = words(name).pop().unwrap_or_default();
-            let is_letter = name.rsplit([' ', '_']).next() == Some("a");
-            let last = last.as_str();
-            if rates.contains(&last) || ANGLE.contains(&last) || has_rates && is_letter {
-                return None;
-            }
-            Some(Track {
-                name: name.clone(),
-                x,
-                y: find(name, "y")?,
-                likelihood: find(name, "likelihood"),
-            })
-        });
-    tracks.collect()
 }
 
 /// Names in sentences, the first of many.

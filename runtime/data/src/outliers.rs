@@ -1,6 +1,6 @@
 //! Samples that do not fit their neighbours.
 
-use super::recording::Sample;
+use super::sample::Sample;
 use super::timing::{median, quantile};
 use super::turns::Turns;
 

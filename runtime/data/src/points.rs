@@ -3,10 +3,10 @@
 use super::error::{ReadError, ReadErrorKind};
 use super::exchange;
 use super::finding::Finding;
-use super::header::Track;
 use super::outliers::resolution;
 use super::table::Table;
 use super::timing::Times;
+use super::track::Track;
 
 /// Coordinates and likelihood.
 type Dot = ([f64; 2], f64);

@@ -3,23 +3,10 @@
 use super::error::{ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, counted, listed, moments};
 use super::outliers::{self, Marked};
+use super::sample::Sample;
 use super::table::Table;
 use super::timing::{Times, Timing};
 use super::turns::{self, Turns};
-
-/// The angle of a link at one time, rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Sample {
-    /// A measured angle.
-    Measured(f64),
-    /// One that does not fit its neighbours.
-    Outlier(f64),
-    /// One whose points were found with too small a likelihood.
-    Unlikely(f64),
-    /// None was measured.
-    Missing,
-}
 
 /// Angles of one link.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-use super::recording::Sample;
+use super::sample::Sample;
 use super::timing::{Timing, quantile};
 
 /// Samples that a path may leave out in succession, and one.
