@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use branched_pendulum::interruption;
 
 use crate::interrupts::detached;
-use crate::memory::{bytes, need, room};
+use crate::memory::{bytes, need, room, shown};
 
 pub(crate) type Row<'py> = Bound<'py, PyArray1<f64>>;
 pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
@@ -156,17 +156,6 @@ impl<'py> Numbers<'py> {
                 "{name} must have shape (n, {wanted}), got {}",
                 shown(shape)
             ))),
-        }
-    }
-}
-
-/// A shape as Python writes it.
-pub(crate) fn shown(shape: &[usize]) -> String {
-    match shape {
-        [one] => format!("({one},)"),
-        axes => {
-            let axes: Vec<String> = axes.iter().map(ToString::to_string).collect();
-            format!("({})", axes.join(", "))
         }
     }
 }

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Numbers, by_state};
 use crate::estimates::Coordinates;
-use crate::motions::MeasuredModel;
+use crate::measured_model::MeasuredModel;
 use crate::pendulum::Pendulum;
 use paper::Paper;
 

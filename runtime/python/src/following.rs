@@ -1,6 +1,6 @@
 //! One motion: `Pendulum.integrate`.
 
-use branched_pendulum::integrate::{AnyIntegrator, DenseError, Report, RunError, Trajectory};
+use branched_pendulum::integrate::{AnyIntegrator, Report, RunError, Trajectory};
 use branched_pendulum::system::State;
 use numpy::IntoPyArray;
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -12,62 +12,12 @@ use crate::arrays::{Numbers, Times, matrix};
 use crate::events::{Crossings, Watched, find_events};
 use crate::failures::failed;
 use crate::interrupts::detached;
+use crate::kept::{End, KeepError, Kept, OutputTimes};
 use crate::memory::room;
 use crate::motions::Motions;
 use crate::pendulum::Pendulum;
 use crate::results::{DenseOutput, report, result};
 use crate::stepping::Stepping;
-
-/// Times at which states are wanted.
-#[derive(Clone, Copy)]
-pub(crate) enum OutputTimes<'a> {
-    At(&'a [f64]),
-    /// The ends of all steps up to a time.
-    AllSteps(f64),
-}
-
-/// What is kept of a motion, as far as it came.
-pub(crate) struct Kept {
-    pub(crate) times: Vec<f64>,
-    pub(crate) states: Vec<f64>,
-    /// All steps, if they are wanted.
-    pub(crate) trajectory: Option<Trajectory<f64>>,
-}
-
-/// Why nothing more is kept.
-pub(crate) enum KeepError {
-    Dense(DenseError<f64>),
-    Memory,
-}
-
-impl Kept {
-    /// Adds a state.
-    pub(crate) fn push(&mut self, time: f64, state: &[f64]) -> Result<(), KeepError> {
-        let is_there = self.times.try_reserve(1).is_ok();
-        if !(is_there && self.states.try_reserve(state.len()).is_ok()) {
-            return Err(KeepError::Memory);
-        }
-        self.times.push(time);
-        self.states.extend_from_slice(state);
-        Ok(())
-    }
-
-    /// Adds the states at those times that the steps came by: all, if they came to their end.
-    pub(crate) fn sample(&mut self, times: &[f64], at_end: bool) -> Result<(), KeepError> {
-        let Some(trajectory) = self.trajectory.take() else {
-            return Ok(());
-        };
-        for &time in times {
-            match trajectory.at(time) {
-                Ok(state) => self.push(time, &state)?,
-                Err(DenseError::OutsideStep { .. }) if !at_end => break,
-                Err(error) => return Err(KeepError::Dense(error)),
-            }
-        }
-        self.trajectory = Some(trajectory);
-        Ok(())
-    }
-}
 
 /// A motion to follow.
 struct Motion<'a> {
@@ -76,9 +26,6 @@ struct Motion<'a> {
     start: State<f64>,
     dense: bool,
 }
-
-/// End of a run: the account, or why it ended before.
-pub(crate) type End = Result<Report<f64>, Box<RunError<f64, KeepError>>>;
 
 impl Motion<'_> {
     /// Follows it; what it kept is there after a failure too, with the last good state.

@@ -13,6 +13,8 @@ mod following;
 mod growth;
 mod identify;
 mod interrupts;
+mod kept;
+mod measured_model;
 mod mechanics;
 mod memory;
 mod model_smoothing;

@@ -5,8 +5,6 @@ use std::fs;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
-use crate::arrays::shown;
-
 /// Bytes below which nobody asks how much is free.
 const SMALL: usize = 64 << 20;
 
@@ -69,4 +67,15 @@ pub(crate) fn room(shape: &[usize]) -> PyResult<Vec<f64>> {
         .try_reserve_exact(count)
         .map_err(|_| PyMemoryError::new_err(format!("there is no memory for {what}")))?;
     Ok(values)
+}
+
+/// A shape as Python writes it.
+pub(crate) fn shown(shape: &[usize]) -> String {
+    match shape {
+        [one] => format!("({one},)"),
+        axes => {
+            let axes: Vec<String> = axes.iter().map(ToString::to_string).collect();
+            format!("({})", axes.join(", "))
+        }
+    }
 }

@@ -6,7 +6,7 @@ use branched_pendulum::system::AbsoluteAngles;
 use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 
 use crate::estimates::Estimate;
-use crate::motions::MeasuredModel;
+use crate::measured_model::MeasuredModel;
 
 /// A smoothing by equations of motion that is asked for.
 pub(crate) struct ModelSmoothing<'a, M> {

@@ -14,10 +14,11 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 
-use crate::arrays::{Numbers, Table, frame, matrix, shown, state_names, whole};
+use crate::arrays::{Numbers, Table, frame, matrix, state_names, whole};
 use crate::estimates::{Draw, Estimate};
 use crate::interrupts::detached;
 use crate::memory::room;
+use crate::memory::shown;
 
 /// Data of several columns, a row a time; NaN is missing.
 pub(crate) fn rows(

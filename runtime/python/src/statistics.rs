@@ -42,7 +42,7 @@ pub(crate) fn average<'py>(py: Python<'py>, x: Numbers<'py>) -> PyResult<Bound<'
         ref shape => {
             let text = format!(
                 "x must have shape (m,) or (k, m), got {}",
-                crate::arrays::shown(shape)
+                crate::memory::shown(shape)
             );
             return Err(PyValueError::new_err(text));
         }

@@ -4,7 +4,8 @@ use branched_pendulum::integrate::{AnyIntegrator, Method, Options, Tolerance};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{Numbers, shown, whole};
+use crate::arrays::{Numbers, whole};
+use crate::memory::shown;
 
 /// A method by its name, with its tolerances or its step.
 pub(crate) struct Stepping<'a, 'py> {

@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 
 use crate::DescriptionError;
 use crate::arrays::Number;
-use crate::motions::MeasuredModel;
+use crate::measured_model::MeasuredModel;
 use crate::pendulum::Pendulum;
 
 /// Links whose names are shown.

@@ -4,8 +4,7 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::Workspace;
 use branched_pendulum::tree::{Bodies, Shape};
 
-use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
-use crate::rows::Form;
+use crate::equations::{Form, GeneralEquations, RoughEquations, StraightEquations};
 
 /// Bodies in one of the forms.
 #[derive(Clone, Debug)]

@@ -3,9 +3,8 @@
 
 use branched_pendulum::scalar::Double;
 
-use crate::equations::{GeneralBodyRow, RoughBodyRow, StraightBodyRow};
+use crate::equations::{Form, GeneralBodyRow, RoughBodyRow, StraightBodyRow};
 use crate::numbers::LinkNumbers;
-use crate::rows::Form;
 
 impl Form {
     /// Returns the constants of energies and powers, a row for each link.

@@ -6,8 +6,6 @@ use branched_pendulum::emitted::shown;
 use branched_pendulum_codegen::report::{Faults, Problem};
 use thiserror::Error;
 
-use crate::text::LONGEST;
-
 /// A tree that cannot be.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -147,11 +145,12 @@ impl DescriptionError {
         }
     }
 
-    pub(crate) fn too_long() -> Self {
+    /// Returns what is said of a text of more than `most` bytes.
+    pub(crate) fn too_long(most: usize) -> Self {
         let mistake = Mistake {
             line: 1,
             column: 1,
-            message: format!("a description of more than {LONGEST} bytes"),
+            message: format!("a description of more than {most} bytes"),
             label: "too long".to_owned(),
             help: "write equal subtrees once, with `* 2` or `generations(...)`".to_owned(),
         };

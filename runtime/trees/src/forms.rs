@@ -6,8 +6,7 @@ use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, RootDrive};
 
 use crate::between::Between;
-use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
-use crate::rows::Form;
+use crate::equations::{Form, GeneralEquations, RoughEquations, StraightEquations};
 use crate::ways::Ways;
 
 /// A tree in one of the forms.

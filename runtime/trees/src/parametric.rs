@@ -11,10 +11,11 @@ use branched_pendulum_codegen::scene::{
 use crate::between::Between;
 use crate::description::TreeDescription;
 use crate::drive::Courses;
+use crate::equations::Form;
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
-use crate::rows::{self, Form};
+use crate::rows;
 use crate::scales::springs_across_scales;
 use crate::tree::PendulumTree;
 

@@ -8,19 +8,8 @@ use branched_pendulum_codegen::scene::PassiveTorques;
 use crate::carried::{Carried, carried};
 #[cfg(feature = "strips")]
 use crate::equations::HeldRow;
-use crate::equations::{ByRuleRow, GeneralRow, RoughRow, StraightRow};
+use crate::equations::{ByRuleRow, Form, GeneralRow, RoughRow, StraightRow};
 use crate::numbers::LinkNumbers;
-
-/// Forms of the equations, by what the links of a tree have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Form {
-    /// No torques in joints and no lateral offsets, and children share a pivot.
-    Straight,
-    /// All but friction that is not viscous.
-    General,
-    /// All.
-    Rough,
-}
 
 impl Form {
     /// Returns the shortest form that knows all that the links have.

@@ -9,7 +9,7 @@ use branched_pendulum_codegen::scene::{self, Scene};
 use crate::error::DescriptionError;
 
 /// Longest text, in bytes.
-pub(crate) const LONGEST: usize = 1 << 20;
+const LONGEST: usize = 1 << 20;
 
 /// Stack of the thread that reads: parsing recurses as deep as brackets nest, 64 levels.
 const STACK: usize = 8 << 20;
@@ -20,7 +20,7 @@ const STACK: usize = 8 << 20;
 /// gives their memory back.
 pub(crate) fn scene(text: &str) -> Result<Scene, DescriptionError> {
     if text.len() > LONGEST {
-        return Err(DescriptionError::too_long());
+        return Err(DescriptionError::too_long(LONGEST));
     }
     let reader = thread::Builder::new()
         .name("description".to_owned())

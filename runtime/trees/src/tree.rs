@@ -13,13 +13,13 @@ use crate::between::Between;
 use crate::bodies::FormBodies;
 use crate::description::TreeDescription;
 use crate::drive::Courses;
-use crate::equations::GeneralEquations;
+use crate::equations::{Form, GeneralEquations};
 use crate::error::TreeError;
 use crate::forms::{Acting, Equations};
 use crate::numbers::{self, LinkNumbers};
 #[cfg(feature = "strips")]
 use crate::prescribed::HeldLinks;
-use crate::rows::{self, Form};
+use crate::rows;
 use crate::scales::ByRule;
 use crate::series::series_of;
 use crate::symmetric::Symmetry;

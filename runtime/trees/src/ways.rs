@@ -5,8 +5,8 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree, Tree};
 
+use crate::equations::Form;
 use crate::forms::{Acting, AtOneTime, OneOf};
-use crate::rows::Form;
 
 /// Ways through a tree: in strips, for many states and large trees, and link by link, for
 /// one state of a small one.

@@ -5,8 +5,8 @@ use branched_pendulum::scalar::Scalar;
 use branched_pendulum::system::{InRegisters, Workspace};
 use branched_pendulum::tree::{LinkEquations, LinkStates, RootDrive, SmallTree};
 
+use crate::equations::Form;
 use crate::forms::{Acting, AtOneTime};
-use crate::rows::Form;
 
 /// A tree of any size, link by link.
 #[derive(Clone, Debug)]

@@ -3,13 +3,14 @@
 use std::f64::consts::TAU;
 
 use branched_pendulum::sectors::Sectors;
-use branched_pendulum::system::{Model, Positions, Workspace};
+use branched_pendulum::system::Workspace;
 use branched_pendulum::transfer::{
     EnergyDefinition, Given, NonConservative, SectorBudget, SymmetricTree,
 };
 use branched_pendulum_trees::{PendulumTree, TreeError};
 
-use crate::pendulum::Budget;
+use crate::budget::Budget;
+use crate::path::down_the_tree;
 
 /// A tree with copies in its symmetric coordinates. Differences are counted by the generation of
 /// the copies that differ: scale s is what copies of generation s do against each other, scale 0
@@ -131,19 +132,4 @@ pub(crate) fn in_phase_part(tree: &PendulumTree, theta: &[f64]) -> Vec<f64> {
 
 fn within_half_a_turn(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
-}
-
-/// A number for each link, from that of the link that it hangs from and its pivot on it.
-pub(crate) fn down_the_tree<T: Copy>(
-    tree: &PendulumTree,
-    root: T,
-    next: impl Fn(T, [f64; 2]) -> T,
-) -> Vec<T> {
-    let mut numbers: Vec<T> = Vec::new();
-    for link in 0..tree.links() {
-        let own = tree.properties_of(link);
-        let above = own.and_then(|own| Some((*numbers.get(own.parent?)?, own.pivot)));
-        numbers.push(above.map_or(root, |(above, pivot)| next(above, pivot)));
-    }
-    numbers
 }

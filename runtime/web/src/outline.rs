@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use branched_pendulum::system::{LinkProperties, Model, Positions};
 use branched_pendulum_trees::PendulumTree;
 
-use crate::differences::down_the_tree;
+use crate::path::down_the_tree;
 
 /// The widest body over the reach of the tree, and over the length of its own link.
 const WIDEST: f64 = 0.11;

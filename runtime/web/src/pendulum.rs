@@ -7,6 +7,7 @@ use branched_pendulum::transfer::{EnergyDefinition, NonConservative};
 use branched_pendulum_trees::{PendulumTree, TreeError};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::budget::Budget;
 use crate::description;
 use crate::differences::{Differences, in_phase_part, set_apart};
 use crate::hand::Hand;
@@ -30,23 +31,6 @@ pub struct Pendulum {
     largest: f64,
     /// Evaluations before the present account.
     evaluations: u64,
-}
-
-/// Energies by scale and what changes them: scale 0 is what all copies do together, scale s what
-/// those of generation s do against each other. Copies may differ, and links of one generation.
-#[wasm_bindgen(getter_with_clone)]
-#[derive(Clone, Debug, PartialEq)]
-pub struct Budget {
-    /// Energies, J: those by Parseval sum to the energy of the tree; of those from momenta that of
-    /// the paper's pendulum at scale 1 is H_d.
-    #[wasm_bindgen(readonly)]
-    pub energies: Vec<f64>,
-    /// Power that each scale receives from the others, W: the transfer of that name.
-    #[wasm_bindgen(readonly)]
-    pub received: Vec<f64>,
-    /// Power of friction, drag, drive and the hand on each scale, W.
-    #[wasm_bindgen(readonly)]
-    pub powers: Vec<f64>,
 }
 
 /// The method before one is chosen.

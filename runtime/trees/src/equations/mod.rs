@@ -23,3 +23,14 @@ pub(crate) use general::{GeneralBodyRow, GeneralEquations, GeneralRow};
 pub(crate) use held::{HeldEquations, HeldRow};
 pub(crate) use rough::{RoughBodyRow, RoughEquations, RoughRow};
 pub(crate) use straight::{StraightBodyRow, StraightEquations, StraightRow};
+
+/// Forms of the equations, by what the links of a tree have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Form {
+    /// No torques in joints and no lateral offsets, and children share a pivot.
+    Straight,
+    /// All but friction that is not viscous.
+    General,
+    /// All.
+    Rough,
+}

@@ -20,10 +20,11 @@ use self::merged::{Member, MergedLinks};
 use self::sweep::InPhaseSweep;
 use crate::between::Between;
 use crate::drive::Courses;
+use crate::equations::Form;
 use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 use crate::error::TreeError;
 use crate::numbers::{self, LinkNumbers};
-use crate::rows::{self, Form};
+use crate::rows;
 use crate::tree::{PendulumTree, constant, in_numbers};
 
 /// A tree whose copies move in phase, as one link for all copies of it: as heavy, as stiff and
