@@ -1,5 +1,6 @@
 //! What one sector is by itself: its block of the mass matrix and its potential energy.
 
+use super::chords::Chords;
 use super::constants::MassConstants;
 use super::memory::FreeMemory;
 use super::pattern::{Entries, Pattern};
@@ -66,7 +67,7 @@ impl BlockShape {
     pub(super) fn write_fall<T: Scalar>(
         &self,
         constants: &MassConstants<T>,
-        springs: &SectorSprings<T>,
+        (springs, chords): (&SectorSprings<T>, &Chords<T>),
         parents: &[Option<usize>],
         theta: &[T],
         [sines, cosines]: [&[T]; 2],
@@ -77,7 +78,7 @@ impl BlockShape {
             slopes[link] = zero;
         }
         let mut energy = zero;
-        for column in &self.columns {
+        for (coordinate, column) in (self.first..).zip(&self.columns) {
             let Some(&(first, _)) = column.weights.first() else {
                 continue;
             };
@@ -85,7 +86,10 @@ impl BlockShape {
             let one = T::from_f64(if self.is_mean { 1.0 } else { 0.0 });
             let rise = column.sum(|link| one - cosines[link]);
             let sine = column.sum(|link| sines[link]);
-            let weight = constants.gravity[first] * share;
+            let weight = match chords.beside_gravity(coordinate) {
+                Some(chord) => (constants.gravity[first] + chord) * share,
+                None => constants.gravity[first] * share,
+            };
             energy = energy + half * weight * (rise * rise + sine * sine);
             for (link, own) in column.iter() {
                 let own: T = own;

@@ -239,7 +239,7 @@ impl<T: Scalar> SymmetricTree<T> {
     /// Writes the slopes of V_s, and returns V_s.
     fn write_own_fall(&self, block: &BlockShape, motion: &TreeMotion<'_, T>, fall: &mut [T]) -> T {
         let turns = [motion.sines, motion.cosines];
-        let (own, parents) = (&self.springs, &self.shape.parents);
+        let (own, parents) = ((&self.springs, &self.chords), &self.shape.parents);
         block.write_fall(self.equal(), own, parents, motion.theta, turns, fall)
     }
 

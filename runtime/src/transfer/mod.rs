@@ -11,6 +11,7 @@
 
 mod block;
 mod budget;
+mod chords;
 mod constants;
 mod exact;
 mod forces;
@@ -32,6 +33,7 @@ pub use orders::{Order, OrderedTransfers, TransfersByForm};
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
+use chords::Chords;
 use constants::{MassConstants, moments, rounded};
 use forces::Passive;
 use shape::SymmetricShape;
@@ -40,6 +42,7 @@ use springs::SectorSprings;
 use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
 use crate::spring_dampers::SpringDampers;
+use crate::translational::TranslationalSpringDampers;
 
 /// A tree with copies in numbers `T`, in its symmetric coordinates.
 ///
@@ -109,6 +112,7 @@ pub struct SymmetricTree<T> {
     spring_dampers: SpringDampers<T>,
     /// The springs among them.
     springs: SectorSprings<T>,
+    chords: Chords<T>,
 }
 
 /// The tree of equal copies beside one whose copies differ.
@@ -228,6 +232,7 @@ impl<T: Scalar> SymmetricTree<T> {
             passive,
             spring_dampers: SpringDampers::default(),
             springs: SectorSprings::default(),
+            chords: Chords::default(),
         })
     }
 
@@ -248,6 +253,20 @@ impl<T: Scalar> SymmetricTree<T> {
         self.springs = SectorSprings::of(&self.shape, &spring_dampers)?;
         self.spring_dampers = spring_dampers.cast(rounded);
         Some(self)
+    }
+
+    /// Returns the tree with straight springs, whose energy is a sum over sectors: the same spring,
+    /// without length at rest and without damper, between equal places of every two copies of a node
+    /// under one link.
+    ///
+    /// # Errors
+    /// The index of a line of another kind: a length couples sectors in general.
+    pub fn with_straight_springs(
+        mut self,
+        lines: &TranslationalSpringDampers<Double>,
+    ) -> Result<Self, usize> {
+        self.chords = Chords::of(&self.shape, lines)?;
+        Ok(self)
     }
 
     /// Returns the tree as one that stands, or not, whatever its gravity: y of the drive is
@@ -273,6 +292,7 @@ impl<T: Scalar> SymmetricTree<T> {
             passive: self.passive.cast(&convert),
             spring_dampers: self.spring_dampers.cast(&convert),
             springs: self.springs.cast(&convert),
+            chords: self.chords.cast(&convert),
         }
     }
 

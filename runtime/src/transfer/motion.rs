@@ -173,6 +173,8 @@ impl<T: Scalar> SymmetricTree<T> {
         if !self.springs.is_empty() {
             self.spring_dampers.add_spring_slopes(motion.theta, slopes);
         }
+        let turns = [motion.sines, motion.cosines];
+        self.chords.add_slopes(turns, slopes);
     }
 
     /// Writes those of U less the mean tree's: G and F by themselves, and of springs
@@ -223,10 +225,10 @@ impl<T: Scalar> SymmetricTree<T> {
                 energy = energy + half * spring * strain * strain;
             }
         }
-        match self.springs.is_empty() {
-            true => energy,
-            false => energy + self.spring_dampers.energy(motion.theta),
+        if !self.springs.is_empty() {
+            energy = energy + self.spring_dampers.energy(motion.theta);
         }
+        energy + self.chords.energy([motion.sines, motion.cosines])
     }
 }
 

@@ -101,7 +101,7 @@ impl<T: Scalar> SymmetricTree<T> {
         let momenta = motion.momenta;
         let twice = block.write_velocities(&shape.pattern, matrix, momenta, memory, velocities);
         let turns = [motion.sines, motion.cosines];
-        let (own, parents) = (&self.springs, &shape.parents);
+        let (own, parents) = ((&self.springs, &self.chords), &shape.parents);
         let potential = block.write_fall(constants, own, parents, motion.theta, turns, fall);
         Alone {
             energy: [T::from_f64(0.5) * twice, potential],

@@ -65,9 +65,10 @@ pub enum TreeError {
     CoupledSectors,
     /// Energies of sectors, or what is made of them, of a tree with straight springs.
     #[error(
-        "symmetric coordinates know no lengths between points, and the tree has the {line}: \
-         write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or \
-         watch an energy of your own by `observe(...)`"
+        "of straight springs a sector has those without length at rest and without friction \
+         alone, between equal places of all copies of a node under one link, and the tree has the \
+         {line}: write `siblings(NODE, at = ..., spring = ...)`, or a torsion spring without `at`, \
+         or watch an energy of your own by `observe(...)`"
     )]
     StraightSpring {
         /// What acts along the line with its clause, as in "straight spring `between(a, b)`".

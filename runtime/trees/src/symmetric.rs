@@ -117,13 +117,21 @@ fn symmetric<T: Scalar>(
     values: &[f64],
     symmetry: &Symmetry,
 ) -> Result<SymmetricTree<T>, TreeError> {
-    match (symmetry.has_copies, description.scene.translational.first()) {
-        (false, _) => Err(TreeError::NoCopies),
-        (true, Some(own)) => Err(TreeError::StraightSpring {
-            line: own.in_words(),
-        }),
-        (true, None) => unchecked(description, values, symmetry),
+    if !symmetry.has_copies {
+        return Err(TreeError::NoCopies);
     }
+    let scene = &description.scene;
+    let tree = unchecked(description, values, symmetry)?;
+    let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
+    let between = Between::of(scene, tree.links(), &parameters);
+    let tree = tree.with_straight_springs(&between.translational);
+    tree.map_err(|line| {
+        let own = scene.lines().get(line).map(|line| line.spring_damper);
+        let own = own.and_then(|own| scene.translational.get(own));
+        TreeError::StraightSpring {
+            line: own.map_or_else(String::new, |own| own.in_words()),
+        }
+    })
 }
 
 /// The tree with the sectors that it has, be they that of the means alone, but for its straight

@@ -12,7 +12,7 @@ use branched_pendulum::{Transfer, TransferForm};
 use branched_pendulum_trees::{PendulumTree, TreeDescription, TreeError};
 
 /// Nested copies with all that links can have, beside copies that differ.
-const TREES: [&str; 4] = [
+const TREES: [&str; 6] = [
     "gravity = 9.81,
      trunk(mass = 0.3, com = (0.1, 0.02), inertia = 2e-3, friction = 1e-3, drag = 2e-4) [
          bough(mass = 0.1, com = (0.12, -0.01), inertia = 1e-3, at = (0.3, 0.05),
@@ -42,6 +42,19 @@ const TREES: [&str; 4] = [
          bough: rod(mass = each(0.1, 0.12), length = 0.3) [twig: rod(mass = 0.04, length = 0.2) * 2] * 2
      ],
      siblings(bough, spring = 0.4, friction = 1e-3)",
+    "gravity = 9.81,
+     trunk: rod(mass = 0.3, length = 0.4, friction = 1e-3) [
+         bough: rod(mass = 0.1, length = 0.3, spring = 0.2, rest = 0.1) [
+             twig: rod(mass = 0.04, length = 0.2) * 3
+         ] * 2
+     ],
+     siblings(bough, at = (0.2, 0.03), spring = 5), siblings(twig, at = 0.1, spring = 8),
+     siblings(twig, spring = 0.02)",
+    "gravity = -9.81,
+     trunk: rod(mass = 0.3, length = 0.4, spring = 40) [
+         bough: rod(mass = each(0.1, 0.12), length = 0.3) [twig: rod(mass = 0.04, length = 0.2) * 2] * 2
+     ],
+     siblings(bough, at = 0.25, spring = 7), siblings(twig, at = (0.2, -0.01), spring = 2)",
 ];
 
 const DEFINITIONS: [EnergyDefinition; 4] = [

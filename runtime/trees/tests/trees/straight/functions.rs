@@ -4,7 +4,7 @@ use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::prelude::*;
 use branched_pendulum::scalar::Dual;
 use branched_pendulum::transfer::Given;
-use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription, TreeError};
+use branched_pendulum_trees::{ParameterUse, PendulumTree, TreeDescription};
 
 use super::GUYED;
 
@@ -148,18 +148,6 @@ fn lanes_have_repulsions_of_their_own() {
         assert!(changed, "{own:?}");
         before = own;
     }
-}
-
-/// What knows nothing of straight springs refuses them.
-#[test]
-fn forms_without_straight_springs_refuse_them() {
-    let tree = PendulumTree::parse(GUYED).unwrap();
-    let refused = tree.symmetric().unwrap_err();
-    assert!(
-        matches!(refused, TreeError::StraightSpring { .. }),
-        "{refused}"
-    );
-    assert!(tree.copies().is_none());
 }
 
 #[test]

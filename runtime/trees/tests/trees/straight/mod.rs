@@ -3,6 +3,7 @@
 
 mod functions;
 mod motion;
+mod sectors;
 mod series;
 
 use branched_pendulum::prelude::*;
