@@ -106,42 +106,49 @@ fn a_chain_of_three_moves() {
     assert!(!folder.0.join("results/sectors.csv").exists());
 }
 
-/// H_d changes by W and friction, whose integral is taken from the table.
+/// H_d changes by W and friction, whose integral is taken from the table: of the paper's tree, and with a
+/// rubber band between its children.
 #[test]
 fn differences_have_energies_and_transfers() {
     let folder = Folder::new("sectors");
-    let words = [
-        "simulate",
-        "--tree",
-        "paper",
-        "--set",
-        "friction=2e-5",
-        "--duration",
-        "2",
-    ];
-    let start = [
-        "--start",
-        "parent=40,child_1=3,child_2=-3",
-        "--rate",
-        "1000",
-    ];
-    folder.answer(&[&words[..], &start].concat());
-    let (names, rows) = folder.table("sectors.csv");
-    let column = |name: &str| names.iter().position(|own| own.starts_with(name)).unwrap();
-    let (energy, w, power) = (column("energy d"), column("W d"), column("power d"));
-    let added: f64 = rows
-        .windows(2)
-        .map(|pair| {
-            let rate = |row: &[f64]| row[w] + row[power];
-            0.5 * (pair[1][0] - pair[0][0]) * (rate(&pair[0]) + rate(&pair[1]))
-        })
-        .sum();
-    let gained = rows.last().unwrap()[energy] - rows[0][energy];
-    assert!(gained.abs() > 1e-6 && (added - gained).abs() < 1e-3 * gained.abs());
-    assert!(rows.iter().any(|row| row[power] < -1e-9));
+    let band = "gravity = 9.80665,
+        parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27, friction = friction) [
+            child(mass = 0.10531, com = 0.043, inertia = 0.516e-3, friction = friction) * 2
+        ],
+        siblings(child, at = 0.06, spring = 5)";
+    for tree in ["paper", &folder.file("band.txt", band)] {
+        let words = [
+            "simulate",
+            "--tree",
+            tree,
+            "--set",
+            "friction=2e-5",
+            "--duration",
+            "2",
+        ];
+        let start = [
+            "--start",
+            "parent=40,child_1=3,child_2=-3",
+            "--rate",
+            "1000",
+        ];
+        folder.answer(&[&words[..], &start].concat());
+        let (names, rows) = folder.table("sectors.csv");
+        let column = |name: &str| names.iter().position(|own| own.starts_with(name)).unwrap();
+        let (energy, w, power) = (column("energy d"), column("W d"), column("power d"));
+        let added: f64 = rows
+            .windows(2)
+            .map(|pair| {
+                let rate = |row: &[f64]| row[w] + row[power];
+                0.5 * (pair[1][0] - pair[0][0]) * (rate(&pair[0]) + rate(&pair[1]))
+            })
+            .sum();
+        let gained = rows.last().unwrap()[energy] - rows[0][energy];
+        assert!(gained.abs() > 1e-6 && (added - gained).abs() < 1e-3 * gained.abs());
+        assert!(rows.iter().any(|row| row[power] < -1e-9));
+    }
 }
 
-/// Against frequencies of a stem without arms, and of arms on a stem that stands still.
 #[test]
 fn modes_of_a_tree_that_stands() {
     let folder = Folder::new("modes");
