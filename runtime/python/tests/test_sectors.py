@@ -42,6 +42,9 @@ TREES = {
     "standing": bp.Tree(bp.examples.Y),
     "unlike": bp.Tree("""gravity = 9.81, arm: rod(mass = 0.2, length = 0.4) [
         hand: rod(mass = each(0.1, 0.11), length = 0.3) * 2]"""),
+    "tied": bp.Tree("""gravity = 9.81, arm: rod(mass = 0.2, length = 0.4) [
+        hand: rod(mass = 0.1, length = 0.3) [finger: rod(mass = 0.02, length = 0.1) * 3] * 2],
+        siblings(hand, at = 0.2, spring = 4), siblings(finger, at = 0.08, spring = 3)"""),
 }
 
 
