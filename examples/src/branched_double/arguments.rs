@@ -3,6 +3,7 @@
 use clap::{Parser, ValueEnum};
 
 use super::apparatus::Friction;
+use branched_pendulum_frame::Charts;
 use branched_pendulum_frame::command_line::{must_be, number, numbers, plain};
 
 /// The numbers in which trajectories are integrated.
@@ -118,6 +119,11 @@ impl Default for Arguments {
 
 impl branched_pendulum_frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("branched-double-output");
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        Some(self.duration)
+    }
 
     fn check(&self) -> Result<(), String> {
         let tolerances = self.precision.least_tolerance()..=1e-2;
@@ -159,6 +165,15 @@ impl Arguments {
             Precision::Double => 1e-3,
         };
         share * self.tolerance
+    }
+
+    /// The conditions that all runs share, for a title.
+    pub fn conditions(&self) -> String {
+        format!(
+            "θ_d(0) = {} rad, {}",
+            plain(self.disturbance),
+            self.friction
+        )
     }
 
     /// Time of a sample, s.

@@ -1,18 +1,18 @@
-//! The four charts of the paper, as SVG and PNG.
+//! The four charts of the paper, as SVG, PNG and PDF.
 
 use std::f64::consts::PI;
 
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Panel, Series};
-use branched_pendulum_measure::{Spectrum, SpectrumOptions};
 
 use super::apparatus::{DIFFERENCE, EXACT, MEAN, PUBLISHED, Sample, folded};
 use super::arguments::Arguments;
 use super::experiment::Run;
 use super::findings::Frequencies;
-use super::lines;
+use super::spectrum;
+use super::table::three_digits;
 use branched_pendulum_frame::Failure;
 use branched_pendulum_frame::Job;
-use branched_pendulum_frame::command_line::plain;
+use branched_pendulum_frame::figures::TimeSpan;
 
 /// Initial angles, in degrees, that the paper compares: just without growth,
 /// and just with it.
@@ -26,11 +26,11 @@ const BLUE: Color = Color::rgb(0, 114, 178);
 const ORANGE: Color = Color::rgb(213, 94, 0);
 const GREEN: Color = Color::rgb(0, 158, 115);
 
-/// The charts against time show the onset: this time, s.
+/// The charts against time show the onset, unless another time is asked for: so long, s.
 const ONSET: f64 = 10.0;
 
-/// The frequencies shown, Hz.
-const SPECTRUM_TOP: f64 = 3.0;
+/// Most angles whose θ_d shares a panel; more have one each.
+const MOST_TOGETHER: usize = 2;
 
 /// Draws the charts. Nothing is drawn without a run.
 ///
@@ -46,13 +46,20 @@ pub fn write(
     let Some(&growing) = pair.last() else {
         return Ok(());
     };
-    job.chart("antiphase-angle", &antiphase_angle(arguments, runs))?;
+    let shown = job.shown().unwrap_or(TimeSpan {
+        from: 0.0,
+        to: ONSET.min(arguments.duration),
+    });
+    job.chart("antiphase-angle", &antiphase_angle(arguments, shown, runs))?;
     job.chart(
         "energy-and-transfer",
-        &energy_and_transfer(arguments, &pair),
+        &energy_and_transfer(arguments, shown, &pair),
     )?;
-    job.chart("transfer-by-part", &transfer_by_part(arguments, growing))?;
-    let spectrum = spectrum(arguments, frequencies, runs, &pair)?;
+    job.chart(
+        "transfer-by-part",
+        &transfer_by_part(arguments, shown, growing),
+    )?;
+    let spectrum = spectrum::chart(arguments, frequencies, runs, &pair)?;
     job.chart("spectrum", &spectrum)
 }
 
@@ -75,40 +82,47 @@ fn compared(runs: &[Run]) -> Vec<&Run> {
     pair
 }
 
-/// θ_d against time, one panel for each of several angles.
-fn antiphase_angle(arguments: &Arguments, runs: &[Run]) -> Chart {
-    let shown = spread(runs, MOST_PANELS);
-    let mut title = format!("θ_d, folded to ±π/2; {}", conditions(arguments));
-    if shown.len() < runs.len() {
-        title.push_str(&format!(" ({} of {} angles)", shown.len(), runs.len()));
+/// θ_d against time, of two angles in one panel, of each of more in its own.
+fn antiphase_angle(arguments: &Arguments, shown: TimeSpan, runs: &[Run]) -> Chart {
+    let drawn = spread(runs, MOST_PANELS);
+    let mut title = format!("θ_d, folded to ±π/2; {}", arguments.conditions());
+    if drawn.len() < runs.len() {
+        title.push_str(&format!(" ({} of {} angles)", drawn.len(), runs.len()));
     }
-    let curves: Vec<(&Run, Vec<f64>)> = shown
+    let curves: Vec<(&Run, Vec<f64>)> = drawn
         .into_iter()
         .map(|run| {
-            let angles = onset(run).iter().map(|s| s.coordinates[DIFFERENCE]);
+            let angles = within(run, shown).iter().map(|s| s.coordinates[DIFFERENCE]);
             (run, folded_with_gaps(angles))
         })
         .collect();
     let all = curves.iter().flat_map(|(_, curve)| curve.iter().copied());
     let range = common_range(all);
-    let height = 170.0 + 110.0 * curves.len() as f64;
-    let chart = Chart::new(title, Axis::linear("time after release (s)"));
-    curves
-        .into_iter()
-        .fold(chart.size(900.0, height), |chart, (run, curve)| {
-            let label = format!("θ_1(0) = {:?}°", run.angle_deg);
-            let panel = Panel::new(ranged("θ_d (rad)", range)).zero_line();
-            let line = Series::line(label, &times(onset(run)), &curve);
-            chart.panel(panel.series(line.dash(Dash::Solid)))
-        })
+    let chart = Chart::new(title, time(shown));
+    let panel = || Panel::new(ranged("θ_d (rad)", range)).zero_line();
+    let line = |name: &str, run: &Run, curve: &[f64]| {
+        Series::line(name, &times(run, shown), curve).dash(Dash::Solid)
+    };
+    if curves.len() <= MOST_TOGETHER {
+        let panel = curves.iter().fold(panel(), |panel, (run, curve)| {
+            panel.series(line(&run.release(), run, curve))
+        });
+        return chart.size(900.0, 420.0).panel(panel);
+    }
+    let height = 170.0 + 120.0 * curves.len() as f64;
+    let chart = chart.size(900.0, height);
+    curves.iter().fold(chart, |chart, (run, curve)| {
+        let panel = panel().name(run.release());
+        chart.panel(panel.series(line("", run, curve).color(BLUE)))
+    })
 }
 
 /// H_d and W for the two angles compared, on the same scales.
-fn energy_and_transfer(arguments: &Arguments, pair: &[&Run]) -> Chart {
-    let title = format!("H_d and its rate of change W; {}", conditions(arguments));
-    let energies = |run: &Run| column(run, |s| 1e3 * s.antiphase_energy);
+fn energy_and_transfer(arguments: &Arguments, shown: TimeSpan, pair: &[&Run]) -> Chart {
+    let title = format!("H_d and its rate of change W; {}", arguments.conditions());
+    let energies = |run: &Run| column(run, shown, |s| 1e3 * s.antiphase_energy);
     let transfer = |run: &Run, form: usize| {
-        column(run, |s| {
+        column(run, shown, |s| {
             s.flow
                 .transfer
                 .get(form)
@@ -118,31 +132,30 @@ fn energy_and_transfer(arguments: &Arguments, pair: &[&Run]) -> Chart {
     let energy_range = common_range(pair.iter().flat_map(|run| energies(run)));
     // The published form leaves the scale where θ_d is no longer small.
     let transfer_range = common_range(pair.iter().flat_map(|run| transfer(run, EXACT)));
-    let chart = Chart::new(title, Axis::linear("time after release (s)"));
+    let chart = Chart::new(title, time(shown));
     pair.iter().fold(
         chart.size(900.0, 150.0 + 290.0 * pair.len() as f64),
         |chart, run| {
-            let time = times(onset(run));
-            let line = |name: &str, values: Vec<f64>, color: Color, dash: Dash| {
-                let label = format!("{name}, {:?}°", run.angle_deg);
-                Series::line(label, &time, &values).color(color).dash(dash)
+            let times = times(run, shown);
+            let line = |name: &str, values: &[f64], color: Color, dash: Dash| {
+                Series::line(name, &times, values).color(color).dash(dash)
             };
-            let energy = line("H_d", energies(run), BLUE, Dash::Solid);
-            let published = line(
-                "W published",
-                transfer(run, PUBLISHED),
-                ORANGE,
-                Dash::Dashed,
-            );
-            let exact = line("W exact", transfer(run, EXACT), GREEN, Dash::Solid);
+            let name = "W published";
+            let published = transfer(run, PUBLISHED);
+            let cut = cut_off(name, transfer_range, &[&published]);
+            let energy = line("", &energies(run), BLUE, Dash::Solid);
+            let published = line(name, &published, ORANGE, Dash::Dashed);
+            let exact = line("W exact", &transfer(run, EXACT), GREEN, Dash::Solid);
             chart
                 .panel(
                     Panel::new(ranged("H_d (mJ)", energy_range))
+                        .name(run.release())
                         .zero_line()
                         .series(energy),
                 )
                 .panel(
                     Panel::new(ranged("W (mW)", transfer_range))
+                        .name(run.release() + &cut)
                         .zero_line()
                         .series(published)
                         .series(exact),
@@ -152,15 +165,15 @@ fn energy_and_transfer(arguments: &Arguments, pair: &[&Run]) -> Chart {
 }
 
 /// W_K and W_P as published and exact, with H_d and θ_m, for the growing case.
-fn transfer_by_part(arguments: &Arguments, run: &Run) -> Chart {
+fn transfer_by_part(arguments: &Arguments, shown: TimeSpan, run: &Run) -> Chart {
     let title = format!(
-        "W by part for θ_1(0) = {:?}°; {}",
-        run.angle_deg,
-        conditions(arguments)
+        "W by part for {}; {}",
+        run.release(),
+        arguments.conditions()
     );
-    let time = times(onset(run));
+    let times = times(run, shown);
     let part = |form: usize, kinetic: bool| {
-        column(run, |sample| {
+        column(run, shown, |sample| {
             sample.flow.transfer.get(form).map_or(f64::NAN, |transfer| {
                 1e3 * if kinetic {
                     transfer.kinetic
@@ -174,86 +187,29 @@ fn transfer_by_part(arguments: &Arguments, run: &Run) -> Chart {
     let exact = [part(EXACT, true), part(EXACT, false)];
     let range = common_range(exact.iter().flatten().copied());
     let parts = |form: usize, name: &str| {
-        let line = |part_name: &str, kinetic: bool| {
-            Series::line(format!("{part_name} {name}"), &time, &part(form, kinetic))
-        };
+        let [kinetic, potential] = [true, false].map(|kinetic| part(form, kinetic));
+        let cut = cut_off("this form", range, &[&kinetic, &potential]);
+        let line = |name: &str, values: &[f64]| Series::line(name, &times, values);
         Panel::new(ranged("power (mW)", range))
+            .name(name.to_owned() + &cut)
             .zero_line()
-            .series(line("W_K", true).color(ORANGE).dash(Dash::Dashed))
-            .series(line("W_P", false).color(GREEN).dash(Dash::Solid))
+            .series(line("W_K", &kinetic).color(ORANGE).dash(Dash::Dashed))
+            .series(line("W_P", &potential).color(GREEN).dash(Dash::Solid))
     };
-    let alone = |axis: &str, name: &str, values: Vec<f64>| {
-        let line = Series::line(name, &time, &values).color(BLUE);
+    let alone = |axis: &str, values: Vec<f64>| {
+        let line = Series::line("", &times, &values).color(BLUE);
         Panel::new(Axis::linear(axis))
             .zero_line()
             .series(line.dash(Dash::Solid))
     };
-    let energies = column(run, |s| 1e3 * s.antiphase_energy);
-    let means = column(run, |s| s.coordinates[MEAN]);
-    Chart::new(title, Axis::linear("time after release (s)"))
-        .size(900.0, 760.0)
-        .panel(alone("H_d (mJ)", "H_d", energies))
+    let energies = column(run, shown, |s| 1e3 * s.antiphase_energy);
+    let means = column(run, shown, |s| s.coordinates[MEAN]);
+    Chart::new(title, time(shown))
+        .size(900.0, 800.0)
+        .panel(alone("H_d (mJ)", energies))
         .panel(parts(PUBLISHED, "published"))
         .panel(parts(EXACT, "exact"))
-        .panel(alone("θ_m (rad)", "θ_m", means))
-}
-
-/// Amplitude spectrum of θ_m, with the window of Hann.
-fn spectrum(
-    arguments: &Arguments,
-    frequencies: Frequencies,
-    runs: &[Run],
-    pair: &[&Run],
-) -> Result<Chart, Failure> {
-    let span = arguments.duration.min(lines::SPAN);
-    let top = SPECTRUM_TOP.min(0.5 * arguments.rate);
-    // Eight points for each resolved frequency: smooth peaks.
-    let count = (8.0 * span * top).round();
-    let grid: Vec<f64> = (0..=count as usize)
-        .map(|index| top * index as f64 / count)
-        .collect();
-    let title = format!("Spectrum of θ_m, 0 to {span} s; {}", conditions(arguments));
-    let mut series = Vec::new();
-    let mut moves = true;
-    let lowest = runs
-        .first()
-        .filter(|run| pair.iter().all(|other| other.angle_deg != run.angle_deg));
-    for run in lowest.into_iter().chain(pair.iter().copied()) {
-        let samples = lines::mean_angle(run);
-        let spectrum =
-            Spectrum::at_frequencies(&samples, arguments.rate, &grid, SpectrumOptions::default())?;
-        series.push(Series::line(
-            format!("θ_1(0) = {:?}°", run.angle_deg),
-            &spectrum.frequencies_hz,
-            &spectrum.amplitudes,
-        ));
-        moves &= spectrum.amplitudes.iter().any(|amplitude| *amplitude > 0.0);
-    }
-    // A pendulum at rest has no place on a logarithmic axis.
-    let label = "amplitude of θ_m (rad)";
-    let panel = Panel::new(if moves {
-        Axis::log(label)
-    } else {
-        Axis::linear(label)
-    });
-    let panel = series
-        .into_iter()
-        .fold(panel, Panel::series)
-        .vertical(frequencies.plus, "f_+")
-        .vertical(frequencies.antiphase, "f_d")
-        .vertical(frequencies.minus, "f_−")
-        .vertical(2.0 * frequencies.antiphase, "2f_d");
-    Ok(
-        Chart::new(title, Axis::linear("frequency (Hz)").range(0.0, top))
-            .size(900.0, 520.0)
-            .panel(panel),
-    )
-}
-
-/// The conditions that all runs share, for a title.
-pub(super) fn conditions(arguments: &Arguments) -> String {
-    let disturbance = plain(arguments.disturbance);
-    format!("θ_d(0) = {disturbance} rad, {}", arguments.friction)
+        .panel(alone("θ_m (rad)", means))
 }
 
 /// At most `most` of the runs, evenly spread, the first and the last included.
@@ -277,17 +233,42 @@ fn folded_with_gaps(angles: impl Iterator<Item = f64>) -> Vec<f64> {
         .collect()
 }
 
-fn onset(run: &Run) -> &[Sample] {
-    let end = run.samples.partition_point(|sample| sample.time <= ONSET);
-    run.samples.get(..end).unwrap_or(&run.samples)
+/// The axis of the time that is shown.
+fn time(shown: TimeSpan) -> Axis {
+    Axis::linear("time after release (s)").range(shown.from, shown.to)
 }
 
-fn column(run: &Run, value: impl Fn(&Sample) -> f64) -> Vec<f64> {
-    onset(run).iter().map(value).collect()
+/// The samples of a time, and the next on both sides: lines reach the edges.
+fn within(run: &Run, shown: TimeSpan) -> &[Sample] {
+    let samples = &run.samples;
+    let first = samples.partition_point(|sample| sample.time < shown.from);
+    let end = samples.partition_point(|sample| sample.time <= shown.to);
+    let both = first.saturating_sub(1)..samples.len().min(end + 1);
+    samples.get(both).unwrap_or(samples)
 }
 
-fn times(samples: &[Sample]) -> Vec<f64> {
-    samples.iter().map(|sample| sample.time).collect()
+fn column(run: &Run, shown: TimeSpan, value: impl Fn(&Sample) -> f64) -> Vec<f64> {
+    within(run, shown).iter().map(value).collect()
+}
+
+fn times(run: &Run, shown: TimeSpan) -> Vec<f64> {
+    column(run, shown, |sample| sample.time)
+}
+
+/// Says where the panel of that range cuts curves (mW) off, and how far they go; nothing of
+/// curves that are whole.
+fn cut_off(name: &str, range: Option<(f64, f64)>, curves: &[&[f64]]) -> String {
+    let values = || curves.iter().copied().flatten().copied();
+    let least = values().fold(f64::INFINITY, f64::min);
+    let most = values().fold(f64::NEG_INFINITY, f64::max);
+    match range {
+        Some((low, high)) if least < low || most > high => {
+            let [low, high, least, most] = [low, high, least, most].map(three_digits);
+            format!("; {name} is cut off at {low} and {high} mW, it goes from {least} to {most} mW")
+                .replace('-', "−")
+        }
+        _ => String::new(),
+    }
 }
 
 /// The range of all values with a margin, or none if it has no extent.
@@ -311,7 +292,7 @@ fn ranged(label: &str, range: Option<(f64, f64)>) -> Axis {
 
 #[cfg(test)]
 mod tests {
-    use super::{common_range, compared, folded_with_gaps, spread};
+    use super::{common_range, compared, cut_off, folded_with_gaps, spread};
     use crate::branched_double::{Run, Work};
 
     fn runs(angles: &[f64]) -> Vec<Run> {
@@ -364,5 +345,16 @@ mod tests {
     fn a_range_needs_an_extent() {
         assert_eq!(common_range([0.0, f64::NAN].into_iter()), None);
         assert_eq!(common_range([-1.0, 1.0].into_iter()), Some((-1.08, 1.08)));
+    }
+
+    #[test]
+    fn a_curve_that_leaves_its_panel_is_told() {
+        let range = Some((-1.0, 2.0));
+        assert_eq!(cut_off("W", range, &[&[-1.0, 2.0], &[f64::NAN]]), "");
+        assert_eq!(cut_off("W", None, &[&[-1.0, 2.0]]), "");
+        assert_eq!(
+            cut_off("W", range, &[&[0.5], &[0.0, 25.0]]),
+            "; W is cut off at −1.00 and 2.00 mW, it goes from 0.00e0 to 25.0 mW"
+        );
     }
 }

@@ -61,6 +61,11 @@ impl Run {
             Precision::Single => run::<f32>(angle_deg, arguments, &apparatus, progress),
         }
     }
+
+    /// The angle of release, as panels and lines are named.
+    pub fn release(&self) -> String {
+        format!("θ_1(0) = {:?}°", self.angle_deg)
+    }
 }
 
 fn run<T: Real>(

@@ -7,7 +7,6 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::apparatus::DIFFERENCE;
 use super::arguments::Arguments;
-use super::charts::conditions;
 use super::experiment::Run;
 use super::findings::Findings;
 use branched_pendulum_frame::Failure;
@@ -174,7 +173,7 @@ fn chart(arguments: &Arguments, points: &[(f64, f64, Fate)]) -> Chart {
     let title = format!(
         "Growth of θ_d in {} s; {}",
         arguments.duration,
-        conditions(arguments)
+        arguments.conditions()
     );
     let axis = Axis::log("largest |θ_d|, folded to π/2, over |θ_d(0)|");
     let panel = Fate::ALL.into_iter().zip(styles).fold(

@@ -11,7 +11,7 @@
 //! - [`experiment`]: one run from release to the last sample,
 //! - [`findings`]: what a run says, [`terms`]: the terms of W one by one,
 //!   [`lines`]: those of the spectrum,
-//! - [`table`], [`samples`], [`charts`], [`growth`], [`film`]: how it is shown.
+//! - [`table`], [`samples`], [`charts`] with `spectrum`, [`growth`], [`film`]: how it is shown.
 
 pub mod apparatus;
 pub mod arguments;
@@ -24,6 +24,7 @@ pub mod lines;
 pub mod run;
 pub mod samples;
 pub mod scenes;
+mod spectrum;
 pub mod table;
 pub mod terms;
 

@@ -209,7 +209,7 @@ fn or_dash(text: Option<String>) -> String {
 }
 
 /// Three digits, or all before the point.
-fn three_digits(value: f64) -> String {
+pub(super) fn three_digits(value: f64) -> String {
     let before = value.abs().log10().floor();
     if before < -3.0 {
         format!("{value:.2e}")

@@ -240,6 +240,8 @@ fn the_help_names_every_option_with_its_default() {
         "--animate",
         "--output",
         "--repeat",
+        "--figure-width",
+        "--show",
         "--help",
         "--version",
     ] {

@@ -30,6 +30,8 @@ pub(crate) const LABEL_GAP: f64 = 7.0;
 const PANEL_GAP: f64 = 18.0;
 const COLUMN_GAP: f64 = 20.0;
 pub(crate) const LEGEND_GAP: f64 = 10.0;
+/// Space between what is common to the tick labels and the name of a panel.
+const NAME_GAP: f64 = 12.0;
 
 pub(crate) const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
 /// Least width and height of a panel that can be read.
@@ -64,8 +66,17 @@ pub(crate) struct PanelPlan {
     pub(crate) scale: Scale,
     pub(crate) ticks: Ticks,
     pub(crate) label: Vec<Label>,
-    pub(crate) guides: Vec<Guide>,
+    pub(crate) strip: Above,
     pub(crate) styles: Vec<Style>,
+}
+
+/// What stands above a panel.
+pub(crate) struct Above {
+    pub(crate) guides: Vec<Guide>,
+    /// Name of the panel, and how far from its left edge it begins.
+    pub(crate) name: Vec<Label>,
+    pub(crate) indent: f64,
+    height: f64,
 }
 
 /// Finds the place of everything.
@@ -147,7 +158,7 @@ impl Sketch<'_> {
             top: 0.0,
             bottom: 0.0,
         };
-        let strips: Vec<(Vec<Guide>, f64)> = chart
+        let strips: Vec<Above> = chart
             .panels
             .iter()
             .zip(&y_ticks)
@@ -157,7 +168,7 @@ impl Sketch<'_> {
         // The strips of a row are as high as its highest.
         let strip_heights: Vec<f64> = strips
             .chunks(chart.columns)
-            .map(|row| row.iter().map(|(_, height)| *height).fold(0.0, f64::max))
+            .map(|row| row.iter().map(|strip| strip.height).fold(0.0, f64::max))
             .collect();
         let bottom = x.height() + self.legend_height(&legend, inner) + EDGE;
         let taken: f64 = strip_heights.iter().sum();
@@ -169,13 +180,12 @@ impl Sketch<'_> {
         let mut panels = Vec::new();
         let parts = strips.into_iter().zip(y_ticks).zip(y_labels);
         let axes = self.y.iter().zip(&self.styles);
-        for (index, ((((guides, _), ticks), label), (scale, styles))) in parts.zip(axes).enumerate()
-        {
-            let strip = strip_heights[index / chart.columns];
+        for (index, (((strip, ticks), label), (scale, styles))) in parts.zip(axes).enumerate() {
+            let above = strip_heights[index / chart.columns];
             let across = across(index);
             let frame = Rect {
-                top: top + strip,
-                bottom: top + strip + height,
+                top: top + above,
+                bottom: top + above + height,
                 ..across
             };
             if (index + 1) % chart.columns == 0 || index + 1 == count {
@@ -188,7 +198,7 @@ impl Sketch<'_> {
                 scale: *scale,
                 ticks,
                 label,
-                guides,
+                strip,
                 styles: styles.clone(),
             });
         }
@@ -246,15 +256,33 @@ impl Sketch<'_> {
         }
     }
 
-    /// Labels above a panel: marker lines and what is common to the tick
-    /// labels. Returns the height they take as well.
-    fn strip(&self, panel: &Panel, ticks: &Ticks, across: &Rect) -> (Vec<Guide>, f64) {
-        let reserved = ticks.common.as_deref().map_or(0.0, |common| {
-            Label::parse(common).width(self.font, TICK_SIZE)
+    /// Text above a panel: what is common to the tick labels, the panel's name, and labels of
+    /// marker lines.
+    fn strip(&self, panel: &Panel, ticks: &Ticks, across: &Rect) -> Above {
+        let common = ticks.common.as_deref().map(|common| {
+            let label = Label::parse(common);
+            label.width(self.font, TICK_SIZE)
         });
-        let (guides, rows) = guides::place(panel, &self.x, across, self.font, reserved);
+        let indent = common.map_or(0.0, |common| common + NAME_GAP);
+        let name = panel.name.as_deref().map_or(Vec::new(), |name| {
+            Label::parse(name).wrap(self.font, guides::SIZE, across.width() - indent)
+        });
+        let mut reserved: Vec<f64> = name
+            .iter()
+            .rev()
+            .map(|line| indent + line.width(self.font, guides::SIZE))
+            .collect();
+        if reserved.is_empty() {
+            reserved.extend(common);
+        }
+        let (guides, rows) = guides::place(panel, &self.x, across, self.font, &reserved);
         let space = if rows > 0 { 10.0 } else { 6.0 };
-        (guides, rows as f64 * guides::LINE + space)
+        Above {
+            guides,
+            name,
+            indent,
+            height: rows as f64 * guides::LINE + space,
+        }
     }
 
     fn legend_height(&self, legend: &Legend, inner: f64) -> f64 {

@@ -77,6 +77,27 @@ impl Scale {
     }
 }
 
+impl Chart {
+    /// Shows exactly `low` to `high` of the x axis; what lies outside is cut off. Each y axis
+    /// spans the samples in view, unless its range is given.
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.x = self.x.range(low, high);
+        self
+    }
+
+    /// Least and largest x of the samples that can be drawn; none without such a sample.
+    pub fn x_extent(&self) -> Option<(f64, f64)> {
+        let mut extent = Extent::default();
+        for panel in &self.panels {
+            let series = panel.series.iter();
+            series
+                .flat_map(|series| samples(series, self.x.log, panel.y.log))
+                .for_each(|(x, _)| extent.add(x));
+        }
+        extent.0
+    }
+}
+
 /// The value at a coordinate.
 fn value(log: bool, coordinate: f64) -> f64 {
     if log {

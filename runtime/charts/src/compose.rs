@@ -43,6 +43,7 @@ pub(crate) fn draw(chart: &Chart, plan: &Plan) -> Drawing {
         }
         draw_axes(plan, place, &mut marks);
         draw_y_text(place, &mut marks);
+        draw_name(place, &mut marks);
         if place.lowest {
             draw_x_text(plan, &place.frame, &mut marks);
         }
@@ -109,7 +110,7 @@ fn draw_guides(panel: &Panel, place: &PanelPlan, marks: &mut Vec<Mark>) {
         let line = vec![(frame.left, y), (frame.right, y)];
         marks.push(strokes(vec![line], GUIDE, 1.2));
     }
-    let lines = place.guides.iter();
+    let lines = place.strip.guides.iter();
     let lines = lines.map(|g| vec![(g.x, frame.top - 6.0), (g.x, frame.bottom)]);
     marks.push(Mark::Lines {
         lines: lines.collect(),
@@ -117,7 +118,7 @@ fn draw_guides(panel: &Panel, place: &PanelPlan, marks: &mut Vec<Mark>) {
         width: 1.3,
         dash: Dash::Dashed,
     });
-    for guide in &place.guides {
+    for guide in &place.strip.guides {
         let count = guide.lines.len();
         for (index, line) in guide.lines.iter().enumerate() {
             let row = (guide.row + count - 1 - index) as f64;
@@ -219,6 +220,16 @@ fn draw_y_text(place: &PanelPlan, marks: &mut Vec<Mark>) {
             size: LABEL_SIZE,
             upwards: true,
         }));
+    }
+}
+
+/// The name of a panel, above its left end.
+fn draw_name(place: &PanelPlan, marks: &mut Vec<Mark>) {
+    let (strip, frame) = (&place.strip, &place.frame);
+    for (row, line) in strip.name.iter().rev().enumerate() {
+        let baseline = frame.top - 8.0 - row as f64 * guides::LINE;
+        let at = (frame.left + strip.indent, baseline);
+        marks.push(text(line, at, Anchor::Start, guides::SIZE));
     }
 }
 

@@ -41,6 +41,7 @@ pub struct Axis {
 /// One set of axes of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
+    pub(crate) name: Option<String>,
     pub(crate) y: Axis,
     pub(crate) series: Vec<Series>,
     pub(crate) verticals: Vec<(f64, String)>,
@@ -181,11 +182,18 @@ impl Panel {
     /// A panel without series.
     pub fn new(y: Axis) -> Self {
         Self {
+            name: None,
             y,
             series: Vec::new(),
             verticals: Vec::new(),
             zero_line: false,
         }
+    }
+
+    /// Names the panel, or says what holds for it alone, above its left end.
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
     }
 
     /// Adds a series.

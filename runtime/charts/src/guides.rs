@@ -20,20 +20,20 @@ pub(crate) struct Guide {
 }
 
 /// Lays the labels of a panel's marker lines into rows so that none overlaps.
-/// `reserved` px at the left of row 0 are taken by another text. Returns the
-/// guides in view and the number of rows.
+/// So many px at the left of each row as `reserved` has are taken by another text. Returns
+/// the guides in view and the number of rows.
 pub(crate) fn place(
     panel: &Panel,
     scale: &Scale,
     frame: &Rect,
     font: &Font,
-    reserved: f64,
+    reserved: &[f64],
 ) -> (Vec<Guide>, usize) {
     // Row and horizontal extent of what is placed.
-    let mut taken: Vec<(usize, f64, f64)> = Vec::new();
-    if reserved > 0.0 {
-        taken.push((0, f64::NEG_INFINITY, frame.left + reserved));
-    }
+    let rows = reserved.iter().enumerate();
+    let mut taken: Vec<(usize, f64, f64)> = rows
+        .map(|(row, width)| (row, f64::NEG_INFINITY, frame.left + width))
+        .collect();
     let mut guides: Vec<Guide> = Vec::new();
     for (value, label) in &panel.verticals {
         let place = scale.fraction(*value).unwrap_or(f64::NAN);

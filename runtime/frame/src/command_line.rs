@@ -9,6 +9,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command, Id, Parser, value_parser};
 use serde_json::{Map, Value};
 
+use super::figures::{Charts, Figures, TimeSpan};
 use super::sweep::Shard;
 
 /// The options of a program, beside those that all have.
@@ -17,8 +18,14 @@ pub trait Arguments: Parser {
     /// files only where it is asked to.
     const FOLDER: Option<&'static str>;
 
-    /// True if the program draws charts, whose width may be asked for.
-    const CHARTS: bool = false;
+    /// The charts that the program draws.
+    const CHARTS: Charts = Charts::None;
+
+    /// Time that is followed, s from 0 on, where the options alone tell it: charts cannot show
+    /// another.
+    fn followed(&self) -> Option<f64> {
+        None
+    }
 
     /// The shard of the run that is computed, if it is not all of it.
     fn shard(&self) -> Option<Shard> {
@@ -106,8 +113,9 @@ fn is_given(matches: &ArgMatches, id: &Id) -> bool {
 /// The options that all programs have: the folder of results, and a run to repeat.
 const OUTPUT: &str = "output";
 const REPEAT: &str = "repeat";
-/// The option of programs that draw charts.
+/// The options of programs that draw charts.
 const FIGURE_WIDTH: &str = "figure-width";
+const SHOW: &str = "show";
 
 /// A command line that was read.
 #[derive(Debug)]
@@ -116,8 +124,8 @@ pub struct CommandLine<A> {
     pub arguments: A,
     /// The folder of results, if there is one.
     pub output: Option<PathBuf>,
-    /// Width of the charts as figures of a paper, mm, where it is asked for.
-    pub figure_width: Option<f64>,
+    /// What is asked of the charts.
+    pub figures: Figures,
     /// All values as text, those by default included, for `run.json`.
     pub values: Map<String, Value>,
 }
@@ -143,16 +151,17 @@ pub fn parse<A: Arguments>(
         checked.map_err(|message| command.error(ErrorKind::ArgumentConflict, message))?;
     }
     let arguments = A::from_arg_matches(&matches).map_err(|error| error.format(&mut command))?;
+    let figures = figures::<A>(&matches);
+    let shown = figures.shown.zip(arguments.followed());
+    let shown = shown.map_or(Ok(()), |(shown, end)| shown.check(0.0, end));
     arguments
         .check()
+        .and(shown)
         .map_err(|message| command.error(ErrorKind::ValueValidation, message))?;
     Ok(CommandLine {
         arguments,
         output: matches.get_one(OUTPUT).cloned(),
-        figure_width: match A::CHARTS {
-            true => matches.get_one(FIGURE_WIDTH).copied(),
-            false => None,
-        },
+        figures,
         values: values(&command, &matches),
     })
 }
@@ -170,13 +179,33 @@ fn command<A: Arguments>() -> Command {
     let repeat = path(REPEAT)
         .value_name("FILE")
         .help("repeats the run that a run.json records; no other option but --output");
+    let own = A::command().args([output, repeat]);
     let width = Arg::new(FIGURE_WIDTH)
         .long(FIGURE_WIDTH)
         .value_name("MM")
         .value_parser(millimetres)
         .help("width of charts as figures of a paper, 66 to 400 mm, with type of 7 and 8\npoints: 85mm is a column of many journals");
-    let own = A::command().args([output, repeat]);
-    if A::CHARTS { own.arg(width) } else { own }
+    let show = Arg::new(SHOW)
+        .long(SHOW)
+        .value_name("FROM:TO")
+        .value_parser(TimeSpan::read)
+        .allow_hyphen_values(true)
+        .help("time that charts show, s, as in 2:10; tables have all of it");
+    match A::CHARTS {
+        Charts::None => own,
+        Charts::Any => own.arg(width),
+        Charts::OverTime => own.args([width, show]),
+    }
+}
+
+/// What is asked of charts, by the options that the program has.
+fn figures<A: Arguments>(matches: &ArgMatches) -> Figures {
+    let width = || matches.get_one(FIGURE_WIDTH).copied();
+    let shown = || matches.get_one(SHOW).copied();
+    Figures {
+        width: (A::CHARTS >= Charts::Any).then(width).flatten(),
+        shown: (A::CHARTS >= Charts::OverTime).then(shown).flatten(),
+    }
 }
 
 /// The words of the run that `file` records, with the output folder of this one.

@@ -12,6 +12,7 @@ use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
 use super::checkpoint::CHECKPOINT;
+use super::figures::{Figures, TimeSpan};
 use super::files::{Ledger, Part, SharedLedger, locked, replace};
 use super::interrupt::Interruption;
 use super::lock::FolderLock;
@@ -22,8 +23,15 @@ use crate::failure::Failure;
 /// Name of the record of a run.
 pub const RECORD: &str = "run.json";
 
-/// Options that say how a run is computed, and which part of it, but not what.
-const MANNER: [&str; 4] = ["shard", "merge", "threads", "checkpoint"];
+/// Options that say how a run is computed, which part of it, and how it is drawn, but not what.
+const MANNER: [&str; 6] = [
+    "shard",
+    "merge",
+    "threads",
+    "checkpoint",
+    "figure-width",
+    "show",
+];
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -119,8 +127,8 @@ pub struct Job {
     pub(super) progress: Arc<Mutex<Progress>>,
     pub(super) interruption: Arc<Interruption>,
     folder: Option<PathBuf>,
-    /// Width of charts as figures, mm.
-    figure_width: Option<f64>,
+    /// What is asked of charts.
+    figures: Figures,
     /// Nobody reads the standard output any more.
     closed: Cell<bool>,
     /// Text that tests read in place of the standard output.
@@ -168,18 +176,20 @@ impl Job {
             progress: Arc::default(),
             interruption: Arc::default(),
             folder,
-            figure_width: None,
+            figures: Figures::default(),
             closed: Cell::new(false),
             kept: None,
         })
     }
 
-    /// Draws charts of that width (mm) as figures of a paper from now on, where one is given.
-    pub fn with_figure_width(self, figure_width: Option<f64>) -> Self {
-        Self {
-            figure_width,
-            ..self
-        }
+    /// Draws charts like that from now on.
+    pub fn with_figures(self, figures: Figures) -> Self {
+        Self { figures, ..self }
+    }
+
+    /// Time that charts over time show, where it was asked for.
+    pub fn shown(&self) -> Option<TimeSpan> {
+        self.figures.shown
     }
 
     /// A run of a test, which prints nothing.
@@ -319,11 +329,31 @@ impl Job {
         if self.folder.is_none() {
             return Ok(());
         }
-        let figure = self.figure_width.map(|width| chart.clone().figure(width));
-        let chart = figure.as_ref().unwrap_or(chart);
+        let chart = self.figures.of(chart);
         self.write(&format!("{name}.svg"), chart.to_svg()?.as_bytes())?;
         self.write(&format!("{name}.pdf"), &chart.to_pdf()?)?;
         self.write(&format!("{name}.png"), &chart.to_png()?)
+    }
+
+    /// Draws a chart whose x axis is time in s, over the time that was asked for.
+    ///
+    /// # Errors
+    /// As [`chart`](Self::chart); [`Failure::Lacking`] where it has nothing of that time.
+    pub fn chart_over_time(&self, name: &str, chart: &Chart) -> Result<(), Failure> {
+        self.chart(name, &self.figures.over_time(chart)?)
+    }
+
+    /// Refuses a time to be shown where no chart is over time, because of that option.
+    ///
+    /// # Errors
+    /// [`Failure::Lacking`].
+    pub fn has_no_time_charts(&self, option: &str) -> Result<(), Failure> {
+        match self.figures.shown {
+            None => Ok(()),
+            Some(_) => Err(Failure::Lacking {
+                what: format!("no chart of `{option}` is over time: leave out `--show`"),
+            }),
+        }
     }
 
     /// Writes a film as SVG and as animated PNG; `name` has no extension.

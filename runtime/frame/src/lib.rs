@@ -3,6 +3,7 @@
 //!
 //! - [`command_line`]: options, `--output` and `--repeat`,
 //! - [`job`]: one run: what it prints, its files, its `run.json`,
+//! - [`figures`]: charts as figures of a paper,
 //! - [`files`]: files that are whole or absent,
 //! - `lock`: one run at a time in a folder,
 //! - [`progress`]: a bar on a terminal.
@@ -14,6 +15,7 @@
 pub mod checkpoint;
 pub mod command_line;
 pub mod failure;
+pub mod figures;
 pub mod files;
 pub mod film;
 mod interrupt;
@@ -32,6 +34,7 @@ use std::process::ExitCode;
 pub use checkpoint::Checkpoint;
 pub use command_line::{Arguments, CommandLine, RecordOptions};
 pub use failure::Failure;
+pub use figures::Charts;
 pub use job::{Ended, Job};
 pub use progress::Progress;
 pub use sweep::Sharding;
@@ -62,7 +65,7 @@ pub fn run<A: Arguments>(
     let CommandLine {
         arguments,
         output: mut folder,
-        figure_width,
+        figures,
         values,
     } = match command_line::parse::<A>(words) {
         Ok(line) => line,
@@ -73,7 +76,7 @@ pub fn run<A: Arguments>(
         folder.push(shard.folder());
     }
     let job = match Job::start(&name, folder, values) {
-        Ok(job) => job.with_figure_width(figure_width),
+        Ok(job) => job.with_figures(figures),
         Err(failure) => {
             say(&name, &messages(&failure).join(": "));
             return ExitCode::FAILURE;

@@ -124,7 +124,7 @@ pub fn write(
     };
     let chart = chart.panel(panel("H_d (J)", &|own| &own.energies));
     let chart = chart.panel(panel("W exact (W)", &|own| &own.transfers));
-    job.chart("sectors", &chart.size(900.0, 620.0))
+    job.chart_over_time("sectors", &chart.size(900.0, 620.0))
 }
 
 /// Most sectors that are drawn.

@@ -269,6 +269,21 @@ impl Ensemble<'_> {
         self.samples(method, Cases::Pairs(releases), times)
     }
 
+    /// The same at times of its own for each: the last is its end.
+    pub(crate) fn sample_models_at_own_times<T, O, M>(
+        &self,
+        method: &M,
+        releases: &[(O, State<T>)],
+        times: &[&[T]],
+    ) -> Vec<Samples<T>>
+    where
+        T: Lane,
+        O: LaneOde<T> + Sync,
+        M: LaneMethod<O, T>,
+    {
+        self.samples(method, Cases::Timed(releases, times), &[])
+    }
+
     fn ends<T, O, M>(
         &self,
         method: &M,

@@ -128,6 +128,20 @@ pub(super) fn awkward() -> Vec<(&'static str, Chart)> {
             }),
         ),
         (
+            "named",
+            (0..4).fold(chart().columns(2), |chart, k| {
+                let low = ramp(-1e-12, f64::from(k) * 1e-12);
+                let panel = panel().name(if k == 2 { &*long } else { "θ_1(0) = 47.8°" });
+                chart.panel(panel.line("", &t, &low).vertical(1.0, "f_+"))
+            }),
+        ),
+        (
+            "named in a column",
+            chart()
+                .size(320.0, 200.0)
+                .panel(panel().name(&*long).line("", &t, &y).vertical(0.0, "f_+")),
+        ),
+        (
             "heatmap",
             Chart::new("", Axis::log("amplitude (rad)")).panel(panel().heatmap(
                 &cell_x,

@@ -266,3 +266,27 @@ fn a_band_has_a_piece_between_gaps_and_its_lower_edge_counts() -> Failure {
     ));
     Ok(())
 }
+
+#[test]
+fn a_span_of_the_x_axis_is_shown_with_what_is_in_view() -> Failure {
+    let (x, y) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 2.0, 300.0]);
+    let panel =
+        Panel::new(Axis::linear("y"))
+            .line("", &x, &y)
+            .line("", &[f64::NAN, 4.0], &[1.0, 2.0]);
+    let chart = Chart::new("", Axis::linear("t (s)")).panel(panel);
+    assert_eq!(chart.x_extent(), Some((0.0, 4.0)));
+    assert_eq!(Chart::new("", Axis::linear("")).x_extent(), None);
+    let largest_tick = |chart: &Chart| -> Result<f64, ChartError> {
+        let (drawing, _) = draw(chart)?;
+        let numbers = drawing.marks.iter().filter_map(|mark| match mark {
+            Mark::Text(text) => text.label.plain().parse().ok(),
+            _ => None,
+        });
+        Ok(numbers.fold(0.0, f64::max))
+    };
+    assert!(largest_tick(&chart)? >= 250.0);
+    let part = largest_tick(&chart.x_range(0.5, 2.5))?;
+    assert!((2.0..=2.5).contains(&part), "{part}");
+    Ok(())
+}

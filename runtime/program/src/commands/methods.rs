@@ -8,8 +8,8 @@ use branched_pendulum_data::{Cell, Column};
 use clap::Parser;
 
 use crate::Failure;
-use crate::frame::Job;
 use crate::frame::command_line::number;
+use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
 
@@ -30,7 +30,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("methods-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::Any;
 }
 
 /// Errors in the table.

@@ -11,9 +11,9 @@ use clap::Parser;
 
 use crate::Failure;
 use crate::budget::{self, SectorSeries};
-use crate::frame::Job;
 use crate::frame::command_line::number;
 use crate::frame::film;
+use crate::frame::{Charts, Job};
 use crate::motion::{MethodArguments, Samples, sample};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
@@ -43,7 +43,11 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("simulate-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        Some(self.duration)
+    }
 
     fn check(&self) -> Result<(), String> {
         match self.duration * self.rate <= MOST_SAMPLES {
@@ -252,7 +256,7 @@ fn charts(
         verbatim(&subject.name),
         Axis::linear("time (s)").range(0.0, end),
     );
-    job.chart(
+    job.chart_over_time(
         "motion",
         &chart.panel(angles).panel(panel).size(900.0, 620.0),
     )

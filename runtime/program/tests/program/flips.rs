@@ -200,3 +200,23 @@ fn a_link_that_starts_upside_down_flips_when_it_comes_back() {
     // One degree further the first of these passes the top within 0.03 s.
     assert!(rows[0].1 > 1.2, "{:?}", rows[0]);
 }
+
+/// A friction of zero is none: a tree without it is one of another shape.
+#[test]
+fn a_plane_may_hold_trees_of_several_shapes() {
+    let folder = Folder::new("flips-shapes");
+    let brushed = CHAIN.replace("length = 0.2", "length = 0.2, friction = f");
+    let tree = folder.file("brushed.txt", &brushed);
+    let words = ["map", "--tree", &tree, "--set", "f=1", "--start", "90"];
+    let axes = [
+        "--of",
+        "flip",
+        "--x",
+        "f=0:2e-3:1e-3",
+        "--y",
+        "upper=100:160:30",
+    ];
+    let printed = folder.answer(&[&words[..], &axes].concat());
+    assert!(printed.contains("9 points"), "{printed}");
+    assert!(!printed.contains("could not be followed"), "{printed}");
+}

@@ -138,6 +138,26 @@ fn mistakes_are_named_with_their_place() {
             "it must be from 66 to 400 mm",
         ),
         (
+            &["simulate", "--show", "5:2"],
+            2,
+            "it ends before it begins: write `2:5`",
+        ),
+        (
+            &["simulate", "--duration", "3", "--show", "3:5"],
+            2,
+            "which goes from 0 to 3 s: choose a span of that",
+        ),
+        (
+            &["transfer", "--against", "amplitude", "--show", "2:5"],
+            1,
+            "no chart of `--against amplitude` is over time: leave out `--show`",
+        ),
+        (
+            &["growth", "--show", "2:5"],
+            2,
+            "unexpected argument '--show'",
+        ),
+        (
             &["modes", "--figure-width", "85mm"],
             2,
             "unexpected argument '--figure-width'",

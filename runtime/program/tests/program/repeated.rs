@@ -26,12 +26,17 @@ fn a_record_repeats_the_run() {
         "arm=-20",
         "--figure-width",
         "85mm",
+        "--show",
+        "0.2:0.6",
     ];
     folder.answer(&[&words[..], &others].concat());
     let first = folder.read("results/motion.csv");
     // Its charts are figures of a paper, in three formats.
     let chart = folder.read("results/motion.svg");
     assert!(chart.contains("width=\"85mm\""), "{chart:.200}");
+    // They show a part of the time, of which the table has all.
+    assert!(chart.contains(">0.6</text>") && !chart.contains(">0.8</text>"));
+    assert!(first.lines().last().unwrap().starts_with("1,"));
     for format in ["pdf", "png"] {
         let file = folder.0.join(format!("results/motion.{format}"));
         assert!(std::fs::metadata(file).unwrap().len() > 1000);

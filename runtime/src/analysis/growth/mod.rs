@@ -14,7 +14,9 @@ mod record;
 mod rotation;
 mod transverse;
 
+use std::iter;
 use std::ops::Range;
+use std::sync::Arc;
 
 pub use self::brake_orbit::{BrakeOrbit, Continuation};
 pub use self::checked::Checked;
@@ -157,26 +159,75 @@ impl Growth {
     where
         O: TransverseSystem + LaneOde<f64> + Sync,
     {
+        let frequencies_hz = vec![self.frequency_hz; releases.len()];
+        self.in_lanes_by_frequency(ensemble, releases, &frequencies_hz)
+    }
+
+    /// Returns the same of systems that differ in their constants, each with a frequency of its
+    /// own (Hz) in place of [`frequency_hz`](Self::frequency_hz). The result of a release is that
+    /// of [`in_lanes`](Self::in_lanes) with its frequency.
+    ///
+    /// # Errors
+    ///
+    /// Each result of its own: [`GrowthError`].
+    pub fn in_lanes_by_frequency<O>(
+        &self,
+        ensemble: &Ensemble<'_>,
+        releases: &[(O, State<f64>)],
+        frequencies_hz: &[f64],
+    ) -> Vec<Result<Grown, GrowthError>>
+    where
+        O: TransverseSystem + LaneOde<f64> + Sync,
+    {
+        let start = releases.first().map_or(0.0, |(_, start)| start.time);
+        let frequencies = frequencies_hz.iter().copied();
+        let frequencies = frequencies.chain(iter::repeat(self.frequency_hz));
+        let with = |frequency_hz: f64| Self {
+            frequency_hz,
+            ..self.clone()
+        };
+        let mut looks: Vec<Arc<[f64]>> = Vec::new();
+        let mut before = f64::NAN;
+        for frequency in frequencies.clone().take(releases.len()) {
+            // Neighbours are often of one system.
+            looks.push(match looks.last() {
+                Some(last) if frequency == before => last.clone(),
+                _ => with(frequency).looks(start).into(),
+            });
+            before = frequency;
+        }
         let [coarse, fine] = self.tolerances().map(|tolerance| {
             let method = Dop853::new(Options::with_tolerance(tolerance));
-            let runs = releases.iter().map(|(ode, start)| {
-                if start.time != releases[0].1.time {
-                    return Err(GrowthError::StartTime(start.time));
+            let each = releases.iter().zip(frequencies.clone());
+            let runs = each.map(|((ode, release), frequency)| {
+                if release.time != start {
+                    return Err(GrowthError::StartTime(release.time));
                 }
-                self.begin(start.clone(), places(ode))
+                with(frequency).begin(release.clone(), places(ode))
             });
             let mut runs: Vec<Result<GrowthRun, GrowthError>> = runs.collect();
-            let start = releases.first().map_or(0.0, |(_, start)| start.time);
-            for times in scales(&self.looks(start)) {
-                let both = runs.iter().zip(releases);
-                let moving = both.filter_map(|(run, (ode, _))| {
+            for number in 0.. {
+                // Of the runs that go on, the times until differences are scaled back.
+                let both = runs.iter().zip(&looks);
+                let pieces = both.map(|(run, looks)| {
+                    let times = scale(looks, number)?;
+                    run.is_ok().then_some(times)
+                });
+                let pieces: Vec<Option<&[f64]>> = pieces.collect();
+                let times: Vec<&[f64]> = pieces.iter().copied().flatten().collect();
+                if times.is_empty() {
+                    break;
+                }
+                let all = runs.iter().zip(&pieces).zip(releases);
+                let moving = all.filter_map(|((run, piece), (ode, _))| {
                     let run = run.as_ref().ok()?;
-                    Some((ode, run.state.clone()))
+                    piece.map(|_| (ode, run.state.clone()))
                 });
                 let cases: Vec<_> = moving.collect();
-                let samples = ensemble.sample_models_in_lanes(&method, &cases, times);
-                let moving = runs.iter_mut().filter(|run| run.is_ok());
-                for (place, samples) in moving.zip(samples) {
+                let samples = ensemble.sample_models_at_own_times(&method, &cases, &times);
+                let moving = runs.iter_mut().zip(&pieces);
+                let moving = moving.filter_map(|(run, piece)| Some((run, (*piece)?)));
+                for ((place, times), samples) in moving.zip(samples) {
                     let Ok(run) = place else { continue };
                     for (&time, state) in times.iter().zip(samples.states()).skip(1) {
                         run.look(time, state);
@@ -314,11 +365,17 @@ impl Growth {
     }
 }
 
-/// The times in pieces between which differences are scaled back; each begins where the
-/// one before ends.
+/// One of the pieces of the times between which differences are scaled back; each begins where
+/// the one before ends.
+fn scale(times: &[f64], number: usize) -> Option<&[f64]> {
+    let start = number * LOOKS_A_SCALE;
+    let end = (start + LOOKS_A_SCALE + 1).min(times.len());
+    (start + 1 < times.len()).then(|| &times[start..end])
+}
+
+/// All of them.
 fn scales(times: &[f64]) -> impl Iterator<Item = &[f64]> {
-    let starts = (0..times.len().saturating_sub(1)).step_by(LOOKS_A_SCALE);
-    starts.map(|start| &times[start..(start + LOOKS_A_SCALE + 1).min(times.len())])
+    (0..).map_while(|number| scale(times, number))
 }
 
 impl Grown {

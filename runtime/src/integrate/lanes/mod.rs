@@ -43,12 +43,27 @@ pub(crate) struct Task<'a, M, O, T> {
     pub(crate) instructions: InstructionSet,
     pub(crate) method: &'a M,
     pub(crate) cases: Cases<'a, O, T>,
-    /// Times at which states are wanted.
+    /// Times at which states are wanted, of cases without their own.
     pub(crate) times: &'a [T],
     /// None: where it starts.
     pub(crate) end: Option<T>,
     /// What ends a trajectory before.
     pub(crate) endings: &'a [Ending<'a, T>],
+}
+
+impl<M, O, T: Lane> Task<'_, M, O, T> {
+    /// Times at which states of a case are wanted.
+    fn times(&self, index: usize) -> &[T] {
+        self.cases.times(index).unwrap_or(self.times)
+    }
+
+    /// Where a case is to end; none: where it starts.
+    fn end(&self, index: usize) -> Option<T> {
+        match self.cases.times(index) {
+            Some(times) => times.last().copied(),
+            None => self.end,
+        }
+    }
 }
 
 /// Integrates the cases whose indices `next` gives, until it gives none, and
@@ -99,6 +114,7 @@ where
         }
         let mut steps = method.steps::<R>(first);
         let mut runs = Runs::new();
+        let is_sampled = !self.task.times.is_empty() || matches!(self.task.cases, Cases::Timed(..));
         let mut samples = LaneSamples::new(dimension);
         let events = events(self.task.endings);
         let mut endings = LaneEndings::new(&events, dimension);
@@ -113,8 +129,9 @@ where
             let (span, size) = self.plan(&mut steps, &mut runs);
             steps.attempt(span, size);
             let accepted = steps.judge(&mut runs);
-            if !self.task.times.is_empty() {
-                samples.take(&mut steps, &mut runs, self.task.times, &accepted, span);
+            if is_sampled {
+                let times = |index| self.task.times(index);
+                samples.take(&mut steps, &mut runs, times, &accepted, span);
             }
             if !events.is_empty() {
                 endings.take(&mut steps, &mut runs, &accepted, span);
@@ -143,7 +160,7 @@ where
         while let Some(index) = (self.next)() {
             // A fault of the start comes first, as in the plain method.
             let case = self.task.cases.get(index);
-            let error = match case.map(|(system, start)| self.check(system, start)) {
+            let error = match case.map(|(system, start)| self.check(index, system, start)) {
                 Some(Err(error)) => error,
                 _ => error.clone(),
             };
@@ -151,10 +168,10 @@ where
         }
     }
 
-    fn check(&self, system: &O, start: &State<T>) -> Result<(), InputError<T>> {
+    fn check(&self, index: usize, system: &O, start: &State<T>) -> Result<(), InputError<T>> {
         check_start(system, (start.time, &start.values))?;
-        check_times(start.time, self.task.times)?;
-        self.task.end.map_or(Ok(()), check_end)?;
+        check_times(start.time, self.task.times(index))?;
+        self.task.end(index).map_or(Ok(()), check_end)?;
         self.task.method.check_start(&start.values)
     }
 
@@ -171,7 +188,7 @@ where
                 && let Some(index) = (self.next)()
                 && let Some((system, start)) = self.task.cases.get(index)
             {
-                let mut checked = self.check(system, start);
+                let mut checked = self.check(index, system, start);
                 if checked.is_ok() && self.task.cases.models_differ() {
                     checked = steps.models().set(lane, system);
                 }
@@ -179,9 +196,9 @@ where
                     (self.done)(index, Outcome::refused(error));
                     continue;
                 }
-                let end = self.task.end.unwrap_or(start.time);
+                let end = self.task.end(index).unwrap_or(start.time);
                 runs.begin(lane, index, start.time, end);
-                runs.sample_start(lane, self.task.times, &start.values);
+                runs.sample_start(lane, self.task.times(index), &start.values);
                 if start.time == end {
                     let (index, outcome) = runs.finish(lane, start.values.clone());
                     (self.done)(index, outcome);

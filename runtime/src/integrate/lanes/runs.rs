@@ -196,10 +196,13 @@ impl<T: Real> Runs<T> {
         ended
     }
 
-    /// The time of the next sample in a lane, if that is in the step.
+    /// The time of the next sample in a lane, of the `times` of its case, if that is in the step.
     #[inline(always)]
-    pub(super) fn next_sample(&self, lane: usize, times: &[T]) -> Option<T> {
-        let time = *times.get(self.sampled[lane])?;
+    pub(super) fn next_sample<'a>(&self, lane: usize, times: impl Fn(usize) -> &'a [T]) -> Option<T>
+    where
+        T: 'a,
+    {
+        let time = *times(self.index[lane]).get(self.sampled[lane])?;
         let left = self.direction[lane] * (self.end_time[lane] - time);
         (left >= T::ZERO).then_some(time)
     }

@@ -25,14 +25,14 @@ impl<T: Lane, R: Simd<T>> LaneSamples<T, R> {
         }
     }
 
-    /// Takes the samples within the steps that were accepted, one a lane at a
-    /// time. A trajectory without values inside its step ends there.
+    /// Takes the samples within the steps that were accepted, at the `times` of the cases by
+    /// their places, one a lane at a time. A trajectory without values inside its step ends there.
     #[inline(always)]
-    pub(super) fn take(
+    pub(super) fn take<'a>(
         &mut self,
         steps: &mut impl LaneSteps<T, R>,
         runs: &mut Runs<T>,
-        times: &[T],
+        times: impl Fn(usize) -> &'a [T],
         accepted: &Flags,
         span: StepSpan<R>,
     ) {
@@ -42,7 +42,7 @@ impl<T: Lane, R: Simd<T>> LaneSamples<T, R> {
             let mut inside = [false; WIDEST];
             for lane in (0..R::LANES).filter(|&lane| accepted[lane]) {
                 while runs.active[lane]
-                    && let Some(time) = runs.next_sample(lane, times)
+                    && let Some(time) = runs.next_sample(lane, &times)
                 {
                     if time == runs.end_time[lane] {
                         copy_lane(steps.end(), lane, &mut self.one);

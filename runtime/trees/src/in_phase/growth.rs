@@ -3,7 +3,7 @@
 use branched_pendulum::analysis::growth::{Grown, Growth, GrowthError, frequency_at_rest};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
-use branched_pendulum::system::{Ode, State};
+use branched_pendulum::system::{LaneOde, Ode, State};
 
 use super::InPhaseTree;
 use crate::error::TreeError;
@@ -112,6 +112,39 @@ impl DifferenceGrowth {
             .map(|start| Ok((&self.system, self.start(start)?)));
         let releases: Vec<_> = releases.collect::<Result<_, TreeError>>()?;
         Ok(self.growth.in_lanes(ensemble, &releases))
+    }
+
+    /// Returns the growth in several trees, each after its own start, on all cores and in lanes,
+    /// which trees of one shape share. Horizons and tolerance are those of the first.
+    ///
+    /// # Errors
+    /// As [`in_lanes`](Self::in_lanes).
+    pub fn of_trees_in_lanes(
+        ensemble: &Ensemble<'_>,
+        cases: &[(&Self, State<f64>)],
+    ) -> Result<Vec<Result<Grown, GrowthError>>, TreeError> {
+        // Starts of one tree follow each other: its constants stay in their lanes.
+        let mut places: Vec<(usize, *const Self, usize)> = cases
+            .iter()
+            .enumerate()
+            .map(|(place, (own, _))| (own.system.shape(), std::ptr::from_ref(*own), place))
+            .collect();
+        places.sort_unstable();
+        let mut all: Vec<(usize, Result<Grown, GrowthError>)> = Vec::new();
+        for places in places.chunk_by(|(one, ..), (other, ..)| one == other) {
+            let own = || places.iter().filter_map(|(.., place)| cases.get(*place));
+            let releases = own().map(|(own, start)| Ok((&own.system, own.start(start)?)));
+            let releases: Vec<_> = releases.collect::<Result<_, TreeError>>()?;
+            let frequencies: Vec<f64> = own().map(|(own, _)| own.growth.frequency_hz).collect();
+            if let Some((first, _)) = cases.first() {
+                let grown = first
+                    .growth
+                    .in_lanes_by_frequency(ensemble, &releases, &frequencies);
+                all.extend(places.iter().map(|(.., place)| *place).zip(grown));
+            }
+        }
+        all.sort_unstable_by_key(|(place, _)| *place);
+        Ok(all.into_iter().map(|(_, grown)| grown).collect())
     }
 
     /// Returns the growth after one start, on this thread.

@@ -9,7 +9,7 @@ use branched_pendulum::analysis::variational::linearised;
 use branched_pendulum::prelude::*;
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::SymmetricCoordinates;
-use branched_pendulum_trees::{InPhaseTree, PendulumTree, TreeDescription};
+use branched_pendulum_trees::{DifferenceGrowth, InPhaseTree, PendulumTree, TreeDescription};
 
 /// The pendulum of the paper with friction in the children's pivots.
 fn paper(friction: f64) -> PendulumTree {
@@ -246,4 +246,46 @@ fn requests_without_an_answer() {
         ask(&growth, release(20.0)),
         Err(GrowthError::Frequency(0.0))
     );
+}
+
+/// Trees in lanes have times of their own, by their own periods, and lanes only of their shape.
+#[test]
+fn trees_in_lanes_grow_as_each_alone() {
+    let trees = [
+        (0.10531, 0.0),
+        (0.2, 0.0),
+        (0.15, 1e-4),
+        (0.05, 0.0),
+        (0.3, 2e-4),
+    ];
+    let differences = trees.map(|(mass, friction)| {
+        let tree = PendulumTree::parse(&format!(
+            "gravity = 9.80665,
+             parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+                 child(mass = {mass}, com = 0.043, inertia = 0.516e-3, friction = {friction}) * 2
+             ]"
+        ))
+        .unwrap();
+        // Longer than the time after which differences are scaled back.
+        DifferenceGrowth::new(&tree, &tree.all_copies(), vec![4.0, 12.0], 1e-8).unwrap()
+    });
+    let start = |degrees: f64| State::at_rest(0.0, &[degrees.to_radians(), 0.0, 0.0]);
+    let cases: Vec<_> = [30.0, 44.0, 60.0]
+        .into_iter()
+        .flat_map(|degrees| differences.iter().map(move |own| (own, start(degrees))))
+        .collect();
+    let ensemble = Ensemble::new();
+    let together = DifferenceGrowth::of_trees_in_lanes(&ensemble, &cases).unwrap();
+    assert_eq!(together.len(), cases.len());
+    for (together, (own, start)) in together.iter().zip(&cases) {
+        let alone = own
+            .in_lanes(&ensemble, std::slice::from_ref(start))
+            .unwrap();
+        let [together, alone] = [together, &alone[0]].map(|grown| grown.as_ref().unwrap());
+        assert_eq!(together, alone);
+    }
+    let factors = together
+        .iter()
+        .map(|grown| grown.as_ref().unwrap().factors[1].value);
+    assert!(factors.fold(0.0, f64::max) > 10.0);
 }

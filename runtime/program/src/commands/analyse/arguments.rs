@@ -2,8 +2,8 @@
 
 use clap::Parser;
 
-use crate::frame::RecordOptions;
 use crate::frame::command_line::number;
+use crate::frame::{Charts, RecordOptions};
 use crate::measured_file::MeasuredFile;
 use crate::motion::MethodArguments;
 use crate::release::{APART, ReleaseArguments};
@@ -77,7 +77,11 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("analyse-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        self.measured.file.is_none().then_some(self.duration)
+    }
 
     fn of_records() -> RecordOptions {
         let own = ["difference", "duration", "rate", "noise", "real", "turned"];

@@ -89,7 +89,7 @@ fn analyse(
     report::write(job, names, source, &estimate)?;
     job.print(&verdict.words(arguments, names, search.as_ref()))?;
     job.print(&report::report(arguments, names, source, &estimate))?;
-    job.chart("estimate", &charts::chart(subject, source, &estimate))?;
+    job.chart_over_time("estimate", &charts::chart(subject, source, &estimate))?;
     if let Some(spectrogram) = Spectrogram::of(names, source, &estimate)? {
         spectrogram.write(job)?;
     }

@@ -7,9 +7,9 @@ use clap::Parser;
 
 use super::tree;
 use crate::Failure;
-use crate::frame::Sharding;
 use crate::frame::command_line::number;
 use crate::frame::sweep::Shard;
+use crate::frame::{Charts, Sharding};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
 
@@ -164,6 +164,11 @@ impl Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("cascade-output");
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        Some(self.onset.unwrap_or(self.duration))
+    }
 
     fn shard(&self) -> Option<Shard> {
         self.sharding.shard

@@ -42,6 +42,7 @@ const INTERVAL: f64 = 0.05;
 /// [`Failure`].
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if !arguments.compare.is_empty() {
+        job.has_no_time_charts("--compare")?;
         return compare::run(&arguments.compare, job);
     }
     let subject = arguments.read()?;
@@ -90,7 +91,7 @@ fn write(
     job.write("report.md", text.as_bytes())?;
     // A tree that hangs still has nothing to show.
     if findings.course.iter().flatten().any(|energy| *energy > 0.0) {
-        job.chart("course", &charts::course(arguments, &findings))?;
+        job.chart_over_time("course", &charts::course(arguments, &findings))?;
         if let Some(chart) = charts::scales(driven, &findings, equilibrium) {
             job.chart("scales", &chart)?;
         }

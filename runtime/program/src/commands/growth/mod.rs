@@ -13,8 +13,8 @@ use clap::Parser;
 pub(super) use self::differences::{PairArguments, differences_of, out_of_phase};
 use self::varied::Varied;
 use crate::Failure;
-use crate::frame::Job;
 use crate::frame::command_line::{number, numbers};
+use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
@@ -90,7 +90,7 @@ pub struct Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("growth-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::Any;
 }
 
 /// Angles that are computed at a time.

@@ -4,8 +4,8 @@ use clap::{Parser, ValueEnum};
 
 use branched_pendulum_measure::identification::Frequency;
 
-use crate::frame::RecordOptions;
 use crate::frame::command_line::{number, parts};
+use crate::frame::{Charts, RecordOptions};
 use crate::measured_file::MeasuredFile;
 use crate::motion::MethodArguments;
 use crate::release::{APART, ReleaseArguments};
@@ -116,7 +116,11 @@ impl Default for Arguments {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("identify-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        self.measured.file.is_none().then_some(self.duration)
+    }
 
     fn of_records() -> RecordOptions {
         let own = ["noise", "duration", "rate"];
@@ -129,7 +133,7 @@ impl crate::frame::Arguments for Arguments {
             ]
             .concat(),
             instead: Some("frequency"),
-            of_both: vec!["fit", "laws", "seed"],
+            of_both: vec!["fit", "laws", "seed", "show"],
         }
     }
 

@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     ))?;
     report::record(job, &measurement, &outcomes, energies.as_ref());
     report::write(job, &unknowns, &measurement, reported, energies.as_ref())?;
-    job.chart(
+    job.chart_over_time(
         "identified",
         &charts::chart(&measurement, &outcomes, reported, energies.as_ref()),
     )?;

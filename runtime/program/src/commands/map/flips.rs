@@ -36,6 +36,9 @@ pub(super) struct Flips<'a> {
     pub(super) excess: Vec<f64>,
 }
 
+/// A tree with its start.
+type Release<'a> = (AbsoluteAngles<&'a PendulumTree>, State<f64>);
+
 /// The first flip of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Flip {
@@ -77,11 +80,11 @@ fn upright(angle: f64) -> f64 {
 }
 
 impl Flips<'_> {
-    /// Returns the first flips of trees from their starts; none where the motion could not be
-    /// followed.
+    /// Returns the first flips of trees of one shape from their starts; none where the motion could
+    /// not be followed.
     fn of_releases(
         &self,
-        releases: &[(AbsoluteAngles<&PendulumTree>, State<f64>)],
+        releases: &[Release<'_>],
         tolerance: f64,
     ) -> Vec<Option<Option<(f64, usize)>>> {
         let functions: Vec<_> = self
@@ -117,16 +120,29 @@ impl Question for Flips<'_> {
 
     fn at(&self, points: &[Point]) -> Result<Vec<Option<Flip>>, Failure> {
         let trees = self.plane.trees_at(points)?;
-        let releases = points.iter().zip(&trees);
-        let releases: Vec<_> = releases
-            .map(|(point, tree)| (AbsoluteAngles(&**tree), self.plane.start_at(point)))
-            .collect();
-        let [coarse, fine] = [self.tolerance, FINER * self.tolerance]
-            .map(|tolerance| self.of_releases(&releases, tolerance));
-        let both = coarse.into_iter().zip(fine);
-        Ok(both
-            .map(|(coarse, fine)| Some(Flip::of(coarse?, fine?)))
-            .collect())
+        // A friction of zero is none: trees of other shapes, which do not share lanes.
+        let mut places: Vec<(usize, usize)> =
+            trees.iter().map(|tree| tree.shape()).zip(0..).collect();
+        places.sort_unstable();
+        let mut flips: Vec<Option<Flip>> = vec![None; points.len()];
+        for places in places.chunk_by(|(one, _), (other, _)| one == other) {
+            let places = || places.iter().map(|(_, place)| *place);
+            let release = |place: usize| {
+                (
+                    AbsoluteAngles(trees[place].as_ref()),
+                    self.plane.start_at(&points[place]),
+                )
+            };
+            let releases: Vec<Release<'_>> = places().map(release).collect();
+            let [coarse, fine] = [self.tolerance, FINER * self.tolerance]
+                .map(|tolerance| self.of_releases(&releases, tolerance));
+            for (place, (coarse, fine)) in places().zip(coarse.into_iter().zip(fine)) {
+                flips[place] = coarse
+                    .zip(fine)
+                    .map(|(coarse, fine)| Flip::of(coarse, fine));
+            }
+        }
+        Ok(flips)
     }
 
     fn complete(&mut self, _: &Job) -> Result<(), Failure> {

@@ -15,8 +15,8 @@ use self::plane::{AxisValues, MapPlane, Point, Question};
 use self::rates::Rates;
 use super::growth::PairArguments;
 use crate::Failure;
-use crate::frame::Job;
 use crate::frame::command_line::{number, parts};
+use crate::frame::{Charts, Job};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
 
@@ -99,7 +99,7 @@ enum Of {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("map-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::Any;
 
     fn check(&self) -> Result<(), String> {
         if self.x.name == self.y.name {

@@ -1,6 +1,6 @@
 //! Growth rate of a small difference between copies at every point.
 
-use std::num::NonZeroUsize;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use branched_pendulum::analysis::growth::{Grown, GrowthError};
@@ -8,6 +8,7 @@ use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum_charts::{Axis, Chart, Color, Dash, Series};
 use branched_pendulum_data::{Cell, Column};
+use branched_pendulum_trees::{DifferenceGrowth, PendulumTree};
 
 use super::normal_modes::{self, NormalMode};
 use super::plane::{MapPlane, Point, Question, marks, shaded};
@@ -40,47 +41,39 @@ pub(super) struct Rates<'a> {
 
 impl Rates<'_> {
     /// Returns the growth within a time at some points; none where the motion could not be
-    /// followed. Points with one tree are computed together.
+    /// followed.
     pub(super) fn within(
         &self,
         duration: f64,
         points: &[Point],
     ) -> Result<Vec<Option<Grown>>, Failure> {
         let trees = self.plane.trees_at(points)?;
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        let mut left: Vec<usize> = (0..points.len()).collect();
-        while let Some(&first) = left.first() {
-            let is_alike = |&place: &usize| Arc::ptr_eq(&trees[place], &trees[first]);
-            let (own, others) = left.into_iter().partition(is_alike);
-            groups.push(own);
-            left = others;
-        }
-        // Starts of one tree are taken to all cores, and so are trees.
-        let ensemble = match groups.len() {
-            1 => Ensemble::new(),
-            _ => Ensemble::new().threads(NonZeroUsize::MIN),
-        };
-        let answers = Ensemble::new().map(&groups, |_, group| {
-            let tree = &trees[group[0]];
-            let horizons = vec![duration];
-            let differences = differences_of(tree, &self.copies, horizons, self.tolerance)?;
-            let starts = group
-                .iter()
-                .map(|&place| self.plane.start_at(&points[place]));
-            let grown = differences.in_lanes(&ensemble, &starts.collect::<Vec<_>>());
-            grown.map_err(|_| out_of_phase())
+        // Points with the same parameters share a tree.
+        let mut distinct: Vec<&PendulumTree> = Vec::new();
+        let mut known: HashMap<*const PendulumTree, usize> = HashMap::new();
+        let numbers = trees.iter().map(|tree| {
+            *known.entry(Arc::as_ptr(tree)).or_insert_with(|| {
+                distinct.push(tree);
+                distinct.len() - 1
+            })
         });
-        let mut grown: Vec<Option<Grown>> = vec![None; points.len()];
-        for (group, found) in groups.into_iter().zip(answers) {
-            for (place, found) in group.into_iter().zip(found?) {
-                grown[place] = match found {
-                    Ok(found) => Some(found),
-                    Err(GrowthError::Integration(_)) => None,
-                    Err(error) => return Err(error.into()),
-                };
-            }
-        }
-        Ok(grown)
+        let numbers: Vec<usize> = numbers.collect();
+        let differences = Ensemble::new().map(&distinct, |_, tree| {
+            differences_of(tree, &self.copies, vec![duration], self.tolerance)
+        });
+        let differences: Vec<_> = differences.into_iter().collect::<Result<_, _>>()?;
+        let each = points.iter().zip(numbers);
+        let cases = each.map(|(point, number)| (&differences[number], self.plane.start_at(point)));
+        let cases: Vec<_> = cases.collect();
+        let grown = DifferenceGrowth::of_trees_in_lanes(&Ensemble::new(), &cases);
+        let grown = grown.map_err(|_| out_of_phase())?.into_iter();
+        grown
+            .map(|found| match found {
+                Ok(found) => Ok(Some(found)),
+                Err(GrowthError::Integration(_)) => Ok(None),
+                Err(error) => Err(error.into()),
+            })
+            .collect()
     }
 }
 

@@ -45,6 +45,7 @@ pub(super) fn run(
     symmetric: &SymmetricTree<f64>,
     start: &State<f64>,
 ) -> Result<(), Failure> {
+    job.has_no_time_charts("--against amplitude")?;
     let (theta, omega) = start.values.split_at(symmetric.links());
     if omega.iter().any(|rate| *rate != 0.0) {
         return Err(Failure::Lacking {

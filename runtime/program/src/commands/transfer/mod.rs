@@ -15,8 +15,8 @@ use branched_pendulum_trees::TreeError;
 use clap::{Parser, ValueEnum};
 
 use crate::Failure;
-use crate::frame::Job;
 use crate::frame::command_line::number;
+use crate::frame::{Charts, Job};
 use crate::motion::{MethodArguments, sample};
 use crate::release::ReleaseArguments;
 use crate::subject::TreeArguments;
@@ -71,7 +71,11 @@ enum Against {
 
 impl crate::frame::Arguments for Arguments {
     const FOLDER: Option<&'static str> = Some("transfer-output");
-    const CHARTS: bool = true;
+    const CHARTS: Charts = Charts::OverTime;
+
+    fn followed(&self) -> Option<f64> {
+        Some(self.duration)
+    }
 }
 
 const FORMS: [(TransferForm, &str); 6] = [
@@ -141,7 +145,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     };
     job.print(&series.report())?;
     series.write(job)?;
-    job.chart("transfer", &series.chart())
+    job.chart_over_time("transfer", &series.chart())
 }
 
 /// W along a motion, by every form.

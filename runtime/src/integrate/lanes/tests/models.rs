@@ -74,6 +74,39 @@ fn bits_are_those_of_the_model_alone() {
     with_each(&single, &mut BitsAreThoseOfTheModelAlone);
 }
 
+struct TimesAreThoseOfTheModelAlone;
+
+impl<T: Lane> Each<T> for TimesAreThoseOfTheModelAlone {
+    fn each<M: LaneMethod<LopsidedOde<T>, T>>(&mut self, method: &M) {
+        let (releases, times) = (bad_releases::<T>(), times::<T>());
+        // None for some, and ends that differ by much.
+        let own = |index: usize| &times[..7 * index % (times.len() + 1)];
+        let own: Vec<&[T]> = (0..releases.len()).map(own).collect();
+        let end = T::from_f64(END);
+        for set in InstructionSet::ALL {
+            let cases = Cases::Timed(&releases, &own);
+            let together = outcomes(set, method, cases, &[], end);
+            let each = releases.iter().zip(&own);
+            let alone: Vec<_> = each
+                .flat_map(|((model, start), own)| {
+                    let end = own.last().copied().unwrap_or(start.time);
+                    let cases = Cases::Starts(model, from_ref(start));
+                    outcomes(set, method, cases, own, end)
+                })
+                .collect();
+            assert_same(&together, &alone);
+        }
+    }
+}
+
+#[test]
+fn times_are_those_of_the_model_alone() {
+    let double = Options::with_tolerance(1e-8);
+    with_each(&double, &mut TimesAreThoseOfTheModelAlone);
+    let single = Options::with_tolerance(1e-4_f32);
+    with_each(&single, &mut TimesAreThoseOfTheModelAlone);
+}
+
 struct ThePlainMethodStopsAlike(Vec<StopReason>);
 
 impl Each<f64> for ThePlainMethodStopsAlike {

@@ -116,7 +116,7 @@ pub fn run(release: &Release, subject: &Subject, job: &Job) -> Result<(), Failur
     let run = Onset::new(release, &driven, |done| progress.within(0, done))?;
     report::write_samples(job, &driven, &run)?;
     job.print(&(report::report(release, &driven, &modes, &run) + "\n"))?;
-    job.chart("onset", &charts::chart(&driven, &run))?;
+    job.chart_over_time("onset", &charts::chart(&driven, &run))?;
     job.report("steps", run.account.accepted);
     job.report("evaluations", run.account.evaluations);
     Ok(())
