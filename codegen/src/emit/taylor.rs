@@ -4,6 +4,7 @@
 
 use super::Emission;
 use super::doc_text::doc_lines;
+use super::names::Locals;
 use super::taylor_order::Recurrences;
 use super::tokens::{Binding, ident};
 use crate::exact::Rational;
@@ -31,12 +32,6 @@ impl Emission<'_> {
             .map(|&argument| self.take_apart(argument, &read, locals));
         let lines = self.lines(&gathered, &needed, locals);
         let sines_alone = whole == Some(Argument::Theta) && lines.len() == 1;
-        let list = |values: &[ValueId]| {
-            let values = values
-                .iter()
-                .map(|&id| self.bound(id, locals, Binding::Sum));
-            quote!([#(#values),*])
-        };
         let (lines, sines) = match sines_alone {
             true => (
                 quote!(let (sines, cosines) = T::sin_cos_each(theta);),
@@ -44,18 +39,13 @@ impl Emission<'_> {
             ),
             false => {
                 let lines = lines.into_iter().map(|line| line.tokens);
-                let (sines, cosines) = (list(&outputs.sines), list(&outputs.cosines));
+                let [sines, cosines] = [&outputs.sines, &outputs.cosines]
+                    .map(|values| self.taylor_numbers(values, locals));
                 (lines.collect(), quote!(sines: #sines, cosines: #cosines))
             }
         };
-        let bias_0 = list(&outputs.bias);
-        let inertias = list(&outputs.inertias);
-        let [weights, lateral_weights] = outputs.weights.each_ref().map(|values| list(values));
-        let pairs = |[along, lateral]: &[Vec<ValueId>; 2]| {
-            let pairs = along.iter().zip(lateral).map(|(&x, &y)| list(&[x, y]));
-            quote!([#(#pairs),*])
-        };
-        let (moments, attachments) = (pairs(&outputs.moments), pairs(&outputs.attachments));
+        let bias_0 = self.taylor_numbers(&outputs.bias, locals);
+        let constants = self.link_constants(&outputs, locals);
         let runtime = self.runtime();
         let (links, quads) = (self.links(), self.quads());
         let (rows, bias) = match recurrences.is_empty() {
@@ -102,17 +92,41 @@ impl Emission<'_> {
                     #sines,
                     bias: #bias_0,
                 };
-                let constants = #runtime::emitted::taylor::LinkConstants {
-                    inertias: #inertias,
-                    moments: #moments,
-                    attachments: #attachments,
-                    weights: #weights,
-                    lateral_weights: #lateral_weights,
-                };
+                let constants = #constants;
                 #rows
                 #runtime::emitted::taylor::expand::<T, Tree, #links, #quads, _>(
                     &start, &constants, coefficients, work, #bias,
                 );
+            }
+        }
+    }
+
+    /// `[…]`
+    fn taylor_numbers(&self, values: &[ValueId], locals: &Locals) -> TokenStream {
+        let values = values
+            .iter()
+            .map(|&id| self.bound(id, locals, Binding::Sum));
+        quote!([#(#values),*])
+    }
+
+    /// `LinkConstants { … }`
+    fn link_constants(&self, outputs: &TaylorOutputs, locals: &Locals) -> TokenStream {
+        let list = |values: &[ValueId]| self.taylor_numbers(values, locals);
+        let pairs = |[along, lateral]: &[Vec<ValueId>; 2]| {
+            let pairs = along.iter().zip(lateral).map(|(&x, &y)| list(&[x, y]));
+            quote!([#(#pairs),*])
+        };
+        let inertias = list(&outputs.inertias);
+        let (moments, attachments) = (pairs(&outputs.moments), pairs(&outputs.attachments));
+        let [weights, lateral_weights] = outputs.weights.each_ref().map(|values| list(values));
+        let runtime = self.runtime();
+        quote! {
+            #runtime::emitted::taylor::LinkConstants {
+                inertias: #inertias,
+                moments: #moments,
+                attachments: #attachments,
+                weights: #weights,
+                lateral_weights: #lateral_weights,
             }
         }
     }

@@ -113,35 +113,12 @@ impl Emission<'_> {
         let accelerations = self.match_sector(&unknown, |number, _| {
             self.fill("accelerations", Purpose::Transverse(number))
         });
-        let motion_accelerations = self.match_sector(&unknown, |number, _| {
-            self.fill("accelerations", Purpose::TransverseMotion(number))
-        });
         let power = self.friction_by_sector();
-        let braked = transverse.sectors.iter().any(|formulas| formulas.braked);
-        let along = braked.then(|| {
-            let power = self.friction_along();
-            quote! {
-                #[inline]
-                fn transverse_friction_power_along(
-                    &self,
-                    sector: usize,
-                    motion: #runtime::system::InPhaseMotion<'_, T>,
-                    difference_rate: &[T],
-                ) -> T {
-                    #power
-                }
-            }
-        });
+        let along = self.braked_power();
         let motion = quote! {
             let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
         };
-        let function = SliceFunction {
-            name: "LinearDifferences",
-            given: &["theta", "omega", "difference", "difference_rate"],
-            results: &["accelerations"],
-            index: Some("sector"),
-        };
-        let both = self.computes(&function, &motion_accelerations, None);
+        let both = self.motion_with_differences();
         Some(quote! {
             #both
 
@@ -198,6 +175,41 @@ impl Emission<'_> {
                 }
 
                 #along
+            }
+        })
+    }
+
+    /// Accelerations of the in-phase motion and of small differences, as one function.
+    fn motion_with_differences(&self) -> TokenStream {
+        let unknown = self.unknown(&["accelerations"]);
+        let accelerations = self.match_sector(&unknown, |number, _| {
+            self.fill("accelerations", Purpose::TransverseMotion(number))
+        });
+        let function = SliceFunction {
+            name: "LinearDifferences",
+            given: &["theta", "omega", "difference", "difference_rate"],
+            results: &["accelerations"],
+            index: Some("sector"),
+        };
+        self.computes(&function, &accelerations, None)
+    }
+
+    /// The trait's power of friction at a motion, where some sector's depends on that.
+    fn braked_power(&self) -> Option<TokenStream> {
+        let transverse = self.mechanics.transverse.as_ref()?;
+        let mut sectors = transverse.sectors.iter();
+        sectors.any(|formulas| formulas.braked).then(|| {
+            let (power, runtime) = (self.friction_along(), self.runtime());
+            quote! {
+                #[inline]
+                fn transverse_friction_power_along(
+                    &self,
+                    sector: usize,
+                    motion: #runtime::system::InPhaseMotion<'_, T>,
+                    difference_rate: &[T],
+                ) -> T {
+                    #power
+                }
             }
         })
     }

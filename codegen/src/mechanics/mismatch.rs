@@ -54,6 +54,59 @@ pub(super) struct Mismatch<'f> {
     mass: MassMatrix,
 }
 
+/// A letter of the constants of a node's copies, and the node above that these couple to.
+struct CopyLetter<'a> {
+    node: &'a UnequalNode,
+    letter: Letter,
+    above: Option<&'a str>,
+    unit: &'static str,
+}
+
+impl CopyLetter<'_> {
+    /// Names the mean, or the mismatch of the difference with this name.
+    fn constant(
+        &self,
+        derivation: &mut Derivation<'_>,
+        difference: Option<&str>,
+        value: Formula,
+    ) -> Formula {
+        let Letter {
+            code: word,
+            text: letter,
+            latex,
+            ..
+        } = self.letter;
+        let node = &self.node.name;
+        let (label, prefix, sign, tex, kind) = match difference {
+            None => (node.as_str(), "", "", "", "mean".to_owned()),
+            Some(name) => {
+                let kind = format!("mismatch `{name}`");
+                (name, "mismatch_", "Δ", "\\Delta ", kind)
+            }
+        };
+        let [code, text, index, with] = match self.above {
+            Some(above) => [
+                format!("_{above}"),
+                format!(",{above}"),
+                format!(",{}", latex_name(above)),
+                format!(" to `{above}`"),
+            ],
+            None => [const { String::new() }; 4],
+        };
+        derivation.constant(
+            &format!("{prefix}{word}_{label}{code}"),
+            &format!("{sign}{letter}_{label}{text}"),
+            &format!("{tex}{latex}_{{\\mathrm{{{}{index}}}}}", latex_name(label)),
+            &format!(
+                "{} of the copies of `{node}`{with}: {kind}",
+                word.replace('_', " ")
+            ),
+            self.unit,
+            value,
+        )
+    }
+}
+
 impl Derivation<'_> {
     /// Names means and mismatches of the constants of all copies that differ.
     pub(super) fn copy_constants(&mut self, coordinates: &[Coordinate]) -> CopyConstants {
@@ -78,12 +131,7 @@ impl Derivation<'_> {
         &mut self,
         node: &UnequalNode,
         coordinates: &[Coordinate],
-        Letter {
-            code: word,
-            text: letter,
-            latex,
-            ..
-        }: Letter,
+        letter: Letter,
         others: &[LinkId],
         constants: &mut CopyConstants,
     ) {
@@ -96,17 +144,18 @@ impl Derivation<'_> {
                     true => format!(",{}", orbit(other).name),
                     false => String::new(),
                 };
-                self.symbols
-                    .find(&format!("{letter}_{}{other}", orbit(link).name))
+                let name = format!("{}_{}{other}", letter.text, orbit(link).name);
+                self.symbols.find(&name)
             })
             .collect();
-        let Some(unit) = symbols
-            .iter()
-            .flatten()
-            .map(|id| self.constants[id].unit)
-            .next()
-        else {
+        let Some(known) = symbols.iter().flatten().next() else {
             return;
+        };
+        let copies = CopyLetter {
+            node,
+            letter,
+            above: coupled.then(|| orbit(others[0]).node.as_str()),
+            unit: self.constants[known].unit,
         };
         let value = |symbol: &Option<SymbolId>| match symbol {
             Some(id) => self.constants[id].value.clone(),
@@ -114,7 +163,6 @@ impl Derivation<'_> {
         };
         let values: Vec<Formula> = symbols.iter().map(value).collect();
         let mut sums = vec![Formula::zero(); values.len()];
-        let other = &orbit(others[0]).node;
         for (number, &index) in node.coordinates.iter().enumerate() {
             let coordinate = &coordinates[index];
             let own = |link: &LinkId| node.links.iter().position(|known| known == link);
@@ -124,38 +172,10 @@ impl Derivation<'_> {
             let total: Formula = (weights.iter())
                 .map(|&(place, weight)| &Formula::integer(weight) * &values[place])
                 .sum();
-            let (label, prefix, sign, tex, kind) = match number {
-                0 => (&node.name, "", "", "", "mean".to_owned()),
-                _ => {
-                    let kind = format!("mismatch `{}`", coordinate.name);
-                    (&coordinate.name, "mismatch_", "Δ", "\\Delta ", kind)
-                }
-            };
-            let [code, text, index] = match coupled {
-                true => [
-                    format!("_{other}"),
-                    format!(",{other}"),
-                    format!(",{}", latex_name(other)),
-                ],
-                false => [const { String::new() }; 3],
-            };
-            let with = match coupled {
-                true => format!(" to `{other}`"),
-                false => String::new(),
-            };
-            let constant = self.constant(
-                &format!("{prefix}{word}_{label}{code}"),
-                &format!("{sign}{letter}_{label}{text}"),
-                &format!("{tex}{latex}_{{\\mathrm{{{}{index}}}}}", latex_name(label)),
-                &format!(
-                    "{} of the copies of `{}`{with}: {kind}",
-                    word.replace('_', " "),
-                    node.name
-                ),
-                unit,
-                (&total / &Formula::integer(coordinate.norm())).expand(),
-            );
-            if number > 0 {
+            let share = (&total / &Formula::integer(coordinate.norm())).expand();
+            let difference = (number > 0).then_some(coordinate.name.as_str());
+            let constant = copies.constant(self, difference, share);
+            if difference.is_some() {
                 constants.mismatches.extend(constant.symbols());
             }
             for (place, weight) in weights {

@@ -57,12 +57,7 @@ impl Derivation<'_> {
             coordinates.iter().map(|c| self.velocity(&c.name)).collect();
         let momenta: Vec<SymbolId> = coordinates.iter().map(|c| self.momentum(&c.name)).collect();
 
-        let mut rows: Vec<Vec<(usize, i64)>> = vec![Vec::new(); absolute.coordinates.len()];
-        for (column, coordinate) in coordinates.iter().enumerate() {
-            for &(LinkId(link), weight) in &coordinate.weights {
-                rows[link].push((column, weight));
-            }
-        }
+        let rows = transformation(coordinates, absolute.coordinates.len());
         for (coordinate, &id) in coordinates.iter().zip(&ids) {
             if let CoordinateKind::Difference { group, .. } = coordinate.kind {
                 self.groups_of.insert(id, group);
@@ -70,69 +65,32 @@ impl Derivation<'_> {
         }
         let mut replacements = self.substitution(absolute, &ids, &rows);
         replacements.extend(constants.replacements.iter().cloned());
-
-        let mut mass = MassMatrix::default();
-        for (i, j, entry) in absolute.mass.iter() {
-            let entry = entry.substitute(&replacements).expand();
-            let pairs: &[(usize, usize)] = if i == j { &[(i, i)] } else { &[(i, j), (j, i)] };
-            for &(i, j) in pairs {
-                for &(a, weight_a) in &rows[i] {
-                    for &(b, weight_b) in rows[j].iter().filter(|(b, _)| *b <= a) {
-                        mass.add(a, b, &Formula::integer(weight_a * weight_b) * &entry);
-                    }
-                }
-            }
-        }
+        let mass = transformed_mass(&absolute.mass, &rows, &replacements);
         // Angles and velocities transform alike: θ = J q, ω = J q̇.
-        let linear = |old: &[SymbolId], new: &[SymbolId]| -> Vec<(SymbolId, Formula)> {
-            old.iter()
-                .zip(&rows)
-                .map(|(&id, row)| {
-                    let sum = row
-                        .iter()
-                        .map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(new[c]))
-                        .sum();
-                    (id, sum)
-                })
-                .collect()
-        };
+        let angles = transformed(&absolute.coordinates, &ids, &rows);
+        let rates = transformed(&absolute.velocities, &velocities, &rows);
         let mut joints =
             self.symmetric_joints(absolute, coordinates, [&ids, &velocities], constants);
         joints.extend(self.symmetric_pairs(coordinates, [&ids, &velocities]));
-        let with_constants = |mut linear: Vec<(SymbolId, Formula)>| {
-            linear.extend(joints.iter().chain(&constants.replacements).cloned());
-            linear
+        let with_constants = |linear: &[(SymbolId, Formula)]| {
+            let others = joints.iter().chain(&constants.replacements);
+            linear.iter().chain(others).cloned().collect::<Vec<_>>()
         };
         let springs = absolute
             .springs
-            .substitute(&with_constants(linear(&absolute.coordinates, &ids)))
+            .substitute(&with_constants(&angles))
             .expand();
         let gravity = self.symmetric_sum(absolute, &absolute.potential, &replacements);
         // A torque's work is linear in the root's angle, which stays one.
         let moment = self.symmetric_sum(absolute, &absolute.drive, &replacements);
-        let torque: Formula = linear(&absolute.coordinates, &ids)
+        let torque: Formula = angles
             .iter()
             .map(|(angle, value)| &absolute.drive.derivative(*angle) * value)
             .sum();
-        let mut in_rates = with_constants(linear(&absolute.velocities, &velocities));
-        let torques = match self.scene.has_unequal_copies() {
-            true => absolute
-                .torques
-                .iter()
-                .map(|torque| torque.substitute(&in_rates))
-                .collect(),
-            false => {
-                let (torques, of_links) = self.symmetric_torques(&absolute.torques, coordinates);
-                in_rates.extend(of_links);
-                let is_of_pair =
-                    |torque: &&DerivedTorque| matches!(torque.source, DerivedSource::Pair { .. });
-                let pairs = absolute.torques.iter().filter(is_of_pair);
-                let pairs = pairs.map(|torque| torque.substitute(&in_rates));
-                torques.into_iter().chain(pairs).collect()
-            }
-        };
+        let mut in_rates = with_constants(&rates);
+        let torques = self.transformed_torques(absolute, coordinates, &mut in_rates);
         DerivedFrame {
-            mass: mass.map(|_, _, sum| sum.expand()),
+            mass,
             potential: &gravity + &springs,
             springs,
             dissipation: absolute.dissipation.substitute(&in_rates).expand(),
@@ -142,6 +100,27 @@ impl Derivation<'_> {
             velocities,
             momenta,
         }
+    }
+
+    /// The torques, by what their arguments become: of equal copies together, whose parts
+    /// `in_rates` takes up.
+    fn transformed_torques(
+        &mut self,
+        absolute: &DerivedFrame,
+        coordinates: &[Coordinate],
+        in_rates: &mut Vec<(SymbolId, Formula)>,
+    ) -> Vec<DerivedTorque> {
+        if self.scene.has_unequal_copies() {
+            let torques = absolute.torques.iter();
+            return torques.map(|torque| torque.substitute(in_rates)).collect();
+        }
+        let (torques, of_links) = self.symmetric_torques(&absolute.torques, coordinates);
+        in_rates.extend(of_links);
+        let is_of_pair =
+            |torque: &&DerivedTorque| matches!(torque.source, DerivedSource::Pair { .. });
+        let pairs = absolute.torques.iter().filter(is_of_pair);
+        let pairs = pairs.map(|torque| torque.substitute(in_rates));
+        torques.into_iter().chain(pairs).collect()
     }
 
     /// cos and sin of every absolute angle, and of every difference that the
@@ -330,6 +309,55 @@ impl Derivation<'_> {
         }
         terms.into_iter().sum()
     }
+}
+
+/// J of θ = J q: of each link its coordinates, with their weights.
+fn transformation(coordinates: &[Coordinate], links: usize) -> Vec<Vec<(usize, i64)>> {
+    let mut rows = vec![Vec::new(); links];
+    for (column, coordinate) in coordinates.iter().enumerate() {
+        for &(LinkId(link), weight) in &coordinate.weights {
+            rows[link].push((column, weight));
+        }
+    }
+    rows
+}
+
+/// M̃ = Jᵀ M J, with what stands in M replaced.
+fn transformed_mass(
+    mass: &MassMatrix,
+    rows: &[Vec<(usize, i64)>],
+    replacements: &[(SymbolId, Formula)],
+) -> MassMatrix {
+    let mut transformed = MassMatrix::default();
+    for (i, j, entry) in mass.iter() {
+        let entry = entry.substitute(replacements).expand();
+        let pairs: &[(usize, usize)] = if i == j { &[(i, i)] } else { &[(i, j), (j, i)] };
+        for &(i, j) in pairs {
+            for &(a, weight_a) in &rows[i] {
+                for &(b, weight_b) in rows[j].iter().filter(|(b, _)| *b <= a) {
+                    transformed.add(a, b, &Formula::integer(weight_a * weight_b) * &entry);
+                }
+            }
+        }
+    }
+    transformed.map(|_, _, sum| sum.expand())
+}
+
+/// What each `old` symbol becomes: the row of J times the `new` ones.
+fn transformed(
+    old: &[SymbolId],
+    new: &[SymbolId],
+    rows: &[Vec<(usize, i64)>],
+) -> Vec<(SymbolId, Formula)> {
+    let sum = |row: &Vec<(usize, i64)>| {
+        let terms = row.iter();
+        let terms = terms.map(|&(c, w)| &Formula::integer(w) * &Formula::symbol(new[c]));
+        terms.sum()
+    };
+    old.iter()
+        .zip(rows)
+        .map(|(&id, row)| (id, sum(row)))
+        .collect()
 }
 
 /// The mean of a link's row, and its differences. Means come before

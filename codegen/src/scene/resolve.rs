@@ -7,7 +7,7 @@ use super::layout::{self, Asked, Layout};
 use super::observables::resolve_observables;
 use super::prescribed::{LinkNames, resolve_prescribed};
 use super::reduction::reduce;
-use super::requests::{check_symmetry, resolve_requests};
+use super::requests::{Resolved, check_symmetry, resolve_requests};
 use super::rule::{Code, resolve_code};
 use super::singular::check_regular;
 use super::small_sectors::{resolve_acting, resolve_small};
@@ -67,12 +67,8 @@ pub(super) fn resolve_scene(description: &Description, report: &mut Faults) -> O
     let code = resolve_code(description.code.as_ref(), report);
     let (expansion, layout) = lay_out(&mut templates, whole, code, &asked, report)?;
     let branches = matches!(layout, Layout::Generations { branching: 2.., .. });
-    if let Some(span) = resolved.budget
-        && resolved.requests.scales()
-        && readable
-        && !(branches && reduction.is_none())
-    {
-        report.error(span, OutputMessage::ScalesWithoutRule);
+    let by_rule = branches && reduction.is_none();
+    if readable && !by_rule && refuses_scales(&resolved, report) {
         return None;
     }
     if let Some(root) = templates.first()
@@ -157,6 +153,17 @@ fn lay_out(
     let links = expansion.links.len();
     let layout = by_rule.unwrap_or_else(|| layout::of_links(code, links, templates, asked, report));
     Some((expansion, layout))
+}
+
+/// Reports energies by scale, if they are asked for: of a tree that no rule describes.
+fn refuses_scales(resolved: &Resolved, report: &mut Faults) -> bool {
+    match resolved.budget {
+        Some(span) if resolved.requests.scales() => {
+            report.error(span, OutputMessage::ScalesWithoutRule);
+            true
+        }
+        _ => false,
+    }
 }
 
 /// Reports parameters whose names are those of links.

@@ -15,8 +15,8 @@ impl Display for Scene {
             crate_path,
             gravity,
             links,
-            orbits,
-            groups,
+            orbits: _,
+            groups: _,
             drive,
             parameters,
             requirements,
@@ -25,8 +25,8 @@ impl Display for Scene {
             prescribed,
             spring_dampers,
             translational,
-            reduction,
-            layout,
+            reduction: _,
+            layout: _,
         } = self;
         writeln!(f, "scene {name}")?;
         writeln!(f, "crate {crate_path}")?;
@@ -44,54 +44,11 @@ impl Display for Scene {
             let (quantity, range) = (quantity.display(parameters), magnitudes.text);
             writeln!(f, "require {quantity} {sign}, {range}: {what}")?;
         }
-        match layout {
-            Layout::Unrolled => {}
-            Layout::Generations { branching, links } => writeln!(
-                f,
-                "{links} links in generations, {branching} under each; one of each:"
-            )?,
-            Layout::Links => writeln!(f, "in a loop over the links")?,
-        }
-        if let Some(Reduction {
-            order,
-            links,
-            orbits,
-        }) = reduction
-        {
-            let order = match order {
-                WholeOrder::DepthFirst => "depth first",
-                WholeOrder::Generations => "by generations",
-            };
-            writeln!(f, "stands for {links} links, {order}:")?;
-            for orbit in orbits {
-                writeln!(f, "    {orbit}")?;
-            }
-        }
+        self.write_layout(f)?;
         for link in links {
             self.write_link(link, f)?;
         }
-        for Orbit {
-            name,
-            node: _,
-            depth,
-            links,
-        } in orbits
-        {
-            let links = self.names(links.iter().map(|link| link.0));
-            writeln!(f, "orbit {name}, depth {depth}: {links}")?;
-        }
-        for Group {
-            name,
-            parent,
-            copies,
-        } in groups
-        {
-            write!(f, "group {name}")?;
-            if let Some(parent) = parent {
-                write!(f, " on {}", self.names([parent.0]))?;
-            }
-            writeln!(f, ": {}", self.names(copies.iter().map(|copy| copy.0)))?;
-        }
+        self.write_orbits(f)?;
         for (name, signal, unit) in drive.iter().flat_map(Drive::parts) {
             writeln!(f, "drive {name} {} {unit}", signal.display(parameters))?;
         }
@@ -128,6 +85,61 @@ impl Display for WholeNode {
 }
 
 impl Scene {
+    /// Writes which links stand for the whole tree, if not all.
+    fn write_layout(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.layout {
+            Layout::Unrolled => {}
+            Layout::Generations { branching, links } => writeln!(
+                f,
+                "{links} links in generations, {branching} under each; one of each:"
+            )?,
+            Layout::Links => writeln!(f, "in a loop over the links")?,
+        }
+        if let Some(Reduction {
+            order,
+            links,
+            orbits,
+        }) = &self.reduction
+        {
+            let order = match order {
+                WholeOrder::DepthFirst => "depth first",
+                WholeOrder::Generations => "by generations",
+            };
+            writeln!(f, "stands for {links} links, {order}:")?;
+            for orbit in orbits {
+                writeln!(f, "    {orbit}")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the orbits, and the groups of copies.
+    fn write_orbits(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for Orbit {
+            name,
+            node: _,
+            depth,
+            links,
+        } in &self.orbits
+        {
+            let links = self.names(links.iter().map(|link| link.0));
+            writeln!(f, "orbit {name}, depth {depth}: {links}")?;
+        }
+        for Group {
+            name,
+            parent,
+            copies,
+        } in &self.groups
+        {
+            write!(f, "group {name}")?;
+            if let Some(parent) = parent {
+                write!(f, " on {}", self.names([parent.0]))?;
+            }
+            writeln!(f, ": {}", self.names(copies.iter().map(|copy| copy.0)))?;
+        }
+        Ok(())
+    }
+
     /// Writes a straight spring and damper.
     fn write_straight(
         &self,

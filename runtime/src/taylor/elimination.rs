@@ -129,8 +129,6 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         cosine: &impl PackColumn<P, 1>,
         [s, y]: [&mut impl PackColumn<P, 1>; 2],
     ) {
-        let (links, count) = (self.links, self.links.count());
-        let factors = &self.factors[..count];
         let (mut forces, mut cosines) = (room.numbers(), room.numbers());
         let packs = room.packs();
         for m in 0..packs {
@@ -143,6 +141,45 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
         let (mut sums, mut answers) = (room.link_quads(), room.link_quads());
         let (sums, answers) = (sums.as_mut(), answers.as_mut());
         sums.fill(Quad::splat(T::from_f64(-0.0)));
+        self.rise::<V>([&forces, &cosines], sums, answers);
+        self.fall::<V>(&cosines, answers);
+        for m in 0..packs {
+            if P::LANES == 1 {
+                let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
+                s.put(m, [P::splat(own_s)]);
+                y.put(m, [P::splat(own_y) + P::splat(along)]);
+                continue;
+            }
+            let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
+            let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
+            for l in 0..4 {
+                // Room may be for more links, with zeros.
+                if first + l < answers.len() {
+                    let [own_s, own_y, _, _] = answers[first + l].0;
+                    (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
+                    along[0].0[l] = sums[first + l].0[1];
+                }
+            }
+            s.put(m, [P::load_quad(&of_s, place)]);
+            // E last, for which no link waits.
+            y.put(
+                m,
+                [P::load_quad(&of_y, place) + P::load_quad(&along, place)],
+            );
+        }
+    }
+
+    /// Goes from the leaves to the root: adds to T, E, F of each parent, and writes each link's
+    /// own share of S, Y, a.
+    #[inline(always)]
+    fn rise<V: Simd<T>>(
+        &self,
+        [forces, cosines]: [&impl OfLinks<T>; 2],
+        sums: &mut [Quad<T>],
+        answers: &mut [Quad<T>],
+    ) {
+        let links = self.links;
+        let factors = &self.factors[..links.count()];
         for &i in links.leaves() {
             let [of_up, _, of_own, _, _] = &factors[i];
             let (x, c) = (V::splat(forces.of(i)), V::splat(cosines.of(i)));
@@ -176,6 +213,13 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
                 (V::load_quad(sums, parent) + up).store_quad(sums, parent);
             }
         }
+    }
+
+    /// Goes from the root to the leaves: adds to S, Y, a of each link what its parent gives.
+    #[inline(always)]
+    fn fall<V: Simd<T>>(&self, cosines: &impl OfLinks<T>, answers: &mut [Quad<T>]) {
+        let (links, count) = (self.links, self.links.count());
+        let factors = &self.factors[..count];
         for i in 1..count {
             let [_, _, _, of_parent, of_fall] = &factors[i];
             let parent = links.parent(i);
@@ -191,30 +235,6 @@ impl<'a, T: Scalar, L: TreeLinks> TaylorElimination<'a, T, L> {
             }
             sum.plus_product(of_sine, V::splat(answers[parent].0[0]))
                 .store_quad(answers, i);
-        }
-        for m in 0..packs {
-            if P::LANES == 1 {
-                let ([own_s, own_y, _, _], [_, along, _, _]) = (answers[m].0, sums[m].0);
-                s.put(m, [P::splat(own_s)]);
-                y.put(m, [P::splat(own_y) + P::splat(along)]);
-                continue;
-            }
-            let [mut of_s, mut of_y, mut along] = [[Quad::splat(T::from_f64(0.0))]; 3];
-            let (first, place) = (m * P::LANES / 4 * 4, m % (4 / P::LANES));
-            for l in 0..4 {
-                // Room may be for more links, with zeros.
-                if first + l < answers.len() {
-                    let [own_s, own_y, _, _] = answers[first + l].0;
-                    (of_s[0].0[l], of_y[0].0[l]) = (own_s, own_y);
-                    along[0].0[l] = sums[first + l].0[1];
-                }
-            }
-            s.put(m, [P::load_quad(&of_s, place)]);
-            // E last, for which no link waits.
-            y.put(
-                m,
-                [P::load_quad(&of_y, place) + P::load_quad(&along, place)],
-            );
         }
     }
 }

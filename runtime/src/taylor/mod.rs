@@ -21,6 +21,7 @@ mod lines;
 mod links;
 mod orders;
 mod reciprocal;
+mod recurrence;
 mod refine;
 mod room;
 mod series;

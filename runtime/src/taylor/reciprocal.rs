@@ -29,3 +29,30 @@ impl<P: Scalar> Reciprocal<P> {
         (value * self.low).plus_product(value, self.high)
     }
 }
+
+/// What order k is divided by.
+#[derive(Clone, Copy)]
+pub(super) struct Divisors<P> {
+    /// k + 1
+    pub(super) next: P,
+    /// 1/k
+    pub(super) over_k: Reciprocal<P>,
+    /// 1/(k (k+1))
+    pub(super) over_both: Reciprocal<P>,
+    /// 1/(k+1)
+    pub(super) over_next: Reciprocal<P>,
+}
+
+impl<P: Scalar> Divisors<P> {
+    /// Returns those of an order, with its reciprocal, which the order before it had too.
+    #[inline(always)]
+    pub(super) fn of(k: P, over_k: Reciprocal<P>) -> Self {
+        let next = k + P::from_f64(1.0);
+        Self {
+            next,
+            over_k,
+            over_both: Reciprocal::of(k * next),
+            over_next: Reciprocal::of(next),
+        }
+    }
+}

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use super::forces::NonConservative;
 use super::memory::FreeMemory;
 use super::motion::{MassEntries, TreeMotion, factors, room};
-use super::parseval::{CENTRES, FORMED, KEPT};
+use super::parseval::{CENTRES, Centres, FORMED, KEPT};
 use super::pattern::write_slopes;
-use super::sector::{self, Surroundings};
+use super::sector::{self, Alone, Surroundings};
 use super::shape::BlockShape;
 use super::{Given, SymmetricTree};
 use crate::scalar::Scalar;
@@ -48,6 +48,17 @@ impl<T> SectorBudget<T> {
             powers: Vec::new(),
         }
     }
+
+    /// Makes room for so many sectors, of which nothing is known.
+    fn reset(&mut self, sectors: usize)
+    where
+        T: Scalar,
+    {
+        for list in [&mut self.energies, &mut self.transfers, &mut self.powers] {
+            list.clear();
+            list.resize(sectors, T::from_f64(f64::NAN));
+        }
+    }
 }
 
 /// A sector's energy, transfer and power.
@@ -75,21 +86,13 @@ impl<T: Scalar> SymmetricTree<T> {
         given: Given<'_, T>,
         budget: &mut SectorBudget<T>,
     ) {
-        let (shape, nan) = (&*self.shape, T::from_f64(f64::NAN));
-        let sectors = shape.blocks.len();
+        let shape = &*self.shape;
         let (links, entries) = (shape.links(), shape.pattern.entries());
         let kept = (5 + CENTRES + KEPT + FORMED) * links;
         let others = 2 * entries + sector::room(shape.largest_block(), links);
         let length = room(links, entries) + kept + others + factors(links, entries);
         let mut memory = FreeMemory(workspace.numbers(length));
-        for list in [
-            &mut budget.energies,
-            &mut budget.transfers,
-            &mut budget.powers,
-        ] {
-            list.clear();
-            list.resize(sectors, nan);
-        }
+        budget.reset(shape.blocks.len());
         let is_uneven = self.mean.is_some() && definition == EnergyDefinition::Parseval;
         let Some(motion) = self.motion(given, &mut memory).filter(|_| !is_uneven) else {
             return;
@@ -124,42 +127,23 @@ impl<T: Scalar> SymmetricTree<T> {
         let results = budget.energies.iter_mut();
         let results = results.zip(budget.transfers.iter_mut().zip(&mut budget.powers));
         for (block, (energy, (transfer, power))) in shape.blocks.iter().zip(results) {
-            let entry = match definition {
-                EnergyDefinition::Rest | EnergyDefinition::Canonical => {
-                    let mut own = memory.lend();
-                    let own = match definition {
-                        EnergyDefinition::Rest => self.alone_at_rest(block, &motion, &mut own),
-                        _ => self.alone(block, self.equal(), energy_matrix, &motion, &mut own),
-                    };
-                    let terms = self.terms(block, &own, &around.surroundings).transfer();
-                    [
-                        own.energy[0] + own.energy[1],
-                        terms.total(),
-                        self.power(block, &own, around.forces),
-                    ]
+            let mut own = memory.lend();
+            [*energy, *transfer, *power] = match definition {
+                EnergyDefinition::Rest => {
+                    let own = self.alone_at_rest(block, &motion, &mut own);
+                    self.by_momenta(block, &own, &around)
+                }
+                EnergyDefinition::Canonical => {
+                    let own = self.alone(block, self.equal(), energy_matrix, &motion, &mut own);
+                    self.by_momenta(block, &own, &around)
                 }
                 EnergyDefinition::Velocity => {
-                    self.by_velocities(block, energy_matrix, &motion, &around, memory.lend())
+                    self.by_velocities(block, energy_matrix, &motion, &around, own)
                 }
                 EnergyDefinition::Parseval => {
-                    let mut own = memory.lend();
-                    let share = self.share(block, &motion, &centres, &mut own);
-                    let fall = own.take(links);
-                    let potential = self.write_own_fall(block, &motion, fall);
-                    let [free, added] = around.accelerations;
-                    let sum = |pairs: [&[T]; 2]| product(pairs[0], pairs[1]);
-                    let stored = block.links::<T>();
-                    let stored = stored.fold(T::from_f64(0.0), |sum, (_, link, _)| {
-                        sum + fall[link] * motion.omega[link]
-                    });
-                    [
-                        share.kinetic + potential,
-                        sum([share.by_omega, free]) + sum([share.by_theta, motion.omega]) + stored,
-                        sum([share.by_omega, added]),
-                    ]
+                    self.by_parseval(block, &centres, &motion, &around, own)
                 }
             };
-            [*energy, *transfer, *power] = entry;
         }
     }
 
@@ -241,6 +225,45 @@ impl<T: Scalar> SymmetricTree<T> {
         let turns = [motion.sines, motion.cosines];
         let (own, parents) = ((&self.springs, &self.chords), &self.shape.parents);
         block.write_fall(self.equal(), own, parents, motion.theta, turns, fall)
+    }
+
+    /// E, W and P of a sector from its momenta.
+    fn by_momenta(
+        &self,
+        block: &BlockShape,
+        own: &Alone<'_, T>,
+        around: &Around<'_, T>,
+    ) -> Entry<T> {
+        let transfer = self.terms(block, own, &around.surroundings).transfer();
+        [
+            own.energy[0] + own.energy[1],
+            transfer.total(),
+            self.power(block, own, around.forces),
+        ]
+    }
+
+    /// E, W and P of a sector by Parseval, from the velocities of the centres of mass.
+    fn by_parseval(
+        &self,
+        block: &BlockShape,
+        centres: &Centres<'_, T>,
+        motion: &TreeMotion<'_, T>,
+        around: &Around<'_, T>,
+        mut memory: FreeMemory<'_, T>,
+    ) -> Entry<T> {
+        let share = self.share(block, motion, centres, &mut memory);
+        let fall = memory.take(self.shape.links());
+        let potential = self.write_own_fall(block, motion, fall);
+        let [free, added] = around.accelerations;
+        let stored = block.links::<T>();
+        let stored = stored.fold(T::from_f64(0.0), |sum, (_, link, _)| {
+            sum + fall[link] * motion.omega[link]
+        });
+        [
+            share.kinetic + potential,
+            product(share.by_omega, free) + product(share.by_theta, motion.omega) + stored,
+            product(share.by_omega, added),
+        ]
     }
 
     /// E, W and P of a sector from its velocities z: T = ½ zᵀ M z.

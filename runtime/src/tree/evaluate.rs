@@ -177,6 +177,52 @@ impl<T: Scalar> Evaluation<'_, T> {
         });
     }
 
+    /// Up and down again, of links of any shape: their numbers stand in the order of the strips.
+    fn in_order_of_strips(&self, mut buffer: &mut [T], alpha: &mut [T]) {
+        let Skeleton { plan, .. } = self.tree;
+        let (order, links) = (&plan.order, plan.links());
+        let LinkStates {
+            theta,
+            omega,
+            torques,
+        } = self.given;
+        let mut column = || take(&mut buffer, odd_lines(line::<T>(), links + WIDEST));
+        let [own_theta, own_omega, own_alpha] = [column(), column(), column()];
+        for ((own_theta, own_omega), &link) in own_theta.iter_mut().zip(&mut *own_omega).zip(order)
+        {
+            let link = link as usize;
+            if let (Some(&angle), Some(&rate)) = (theta.get(link), omega.get(link)) {
+                (*own_theta, *own_omega) = (angle, rate);
+            }
+        }
+        let [own_torques, own_held] = [torques, self.held].map(|given| {
+            given.map(|given| {
+                let own = column();
+                for (own, &link) in own.iter_mut().zip(order) {
+                    if let Some(&value) = given.get(link as usize) {
+                        *own = value;
+                    }
+                }
+                &*own
+            })
+        });
+        let own = Evaluation {
+            given: LinkStates {
+                theta: own_theta.get(..links).unwrap_or_default(),
+                omega: own_omega,
+                torques: own_torques,
+            },
+            held: own_held,
+            ..*self
+        };
+        own.top(None, buffer, Shared::new(own_alpha));
+        for (&acceleration, &link) in own_alpha.iter().zip(order) {
+            if let Some(place) = alpha.get_mut(link as usize) {
+                *place = acceleration;
+            }
+        }
+    }
+
     /// Up through blocks.
     fn blocks_up(&self, mut blocks: SomeBlocks<'_, T>) {
         let Level {
@@ -299,59 +345,21 @@ pub(super) fn accelerations<T: Scalar, const BLOCKS: bool>(
     }
     let buffer = workspace.numbers(tree.room);
     let unaligned = buffer.as_ptr().align_offset(LINE).min(line::<T>());
-    let mut buffer = buffer.get_mut(unaligned..).unwrap_or_default();
-    let order = &tree.plan.order;
-    if order.is_empty() {
-        let evaluation = Evaluation {
-            tree,
-            sweep,
-            drive,
-            given,
-            held,
-        };
-        // Blocks come with threads, which small trees do without.
-        match BLOCKS {
-            true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
-            false => evaluation.top(None, buffer, Shared::new(alpha)),
-        }
-        return;
-    }
-    // Links of any shape stand in the order of the strips.
-    let mut column = || take(&mut buffer, odd_lines(line::<T>(), links + WIDEST));
-    let [own_theta, own_omega, own_alpha] = [column(), column(), column()];
-    for ((own_theta, own_omega), &link) in own_theta.iter_mut().zip(&mut *own_omega).zip(order) {
-        let link = link as usize;
-        if let (Some(&angle), Some(&rate)) = (theta.get(link), omega.get(link)) {
-            (*own_theta, *own_omega) = (angle, rate);
-        }
-    }
-    let [own_torques, own_held] = [torques, held].map(|given| {
-        given.map(|given| {
-            let own = column();
-            for (own, &link) in own.iter_mut().zip(order) {
-                if let Some(&value) = given.get(link as usize) {
-                    *own = value;
-                }
-            }
-            &*own
-        })
-    });
+    let buffer = buffer.get_mut(unaligned..).unwrap_or_default();
     let evaluation = Evaluation {
         tree,
         sweep,
         drive,
-        given: LinkStates {
-            theta: own_theta.get(..links).unwrap_or_default(),
-            omega: own_omega,
-            torques: own_torques,
-        },
-        held: own_held,
+        given,
+        held,
     };
-    evaluation.top(None, buffer, Shared::new(own_alpha));
-    for (&acceleration, &link) in own_alpha.iter().zip(order) {
-        if let Some(place) = alpha.get_mut(link as usize) {
-            *place = acceleration;
-        }
+    if !tree.plan.order.is_empty() {
+        return evaluation.in_order_of_strips(buffer, alpha);
+    }
+    // Blocks come with threads, which small trees do without.
+    match BLOCKS {
+        true => evaluation.solve(0, None, buffer, Shared::new(alpha)),
+        false => evaluation.top(None, buffer, Shared::new(alpha)),
     }
 }
 

@@ -17,7 +17,7 @@ use super::equations::LinkEquations;
 use super::generation::Generation;
 use super::memory::{Room, Sizes, take};
 use super::output::Output;
-use super::partition::Policy;
+use super::partition::{Partition, Policy};
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
 use super::sweep::{Passes, Sweep};
@@ -75,115 +75,141 @@ pub(super) struct ActingOnStates<'a, V> {
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
     ActingOnStates { drive, torques }: ActingOnStates<'_, V>,
-    mut room: &mut [V],
+    room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
     outside: impl Fn(usize) -> [V; 2],
     mut alpha: impl FnMut(usize, V),
 ) {
     let plan = &tree.states;
-    let sizes = const { Sizes::of::<E, V>() };
-    let by_link = const { E::COPIES.is_empty() };
-    let top_room = Room::new(&plan.top(), sizes, 1);
-    let top_lasting = take(&mut room, top_room.lasting());
-    let top_passing = take(&mut room, top_room.passing());
-    let above = plan.top().generations.last();
-    let slot = above.map_or(0, |generation| generation.slot);
-
-    // Where the equations say it, what a tree is without is not compiled: order and
-    // parents if it has generations, blocks if these are small.
-    let (order, parents) = match by_link {
+    // Where the equations say it, order and parents are not compiled: of generations.
+    let (order, parents) = match const { E::COPIES.is_empty() } {
         true => (&*plan.order, &*plan.parents),
         false => (&[][..], &[][..]),
     };
-    let partition = match links(E::COPIES) > Policy::STATES.whole {
-        true => plan.partitions.first(),
-        false => None,
+    let motions = StateMotions {
+        theta,
+        omega,
+        outside,
+        torques,
+        order,
+        parents,
     };
-    let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
-    let blocks = partition.as_ref().map_or(0, |(all, _)| all.count);
-    let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
-    let passing = take(&mut room, passing);
-    // Blocks up, the top up and down, blocks down: one body for all, which is compiled
+    let above = plan.top().generations.last();
+    let slot = above.map_or(0, |generation| generation.slot);
+    let mut blocks = Blocks::new::<E>(tree, drive, room);
+    let subtrees = blocks.subtrees();
+    // Subtrees up, the top up and down, subtrees down: one body for all, which is compiled
     // with every set of equations for every register.
-    for step in 0..=2 * blocks {
-        let [rises, falls] = [step <= blocks, step >= blocks];
-        let index = step.min(2 * blocks - step);
-        let mut top = sweep(
-            sizes,
-            tree,
-            plan.top(),
-            &top_room,
-            [&mut *top_lasting, &mut *top_passing],
-        );
-        let (mut own, mut top) = match &partition {
-            Some((partition, own)) if index < blocks => {
-                let start = index * own.lasting();
-                let Some(lasting) = room.get_mut(start..start + own.lasting()) else {
-                    return;
-                };
-                let block = partition.window(index);
-                let block = sweep(sizes, tree, block, own, [lasting, &mut *passing]);
-                (block, Some(top))
-            }
-            _ => {
-                top.torque = drive.map(|drive| drive.torque);
-                let root = tree.root.map(V::splat);
-                top.root = Some(RootDrive::above(root, drive));
-                (top, None)
-            }
+    for step in 0..=2 * subtrees {
+        let [rises, falls] = [step <= subtrees, step >= subtrees];
+        let index = step.min(2 * subtrees - step);
+        let Some((mut own, mut top)) = blocks.at(index) else {
+            return;
         };
-        if rises && by_link {
-            for some in own.block.strips.subtrees().iter().rev() {
-                let links = [Generation::of_links(some.links.clone())];
-                form::<E, T, V>(
-                    &mut own,
-                    &links,
-                    [order, parents],
-                    torques,
-                    &theta,
-                    &omega,
-                    &outside,
-                );
-                if let Some(view) = own.view() {
-                    let passes = Passes::<E, T, V, V>::of(&view);
-                    passes.within(some.strips.clone()).up();
-                }
-            }
-        } else if rises {
-            let generations = own.block.own_generations();
-            form::<E, T, V>(
-                &mut own,
-                generations,
-                [order, parents],
-                torques,
-                &theta,
-                &omega,
-                &outside,
-            );
+        if rises {
+            motions.rise::<E, T>(&mut own);
         }
         if let (Some(top), true) = (&mut top, falls) {
             hand_over(top, slot + index, &mut own, 0, 2);
         }
         let start = own.block.start;
-        if let Some(view) = own.view() {
-            let passes = Passes::<E, T, V, V>::of(&view);
-            if rises && !by_link {
-                passes.up();
-            }
-            if falls {
-                let alpha = &mut alpha;
-                passes.down(&mut Told {
-                    alpha,
-                    start,
-                    order,
-                    equations: PhantomData::<E>,
-                });
-            }
+        if let (Some(view), true) = (own.view(), falls) {
+            let alpha = &mut alpha;
+            Passes::<E, T, V, V>::of(&view).down(&mut Told {
+                alpha,
+                start,
+                order,
+                equations: PhantomData::<E>,
+            });
         }
         if let (Some(top), true) = (&mut top, rises) {
-            let count = sizes.responses;
+            let count = own.storage.sizes.responses;
             hand_over(&mut own, 0, top, slot + index, count);
+        }
+    }
+}
+
+/// The blocks of a tree: its subtrees, if it is taken apart, and the top, with room for
+/// the numbers of all.
+struct Blocks<'a, T, V> {
+    tree: &'a Skeleton<T>,
+    sizes: Sizes,
+    drive: Option<RootDrive<V>>,
+    top: Room,
+    /// What lasts of the top, and what passes.
+    memory_of_top: [&'a mut [V]; 2],
+    partition: Option<(&'a Partition, Room)>,
+    /// What lasts of each subtree, one after the other.
+    lasting: &'a mut [V],
+    /// What passes of any of them.
+    passing: &'a mut [V],
+}
+
+impl<'a, T: Scalar, V: Simd<T>> Blocks<'a, T, V> {
+    #[inline(always)]
+    fn new<E: LinkEquations>(
+        tree: &'a Skeleton<T>,
+        drive: Option<RootDrive<V>>,
+        mut room: &'a mut [V],
+    ) -> Self {
+        let sizes = const { Sizes::of::<E, V>() };
+        let top = Room::new(&tree.states.top(), sizes, 1);
+        let lasting = take(&mut room, top.lasting());
+        let memory_of_top = [lasting, take(&mut room, top.passing())];
+        // Where the equations say that the tree is small, subtrees are not compiled.
+        let partition = match links(E::COPIES) > Policy::STATES.whole {
+            true => tree.states.partitions.first(),
+            false => None,
+        };
+        let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
+        let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
+        let passing = take(&mut room, passing);
+        Self {
+            tree,
+            sizes,
+            drive,
+            top,
+            memory_of_top,
+            partition,
+            lasting: room,
+            passing,
+        }
+    }
+
+    /// Returns how many subtrees there are.
+    #[inline(always)]
+    fn subtrees(&self) -> usize {
+        self.partition.as_ref().map_or(0, |(all, _)| all.count)
+    }
+
+    /// Returns a subtree and the top, or behind the last subtree the top alone; none
+    /// where the room is too small.
+    #[inline(always)]
+    fn at(&mut self, index: usize) -> Option<(Sweep<'_, T, V>, Option<Sweep<'_, T, V>>)> {
+        let (tree, sizes) = (self.tree, self.sizes);
+        let [lasting, passing] = &mut self.memory_of_top;
+        let mut top = sweep(
+            sizes,
+            tree,
+            tree.states.top(),
+            &self.top,
+            [&mut **lasting, &mut **passing],
+        );
+        match &self.partition {
+            Some((partition, room)) if index < partition.count => {
+                let start = index * room.lasting();
+                let lasting = self.lasting.get_mut(start..start + room.lasting())?;
+                let block = partition.window(index);
+                let own = sweep(sizes, tree, block, room, [lasting, &mut *self.passing]);
+                Some((own, Some(top)))
+            }
+            _ => {
+                top.torque = self.drive.map(|drive| drive.torque);
+                let root = tree.root.map(V::splat);
+                top.root = Some(RootDrive::above(root, self.drive));
+                Some((top, None))
+            }
         }
     }
 }
@@ -241,68 +267,109 @@ fn hand_over<T: Scalar, V: Simd<T>>(
 /// awaited, the others keep the processor busy.
 const STEP: usize = 2;
 
-/// Forms the motions of a block's links.
+/// The motions of all links in many states, and what acts on them.
+struct StateMotions<'a, V, A, R, O> {
+    theta: A,
+    omega: R,
+    outside: O,
+    torques: &'a [V],
+    /// Of links of any shape.
+    order: &'a [u32],
+    parents: &'a [u32],
+}
+
 // No closures around what must be inlined: they are not, always.
-#[inline(always)]
-fn form<E: LinkEquations, T: Scalar, V: Simd<T>>(
-    sweep: &mut Sweep<'_, T, V>,
-    generations: &[Generation],
-    [order, parents]: [&[u32]; 2],
-    torques: &[V],
-    theta: &impl Fn(usize) -> V,
-    omega: &impl Fn(usize) -> V,
-    outside: &impl Fn(usize) -> [V; 2],
-) {
-    let (block, storage) = (sweep.block, &sweep.storage);
-    for generation in generations {
-        let first = generation.whole + block.start;
-        let (above, count) = generation.above.unwrap_or_default();
-        let mut index = 0;
-        while index < generation.length {
-            // The last one may come alone, and is formed twice then.
-            let both = [index, (index + 1).min(generation.length - 1)];
-            let [one, other] = both;
-            let places = [
-                first + one * generation.step,
-                first + other * generation.step,
-            ];
-            let links = [link::<E>(order, places[0]), link::<E>(order, places[1])];
-            let angles = [theta(links[0]), theta(links[1])];
-            let (sines, cosines) = V::sin_cos_each(&angles);
-            for i in 0..STEP {
-                let own = storage.lead + generation.own + both[i];
-                let rate = omega(links[i]);
-                let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
-                if let Some(velocities) = storage.velocities {
-                    let _ = velocities.store::<V, 1>(own, &[rate]);
+impl<V, A, R, O> StateMotions<'_, V, A, R, O>
+where
+    A: Fn(usize) -> V,
+    R: Fn(usize) -> V,
+    O: Fn(usize) -> [V; 2],
+{
+    /// Goes up through a block: links of any shape subtree by subtree.
+    #[inline(always)]
+    fn rise<E: LinkEquations, T: Scalar>(&self, sweep: &mut Sweep<'_, T, V>)
+    where
+        V: Simd<T>,
+    {
+        if const { E::COPIES.is_empty() } {
+            for some in sweep.block.strips.subtrees().iter().rev() {
+                let links = [Generation::of_links(some.links.clone())];
+                self.form::<E, T>(sweep, &links);
+                if let Some(view) = sweep.view() {
+                    let passes = Passes::<E, T, V, V>::of(&view);
+                    passes.within(some.strips.clone()).up();
                 }
-                if storage.sizes.forced {
-                    let [mut torque, held] = outside(links[i]);
-                    if E::COUPLED
-                        && let Some(&own) = torques.get(links[i])
-                    {
-                        torque = own;
-                    }
-                    let _ = storage.torques.store::<V, 1>(own, &[torque]);
-                    if storage.sizes.held {
-                        let _ = storage.held.store::<V, 1>(own, &[held]);
-                    }
-                }
-                if !storage.sizes.joints {
-                    continue;
-                }
-                let (mut angle, mut rate) = (angles[i], rate);
-                if places[i] > 0 {
-                    let parent = match parents.get(places[i]) {
-                        Some(&parent) => link::<E>(order, parent as usize),
-                        None => above + (block.start + both[i] * generation.step) % count.max(1),
-                    };
-                    angle = angle - theta(parent);
-                    rate = rate - omega(parent);
-                }
-                let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
             }
-            index += STEP;
+        } else {
+            self.form::<E, T>(sweep, sweep.block.own_generations());
+            if let Some(view) = sweep.view() {
+                Passes::<E, T, V, V>::of(&view).up();
+            }
+        }
+    }
+
+    /// Forms the motions of a block's links.
+    #[inline(always)]
+    fn form<E: LinkEquations, T: Scalar>(&self, sweep: &Sweep<'_, T, V>, generations: &[Generation])
+    where
+        V: Simd<T>,
+    {
+        let (block, storage) = (sweep.block, &sweep.storage);
+        for generation in generations {
+            let first = generation.whole + block.start;
+            let (above, count) = generation.above.unwrap_or_default();
+            let mut index = 0;
+            while index < generation.length {
+                // The last one may come alone, and is formed twice then.
+                let both = [index, (index + 1).min(generation.length - 1)];
+                let [one, other] = both;
+                let places = [
+                    first + one * generation.step,
+                    first + other * generation.step,
+                ];
+                let links = [
+                    link::<E>(self.order, places[0]),
+                    link::<E>(self.order, places[1]),
+                ];
+                let angles = [(self.theta)(links[0]), (self.theta)(links[1])];
+                let (sines, cosines) = V::sin_cos_each(&angles);
+                for i in 0..STEP {
+                    let own = storage.lead + generation.own + both[i];
+                    let rate = (self.omega)(links[i]);
+                    let _ = storage.sincos.store::<V, 2>(own, &[sines[i], cosines[i]]);
+                    if let Some(velocities) = storage.velocities {
+                        let _ = velocities.store::<V, 1>(own, &[rate]);
+                    }
+                    if storage.sizes.forced {
+                        let [mut torque, held] = (self.outside)(links[i]);
+                        if E::COUPLED
+                            && let Some(&own) = self.torques.get(links[i])
+                        {
+                            torque = own;
+                        }
+                        let _ = storage.torques.store::<V, 1>(own, &[torque]);
+                        if storage.sizes.held {
+                            let _ = storage.held.store::<V, 1>(own, &[held]);
+                        }
+                    }
+                    if !storage.sizes.joints {
+                        continue;
+                    }
+                    let (mut angle, mut rate) = (angles[i], rate);
+                    if places[i] > 0 {
+                        let parent = match self.parents.get(places[i]) {
+                            Some(&parent) => link::<E>(self.order, parent as usize),
+                            None => {
+                                above + (block.start + both[i] * generation.step) % count.max(1)
+                            }
+                        };
+                        angle = angle - (self.theta)(parent);
+                        rate = rate - (self.omega)(parent);
+                    }
+                    let _ = storage.joint_motions.store::<V, 2>(own, &[angle, rate]);
+                }
+                index += STEP;
+            }
         }
     }
 }

@@ -22,11 +22,11 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
     let item = &description.item;
     let constructors = constructors(description, runtime);
     let (attrs, vis, name) = (&item.attrs, &item.vis, &item.ident);
-    let other = super::other_scalar(name);
     let naming = naming(description);
     let functions = functions(&naming, runtime);
     let taylor = taylor(description, runtime);
     let prescribed = prescribed(&naming, name, runtime);
+    let (equations, quantities) = (equations(name, runtime), quantities(name, runtime));
     let computed = ["AccelerationsUnderTorques", "SymmetricAccelerations"]
         .map(|function| computed(name, runtime, function));
     quote! {
@@ -40,6 +40,22 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             #functions
         }
 
+        #equations
+
+        #(#computed)*
+
+        #quantities
+
+        #prescribed
+
+        #taylor
+    }
+}
+
+/// The traits of a model's links and of its equations of motion.
+fn equations(name: &Ident, runtime: &TokenStream) -> TokenStream {
+    let other = super::other_scalar(name);
+    quote! {
         impl<T: #runtime::Scalar> #runtime::Sectors for #name<T> {
             fn sectors(&self) -> &[#runtime::sectors::Sector] { &[] }
         }
@@ -83,9 +99,12 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
         impl<T: #runtime::Scalar> #runtime::SymmetricPendulum<T> for #name<T> {
             const COORDINATE_NAMES: &'static [&'static str] = &[];
         }
+    }
+}
 
-        #(#computed)*
-
+/// The traits of what follows from a state beside accelerations.
+fn quantities(name: &Ident, runtime: &TokenStream) -> TokenStream {
+    quote! {
         impl<T: #runtime::Scalar> #runtime::TransferForms<T> for #name<T> {
             const TRANSFER_FORMS: &'static [#runtime::TransferForm] = &[];
             const RECEIVERS: &'static [&'static str] = &[];
@@ -113,10 +132,6 @@ pub fn stub(description: &Description, runtime: &TokenStream) -> TokenStream {
             fn kinetic_energy_of(&self, _: &[T], _: &[T]) -> T { ::core::unimplemented!() }
             fn potential_energy_of(&self, _: &[T]) -> T { ::core::unimplemented!() }
         }
-
-        #prescribed
-
-        #taylor
     }
 }
 

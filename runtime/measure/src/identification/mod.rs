@@ -52,6 +52,7 @@ mod elimination;
 mod error;
 mod family;
 mod fit;
+mod fitted;
 mod frequencies;
 mod identifiability;
 mod least_squares;

@@ -15,21 +15,15 @@ pub const OFFSET_OF: &str = "offset of ";
 /// Offsets within a turn.
 const TURN: [f64; 2] = [-core::f64::consts::PI, core::f64::consts::PI];
 
-impl<F: Family> Identification<F> {
-    /// The numerical problem, and its globals at the start.
-    pub(super) fn task<'a>(
-        &'a self,
-        record: &'a AngleRecord,
-    ) -> Result<(FitTask<'a>, Vec<f64>), IdentificationError> {
-        let (parameters, links) = (self.family.parameters(), self.family.links());
-        let measured = record.check(&links)?;
-        let Shooting {
+impl Shooting {
+    fn check(&self) -> Result<(), IdentificationError> {
+        let &Self {
             first,
             longest,
             jump,
             tolerance,
             block,
-        } = self.shooting;
+        } = self;
         for (what, value) in [
             ("length of the first segments", first),
             ("length of the longest segments", longest),
@@ -39,45 +33,28 @@ impl<F: Family> Identification<F> {
         ] {
             positive(what, value)?;
         }
-        let mut values = vec![None; parameters.len()];
-        let mut place = |name: &str, value: f64| {
-            let index = parameters.iter().position(|parameter| parameter == name);
-            let index = index.ok_or_else(|| IdentificationError::UnknownParameter {
-                name: name.to_owned(),
-                parameters: parameters.clone(),
-            })?;
-            finite(&format!("`{name}`"), value)?;
-            match values[index].replace(value) {
-                None => Ok(index),
-                Some(_) => Err(IdentificationError::Twice {
-                    name: name.to_owned(),
-                }),
-            }
-        };
-        for (name, value) in &self.known {
-            place(name, *value)?;
-        }
-        let mut unknown = Vec::new();
-        let mut scales = Vec::new();
-        for StartValue { name, value, scale } in &self.unknown {
-            unknown.push(place(name, *value)?);
-            positive(&format!("scale of `{name}`"), *scale)?;
-            scales.push(*scale);
-        }
-        let given = |(value, name): (Option<f64>, &String)| {
-            value.ok_or_else(|| IdentificationError::Missing { name: name.clone() })
-        };
-        let values = values.into_iter().zip(&parameters).map(given);
-        let values: Vec<f64> = values.collect::<Result<_, _>>()?;
+        Ok(())
+    }
+}
+
+impl<F: Family> Identification<F> {
+    /// The numerical problem, and its globals at the start.
+    pub(super) fn task<'a>(
+        &'a self,
+        record: &'a AngleRecord,
+    ) -> Result<(FitTask<'a>, Vec<f64>), IdentificationError> {
+        let links = self.family.links();
+        let measured = record.check(&links)?;
+        self.shooting.check()?;
+        let (values, unknown) = self.values()?;
         self.family
             .check(&values)
             .map_err(IdentificationError::Start)?;
-        let mut globals: Vec<f64> = self.unknown.iter().map(|start| start.value).collect();
-        let mut names: Vec<String> = self
-            .unknown
-            .iter()
-            .map(|start| start.name.clone())
-            .collect();
+        let starts = self.unknown.iter();
+        let mut globals: Vec<f64> = starts.clone().map(|start| start.value).collect();
+        let mut names: Vec<String> = starts.clone().map(|start| start.name.clone()).collect();
+        let mut scales: Vec<f64> = starts.map(|start| start.scale).collect();
+        let mut bounds = self.bounds(&names, &globals)?;
         let parameters = names.len();
         let data = record.links.iter().zip(measured).enumerate();
         let data = data.map(|(number, (link, component))| LinkData {
@@ -86,22 +63,6 @@ impl<F: Family> Identification<F> {
             weight: 1.0 / link.deviation,
             offset: self.offsets.then_some(parameters + number),
         });
-        let data = data.collect();
-        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; parameters];
-        for (name, least) in &self.least {
-            let index = names.iter().position(|own| own == name);
-            let index = index.ok_or_else(|| IdentificationError::UnknownParameter {
-                name: name.clone(),
-                parameters: names.clone(),
-            })?;
-            finite(&format!("least value of `{name}`"), *least)?;
-            number(
-                &format!("start of `{name}`, which is at least {least},"),
-                globals[index],
-                globals[index] >= *least,
-            )?;
-            bounds[index][0] = *least;
-        }
         if self.offsets {
             for link in &record.links {
                 names.push(format!("{OFFSET_OF}{}", link.name));
@@ -119,12 +80,61 @@ impl<F: Family> Identification<F> {
             scales,
             bounds,
             times: record.times(),
-            links: data,
+            links: data.collect(),
             frequencies: Vec::new(),
-            tolerance,
+            tolerance: self.shooting.tolerance,
         };
         task.frequencies = task.assigned(&self.frequencies, &globals)?;
         Ok((task, globals))
+    }
+
+    /// The values of all parameters, known or at the start, and the indices of the unknown ones.
+    fn values(&self) -> Result<(Vec<f64>, Vec<usize>), IdentificationError> {
+        let parameters = self.family.parameters();
+        let mut values = vec![None; parameters.len()];
+        let mut place = |name: &str, value: f64| {
+            let index = index_of(name, &parameters)?;
+            finite(&format!("`{name}`"), value)?;
+            match values[index].replace(value) {
+                None => Ok(index),
+                Some(_) => Err(IdentificationError::Twice {
+                    name: name.to_owned(),
+                }),
+            }
+        };
+        for (name, value) in &self.known {
+            place(name, *value)?;
+        }
+        let mut unknown = Vec::new();
+        for StartValue { name, value, scale } in &self.unknown {
+            unknown.push(place(name, *value)?);
+            positive(&format!("scale of `{name}`"), *scale)?;
+        }
+        let given = |(value, name): (Option<f64>, &String)| {
+            value.ok_or_else(|| IdentificationError::Missing { name: name.clone() })
+        };
+        let values = values.into_iter().zip(&parameters).map(given);
+        Ok((values.collect::<Result<_, _>>()?, unknown))
+    }
+
+    /// The least and the largest value of the unknown parameters.
+    fn bounds(
+        &self,
+        names: &[String],
+        starts: &[f64],
+    ) -> Result<Vec<[f64; 2]>, IdentificationError> {
+        let mut bounds = vec![[f64::NEG_INFINITY, f64::INFINITY]; names.len()];
+        for (name, least) in &self.least {
+            let index = index_of(name, names)?;
+            finite(&format!("least value of `{name}`"), *least)?;
+            number(
+                &format!("start of `{name}`, which is at least {least},"),
+                starts[index],
+                starts[index] >= *least,
+            )?;
+            bounds[index][0] = *least;
+        }
+        Ok(bounds)
     }
 
     /// Refuses more unknowns than there are data.
@@ -146,4 +156,13 @@ impl<F: Family> Identification<F> {
             false => Err(IdentificationError::TooFew { found, needed }),
         }
     }
+}
+
+/// The index of a parameter among these.
+fn index_of(name: &str, parameters: &[String]) -> Result<usize, IdentificationError> {
+    let index = parameters.iter().position(|parameter| parameter == name);
+    index.ok_or_else(|| IdentificationError::UnknownParameter {
+        name: name.to_owned(),
+        parameters: parameters.to_vec(),
+    })
 }

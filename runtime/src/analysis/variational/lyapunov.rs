@@ -334,23 +334,8 @@ impl Lyapunov {
             settling,
             intervals,
         } = *self;
+        self.check(kept, system, start)?;
         let dimension = system.dimension();
-        let deviations = kept.count(dimension);
-        if count == 0 || count > deviations {
-            return Err(LyapunovError::Count { count, deviations });
-        }
-        if !(interval.is_finite() && interval > 0.0 && intervals > 0) {
-            return Err(LyapunovError::Interval {
-                interval,
-                intervals,
-            });
-        }
-        super::check_dimension(system, start)?;
-        if let Deviations::Within(copies) | Deviations::Transverse(copies) = kept
-            && !copies.are_in_phase(system, start)
-        {
-            return Err(LyapunovError::NotInPhase);
-        }
         // The motion is followed by itself, so that it is the same beside any deviations.
         let [alone, all] = [0, count].map(|deviations| Variational::new(system, deviations));
         let mut motion = start.clone();
@@ -372,9 +357,54 @@ impl Lyapunov {
                 logarithms.push(row);
             }
         }
+        let (exponents, standard_errors) = self.averages(&logarithms);
+        Ok(LyapunovSpectrum {
+            exponents,
+            standard_errors,
+            end: motion,
+        })
+    }
+
+    /// Refuses what no exponents can be found of.
+    fn check<L: Linearised<f64>>(
+        &self,
+        kept: Deviations<'_>,
+        system: &L,
+        start: &State<f64>,
+    ) -> Result<(), LyapunovError> {
+        let Self {
+            count,
+            interval,
+            intervals,
+            ..
+        } = *self;
+        let deviations = kept.count(system.dimension());
+        if count == 0 || count > deviations {
+            return Err(LyapunovError::Count { count, deviations });
+        }
+        if !(interval.is_finite() && interval > 0.0 && intervals > 0) {
+            return Err(LyapunovError::Interval {
+                interval,
+                intervals,
+            });
+        }
+        super::check_dimension(system, start)?;
+        match kept {
+            Deviations::Within(copies) | Deviations::Transverse(copies)
+                if !copies.are_in_phase(system, start) =>
+            {
+                Err(LyapunovError::NotInPhase)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Mean rates of growth by rows of logarithms, one for each interval, and the standard
+    /// errors of these: the largest first.
+    fn averages(&self, logarithms: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
         let mean = |rows: &[Vec<f64>], index: usize| {
             let sum: f64 = rows.iter().map(|row| row[index]).sum();
-            sum / (rows.len() as f64 * interval)
+            sum / (rows.len() as f64 * self.interval)
         };
         let standard_error = |index: usize| {
             let length = logarithms.len() / PARTS;
@@ -385,14 +415,9 @@ impl Lyapunov {
             let means: Vec<f64> = parts.map(|rows| mean(rows, index)).collect();
             Estimate::of_independent(&means).error
         };
-        let found = (0..count).map(|index| (mean(&logarithms, index), standard_error(index)));
+        let found = (0..self.count).map(|index| (mean(logarithms, index), standard_error(index)));
         let mut found: Vec<(f64, f64)> = found.collect();
         found.sort_by(|(one, _), (other, _)| other.total_cmp(one));
-        let (exponents, standard_errors) = found.into_iter().unzip();
-        Ok(LyapunovSpectrum {
-            exponents,
-            standard_errors,
-            end: motion,
-        })
+        found.into_iter().unzip()
     }
 }

@@ -147,35 +147,27 @@ pub enum InputError<T> {
 
 impl<T: Real> fmt::Display for InputError<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Tolerance {
-                name: "projection",
-                component: _,
-                value,
-            } => write!(
-                f,
-                "tolerance of the projection is {value}: it must be finite and positive"
-            ),
+        match *self {
             Self::Tolerance {
                 name,
                 component,
                 value,
-            } => write!(
-                f,
-                "{name} tolerance of component {component} is {value}: \
-                 it must be finite and not negative"
-            ),
+            } => match name {
+                "projection" => out_of_range(f, "tolerance of the projection", value, POSITIVE),
+                _ => {
+                    let what = format_args!("{name} tolerance of component {component}");
+                    out_of_range(f, what, value, NOT_NEGATIVE)
+                }
+            },
             Self::ToleranceCount {
                 name,
                 expected,
                 found,
-            } => {
-                write!(
-                    f,
-                    "{found} {name} tolerances given for a state of {expected} components: \
-                     it must be one for all, or one for each"
-                )
-            }
+            } => write!(
+                f,
+                "{found} {name} tolerances given for a state of {expected} components: \
+                 it must be one for all, or one for each"
+            ),
             Self::NoTolerance { component } => write!(
                 f,
                 "relative and absolute tolerance of component {component} are both zero: \
@@ -192,28 +184,19 @@ impl<T: Real> fmt::Display for InputError<T> {
                  {component} are below the rounding of its numbers: the smallest relative \
                  tolerance of use is {smallest:?}"
             ),
-            Self::Step {
-                name: "shortest",
-                value,
-            } => {
-                write!(
-                    f,
-                    "shortest step is {value}: it must be finite and not negative"
-                )
-            }
             Self::Step { name, value } => {
-                write!(f, "{name} step is {value}: it must be finite and positive")
+                let range = match name {
+                    "shortest" => NOT_NEGATIVE,
+                    _ => POSITIVE,
+                };
+                out_of_range(f, format_args!("{name} step"), value, range)
             }
-            Self::FixedStep { value } => {
-                write!(f, "step length is {value}: it must be finite")
-            }
-            Self::StepRange { shortest, longest } => {
-                write!(
-                    f,
-                    "shortest step {shortest} is longer than the longest step {longest}"
-                )
-            }
-            Self::Beta { value } => write!(f, "beta is {value}: it must be between 0 and 0.2"),
+            Self::FixedStep { value } => out_of_range(f, "step length", value, FINITE),
+            Self::StepRange { shortest, longest } => write!(
+                f,
+                "shortest step {shortest} is longer than the longest step {longest}"
+            ),
+            Self::Beta { value } => out_of_range(f, "beta", value, "between 0 and 0.2"),
             Self::BetaUnused { value } => write!(
                 f,
                 "beta is {value}: this method has no use for it, leave it zero"
@@ -226,21 +209,12 @@ impl<T: Real> fmt::Display for InputError<T> {
                 f,
                 "the order is {order}: it must be between {smallest} and {largest}"
             ),
-            Self::NoSeries => write!(
+            Self::NoSeries => f.write_str(NO_SERIES),
+            Self::EmptyState => f.write_str(NO_COMPONENTS),
+            Self::Dimension { expected, found } => write!(
                 f,
-                "these equations give no Taylor coefficients: a model does so where its \
-                 description says `emit(taylor)`, and so does a tree that is read at run time; all \
-                 other methods need rates alone"
+                "the state has {found} components, the equations have {expected}"
             ),
-            Self::EmptyState => {
-                write!(f, "the state has no components: it must have at least one")
-            }
-            Self::Dimension { expected, found } => {
-                write!(
-                    f,
-                    "the state has {found} components, the equations have {expected}"
-                )
-            }
             Self::Checkpoint { expected, found } => write!(
                 f,
                 "the checkpoint has {found} numbers of a method, this one remembers {expected}"
@@ -250,20 +224,15 @@ impl<T: Real> fmt::Display for InputError<T> {
                 "the system converts {found} constants, the first of the ensemble {expected}: \
                  in lanes all must have the same"
             ),
-            Self::Shape => f.write_str(
-                "the system differs from the first of the ensemble in more than constants: in \
-                 lanes it cannot",
-            ),
-            Self::StartTime { value } => {
-                write!(f, "the starting time is {value}: it must be finite")
+            Self::Shape => f.write_str(OTHER_SHAPE),
+            Self::StartTime { value } => out_of_range(f, "the starting time", value, FINITE),
+            Self::StartValue { component, value } => {
+                let what = format_args!("component {component} of the starting state");
+                out_of_range(f, what, value, FINITE)
             }
-            Self::StartValue { component, value } => write!(
-                f,
-                "component {component} of the starting state is {value}: it must be finite"
-            ),
-            Self::EndTime { value } => write!(f, "the end time is {value}: it must be finite"),
+            Self::EndTime { value } => out_of_range(f, "the end time", value, FINITE),
             Self::Time { index, value } => {
-                write!(f, "requested time {index} is {value}: it must be finite")
+                out_of_range(f, format_args!("requested time {index}"), value, FINITE)
             }
             Self::TimeOrder {
                 index,
@@ -276,6 +245,26 @@ impl<T: Real> fmt::Display for InputError<T> {
             ),
         }
     }
+}
+
+const NO_SERIES: &str = "these equations give no Taylor coefficients: a model does so where its \
+                         description says `emit(taylor)`, and so does a tree that is read at run \
+                         time; all other methods need rates alone";
+const NO_COMPONENTS: &str = "the state has no components: it must have at least one";
+const OTHER_SHAPE: &str = "the system differs from the first of the ensemble in more than \
+                           constants: in lanes it cannot";
+const FINITE: &str = "finite";
+const POSITIVE: &str = "finite and positive";
+const NOT_NEGATIVE: &str = "finite and not negative";
+
+/// Writes that a number is not in its range.
+fn out_of_range(
+    f: &mut fmt::Formatter<'_>,
+    what: impl fmt::Display,
+    value: impl fmt::Display,
+    range: &str,
+) -> fmt::Result {
+    write!(f, "{what} is {value}: it must be {range}")
 }
 
 impl<T: Real> core::error::Error for InputError<T> {}
