@@ -1,12 +1,12 @@
 //! Bands and cells as filled areas.
 
 use crate::arrange::{PanelPlan, Plan};
-use crate::axis::{coordinate, drawable};
 use crate::cells::Grid;
 use crate::clip::Rect;
 use crate::description::Series;
 use crate::drawing::{Mark, Point};
 use crate::legend;
+use crate::scale::{coordinate, drawable};
 use crate::style::{Color, Fill, Style};
 
 /// The cells of a series, as far as they are in view.
@@ -21,7 +21,7 @@ pub(crate) fn cells(
     let samples = series.x.iter().zip(&series.y);
     let shown = samples.filter_map(|(x, y)| cell((*x, *y), grid, plan, place));
     marks.push(Mark::Areas {
-        polygons: shown.map(|cell| corners(&cell)).collect(),
+        polygons: shown.map(|cell| cell.corners()).collect(),
         color: style.color,
         fill: Fill::Crisp,
     });
@@ -56,16 +56,6 @@ pub(crate) fn cell(
         bottom: up(low),
     };
     (cell.left < cell.right && cell.top < cell.bottom).then_some(cell)
-}
-
-/// The corners of a rectangle.
-pub(crate) fn corners(cell: &Rect) -> Vec<Point> {
-    vec![
-        (cell.left, cell.bottom),
-        (cell.left, cell.top),
-        (cell.right, cell.top),
-        (cell.right, cell.bottom),
-    ]
 }
 
 /// The area of a band, in one piece between gaps; nothing for other series.
@@ -121,7 +111,7 @@ pub(crate) fn sample((x, middle): Point, color: Color, fill: Fill) -> Mark {
         bottom: middle + 5.0,
     };
     Mark::Areas {
-        polygons: vec![corners(&cell)],
+        polygons: vec![cell.corners()],
         color,
         fill,
     }

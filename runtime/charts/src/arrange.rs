@@ -1,5 +1,6 @@
-use crate::axis::{Scale, scales};
+use crate::axis::scales;
 use crate::clip::Rect;
+use crate::color_bar::ColorBar;
 use crate::description::{Chart, Panel};
 use crate::drawing::LARGEST_SIDE;
 use crate::error::ChartError;
@@ -7,35 +8,13 @@ use crate::font::Font;
 use crate::guides::{self, Guide};
 use crate::label::{Label, widest};
 use crate::legend::{self, Legend};
-use crate::shades::ColorBar;
+use crate::scale::Scale;
+use crate::sizes::{
+    COLUMN_GAP, EDGE, LABEL_GAP, LABEL_LINE, LABEL_SIZE, LEAST_PANEL, LEAST_SIZE, LEGEND_GAP,
+    NAME_GAP, PANEL_GAP, TICK, TICK_GAP, TICK_LINE, TICK_SIZE, TITLE_LINE, TITLE_SIZE,
+};
 use crate::style::Style;
-use crate::ticks::{Ticks, ticks};
-
-/// Font sizes and line heights, px.
-pub(crate) const TITLE_SIZE: f64 = 16.0;
-pub(crate) const TITLE_LINE: f64 = 21.0;
-pub(crate) const LABEL_SIZE: f64 = 13.5;
-pub(crate) const LABEL_LINE: f64 = 18.0;
-pub(crate) const TICK_SIZE: f64 = 12.0;
-pub(crate) const TICK_LINE: f64 = 16.0;
-/// Length of a tick, and space between it and its label.
-pub(crate) const TICK: f64 = 5.0;
-pub(crate) const TICK_GAP: f64 = 3.0;
-/// Space between the edge of the canvas and what it holds.
-pub(crate) const EDGE: f64 = 12.0;
-/// Space between the label of an axis and its tick labels.
-pub(crate) const LABEL_GAP: f64 = 7.0;
-/// Space between panels above each other, between columns of panels, and between
-/// panels and the legend below.
-const PANEL_GAP: f64 = 18.0;
-const COLUMN_GAP: f64 = 20.0;
-pub(crate) const LEGEND_GAP: f64 = 10.0;
-/// Space between what is common to the tick labels and the name of a panel.
-const NAME_GAP: f64 = 12.0;
-
-pub(crate) const LEAST_SIZE: (f64, f64) = (320.0, 200.0);
-/// Least width and height of a panel that can be read.
-const LEAST_PANEL: (f64, f64) = (120.0, 100.0);
+use crate::ticks::{Ticks, most, tick_labels, ticks};
 
 /// Where everything stands.
 pub(crate) struct Plan {
@@ -308,16 +287,6 @@ impl XAxis {
         let ticks = TICK + TICK_GAP + TICK_LINE;
         ticks + common + lines as f64 * LABEL_LINE + LABEL_GAP
     }
-}
-
-pub(crate) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
-    let labels = ticks.major.iter();
-    labels.map(|tick| Label::parse(&tick.label)).collect()
-}
-
-/// How many ticks an axis of this length has room for, `apart` px each.
-pub(crate) fn most(length: f64, apart: f64) -> usize {
-    ((length / apart) as usize).clamp(5, 40)
 }
 
 /// The most ticks along `length` px whose labels do not touch.

@@ -1,7 +1,7 @@
 //! The grid of a panel whose samples fill cells.
 
-use crate::axis::{coordinate, drawable};
 use crate::description::Panel;
+use crate::scale::{coordinate, drawable};
 
 /// Distinct coordinates of all cells of a panel, ascending: values, or their
 /// logarithms to base 10.

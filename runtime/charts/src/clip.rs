@@ -18,6 +18,15 @@ impl Rect {
         self.bottom - self.top
     }
 
+    pub(crate) fn corners(&self) -> Vec<Point> {
+        vec![
+            (self.left, self.bottom),
+            (self.left, self.top),
+            (self.right, self.top),
+            (self.right, self.bottom),
+        ]
+    }
+
     pub(crate) fn contains(&self, (x, y): Point) -> bool {
         // A hair of slack: an extreme sample lies on the edge up to rounding.
         let slack = 1e-6;

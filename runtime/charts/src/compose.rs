@@ -1,8 +1,5 @@
 use crate::areas;
-use crate::arrange::{
-    EDGE, LABEL_GAP, LABEL_LINE, LABEL_SIZE, LEGEND_GAP, PanelPlan, Plan, TICK, TICK_GAP,
-    TICK_LINE, TICK_SIZE, TITLE_LINE, TITLE_SIZE,
-};
+use crate::arrange::{PanelPlan, Plan};
 use crate::cells::Grid;
 use crate::clip::{self, Rect};
 use crate::decimate;
@@ -12,6 +9,10 @@ use crate::font::Font;
 use crate::guides;
 use crate::label::Label;
 use crate::legend::{self, Entry};
+use crate::sizes::{
+    EDGE, LABEL_GAP, LABEL_LINE, LABEL_SIZE, LEGEND_GAP, TICK, TICK_GAP, TICK_LINE, TICK_SIZE,
+    TITLE_LINE, TITLE_SIZE,
+};
 use crate::style::{Color, Dash, Style, Symbol};
 use crate::ticks::Ticks;
 

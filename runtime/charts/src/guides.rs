@@ -1,8 +1,8 @@
-use crate::axis::Scale;
 use crate::clip::Rect;
 use crate::description::Panel;
 use crate::font::Font;
 use crate::label::{Label, widest};
+use crate::scale::Scale;
 
 /// Font size and line height of the labels of marker lines, px.
 pub(crate) const SIZE: f64 = 12.5;

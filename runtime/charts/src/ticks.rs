@@ -1,5 +1,6 @@
-use crate::axis::Scale;
 use crate::decimal::{leading_decade, number, plain, power, reads_plain};
+use crate::label::Label;
+use crate::scale::Scale;
 
 /// A labelled tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,4 +244,14 @@ fn within_decade(low: f64, high: f64, most: usize) -> Ticks {
         tick.at = tick.at.log10().clamp(low, high);
     }
     ticks
+}
+
+pub(crate) fn tick_labels(ticks: &Ticks) -> Vec<Label> {
+    let labels = ticks.major.iter();
+    labels.map(|tick| Label::parse(&tick.label)).collect()
+}
+
+/// How many ticks an axis of this length has room for, `apart` px each.
+pub(crate) fn most(length: f64, apart: f64) -> usize {
+    ((length / apart) as usize).clamp(5, 40)
 }

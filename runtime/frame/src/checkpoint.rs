@@ -8,13 +8,10 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::files::{locked, replace};
+use super::files::{CHECKPOINT, locked, replace};
 use super::job::Job;
 use super::sealed::{open, seal};
 use crate::failure::Failure;
-
-/// Name of the file.
-pub const CHECKPOINT: &str = "checkpoint";
 
 /// The checkpoint of a run, at most one, replaced as a whole.
 ///

@@ -15,7 +15,7 @@ use branched_pendulum_data::{CsvError, ReadError, ReadErrorKind};
 use branched_pendulum_measure::{IdentificationError, SmoothingError, SpectrumError};
 
 use crate::sealed::SealError;
-use crate::sweep::SweepError;
+use crate::sweep_error::SweepError;
 
 /// Why a program could not finish. Causes are told by `source`, once each.
 #[derive(Debug, thiserror::Error)]

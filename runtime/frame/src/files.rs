@@ -6,6 +6,9 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+/// Name of the file in a run's folder from which the run goes on.
+pub(super) const CHECKPOINT: &str = "checkpoint";
+
 /// The parts being written, and the names of the files that are complete.
 #[derive(Debug, Default)]
 pub(super) struct Ledger {

@@ -11,10 +11,9 @@ use branched_pendulum_charts::{Chart, Film};
 use branched_pendulum_data::{Column, CsvError, CsvWriter};
 use serde_json::{Map, Value, json};
 
-use super::checkpoint::CHECKPOINT;
 use super::figures::{Figures, TimeSpan};
-use super::files::{Ledger, Part, SharedLedger, locked, replace};
-use super::interrupt::Interruption;
+use super::files::{CHECKPOINT, Ledger, Part, SharedLedger, locked, replace};
+use super::interruption::Interruption;
 use super::lock::FolderLock;
 use super::progress::Progress;
 use super::sealed::RunIdentity;

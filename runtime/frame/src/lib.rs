@@ -19,12 +19,14 @@ pub mod figures;
 pub mod files;
 pub mod film;
 mod interrupt;
+mod interruption;
 pub mod job;
 mod lock;
 pub mod progress;
 pub mod quadrature;
 pub mod sealed;
 pub mod sweep;
+mod sweep_error;
 pub mod windows;
 
 use std::error::Error;

@@ -1,4 +1,4 @@
-use crate::axis::Scale;
+use crate::scale::Scale;
 use crate::clip::{self, Rect};
 use crate::decimal::number;
 use crate::decimate;
