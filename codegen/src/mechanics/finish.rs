@@ -2,7 +2,7 @@
 
 use super::algebra::{AlgebraError, Formula};
 use super::derivation::Derivation;
-use super::expression::Expr;
+use super::expression::{Expr, SymbolId};
 use super::frame::{DerivedFrame, MassMatrix};
 use super::inverse_mass::DerivedExpansion;
 use super::meaning::JointDifference;
@@ -16,6 +16,7 @@ use super::{
 use crate::functions::Counting;
 use crate::scene::TransferRequest;
 use crate::scene::coordinates::{self, Coordinate};
+use std::collections::BTreeMap;
 
 impl Derivation<'_> {
     pub(super) fn finish(mut self) -> Result<Mechanics, AlgebraError> {
@@ -46,35 +47,7 @@ impl Derivation<'_> {
             derived = Some(DerivedFrame::of_symbols(&symmetric));
             mechanics.symmetric = Some(symmetric);
         } else if self.scene.requests.symmetric {
-            let coordinates = coordinates::symmetric_coordinates(self.scene);
-            let constants = self.copy_constants(&coordinates);
-            let symmetric = self.symmetric_frame(&absolute, &coordinates, &constants);
-            mechanics.symmetric = Some(self.frame(&symmetric));
-            if let Some(request) = self.scene.requests.transfer.clone() {
-                let unequal = self.scene.has_unequal_copies();
-                let mean = unequal.then(|| self.mean_frame(&symmetric, &constants));
-                let mismatch = mean
-                    .as_ref()
-                    .map(|mean| self.mismatch(&symmetric, mean, &coordinates));
-                let equal = mean.as_ref().unwrap_or(&symmetric);
-                let orders = request.angle_orders.iter().chain(&request.amplitude_orders);
-                let order = orders.copied().max().unwrap_or(0);
-                let expansion = self.expand_mass(equal, &coordinates, order);
-                let mut plain = self.expansion(equal, &expansion);
-                mechanics.transfers = self.transfers(
-                    (&symmetric, mismatch.as_ref()),
-                    &coordinates,
-                    &expansion,
-                    &request,
-                    &mut plain,
-                );
-                match &mismatch {
-                    Some(mismatch) => mechanics.mean_tree = Some(self.mean_tree(mismatch)),
-                    None => mechanics.expansion = Some(plain),
-                }
-            }
-            mechanics.coordinates = coordinates;
-            derived = Some(symmetric);
+            derived = Some(self.derive_symmetric(&absolute, &mut mechanics));
         }
         let symmetric = derived
             .as_ref()
@@ -86,29 +59,74 @@ impl Derivation<'_> {
         if self.scene.requests.positions {
             mechanics.positions = Some(self.positions(&absolute));
         }
-        mechanics.constants = self
-            .constants
-            .iter()
-            .map(|(&symbol, entry)| Constant {
-                symbol,
-                value: entry.value.cancelled(&self.symbols),
-                meaning: entry.meaning.clone(),
-                unit: entry.unit,
-            })
-            .collect();
+        mechanics.constants = self.plain_constants();
         mechanics.lines = self.plain_lines();
-        let joints = self.joints.iter();
-        mechanics.joints = joints
-            .map(|(&symbol, joint)| {
-                let JointDifference { terms, rest } = joint;
-                let (terms, rest) = (terms.clone(), self.expr(rest));
-                (symbol, JointDifference { terms, rest })
-            })
-            .collect();
+        mechanics.joints = self.plain_joints();
         mechanics.trigonometry = self.trigonometry;
         mechanics.combinations = self.combinations;
         mechanics.symbols = self.symbols;
         Ok(mechanics)
+    }
+
+    /// Derives the Lagrangian in symmetric coordinates, and the energy transfer where that is
+    /// asked for.
+    fn derive_symmetric(
+        &mut self,
+        absolute: &DerivedFrame,
+        mechanics: &mut Mechanics,
+    ) -> DerivedFrame {
+        let coordinates = coordinates::symmetric_coordinates(self.scene);
+        let constants = self.copy_constants(&coordinates);
+        let symmetric = self.symmetric_frame(absolute, &coordinates, &constants);
+        mechanics.symmetric = Some(self.frame(&symmetric));
+        if let Some(request) = self.scene.requests.transfer.clone() {
+            let unequal = self.scene.has_unequal_copies();
+            let mean = unequal.then(|| self.mean_frame(&symmetric, &constants));
+            let mismatch = mean
+                .as_ref()
+                .map(|mean| self.mismatch(&symmetric, mean, &coordinates));
+            let equal = mean.as_ref().unwrap_or(&symmetric);
+            let orders = request.angle_orders.iter().chain(&request.amplitude_orders);
+            let order = orders.copied().max().unwrap_or(0);
+            let expansion = self.expand_mass(equal, &coordinates, order);
+            let mut plain = self.expansion(equal, &expansion);
+            mechanics.transfers = self.transfers(
+                (&symmetric, mismatch.as_ref()),
+                &coordinates,
+                &expansion,
+                &request,
+                &mut plain,
+            );
+            match &mismatch {
+                Some(mismatch) => mechanics.mean_tree = Some(self.mean_tree(mismatch)),
+                None => mechanics.expansion = Some(plain),
+            }
+        }
+        mechanics.coordinates = coordinates;
+        symmetric
+    }
+
+    /// The constants as plain data.
+    fn plain_constants(&self) -> Vec<Constant> {
+        let constants = self.constants.iter();
+        let plain = constants.map(|(&symbol, entry)| Constant {
+            symbol,
+            value: entry.value.cancelled(&self.symbols),
+            meaning: entry.meaning.clone(),
+            unit: entry.unit,
+        });
+        plain.collect()
+    }
+
+    /// The meaning of angles and rates of joints as plain data.
+    fn plain_joints(&self) -> BTreeMap<SymbolId, JointDifference> {
+        let joints = self.joints.iter();
+        let plain = joints.map(|(&symbol, joint)| {
+            let JointDifference { terms, rest } = joint;
+            let (terms, rest) = (terms.clone(), self.expr(rest));
+            (symbol, JointDifference { terms, rest })
+        });
+        plain.collect()
     }
 
     /// Returns true if copies branch into copies, or have other links below

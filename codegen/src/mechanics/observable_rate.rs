@@ -191,24 +191,7 @@ impl Derivation<'_> {
         symbols: &RateSymbols,
         list: &[ObservableFormulas],
     ) -> ObservableFrame {
-        let mut used = BTreeSet::new();
-        let mut note = |symbol| {
-            used.insert(symbol);
-        };
-        for observable in list {
-            for expr in [&observable.value, &observable.rate, &observable.friction] {
-                expr.for_each_symbol(&mut note);
-            }
-            if let Some(canonical) = &observable.canonical {
-                canonical.rate.for_each_symbol(&mut note);
-                for right in canonical.adjoint.iter().flat_map(|system| &system.right) {
-                    right.for_each_symbol(&mut note);
-                }
-            }
-        }
-        for composite in self.composites.values() {
-            composite.argument.symbols().into_iter().for_each(&mut note);
-        }
+        let used = self.symbols_of_observables(list);
         let uses = |symbols: &[SymbolId]| symbols.iter().any(|symbol| used.contains(symbol));
         let accelerations = match uses(&symbols.accelerations) {
             true => symbols.accelerations.clone(),
@@ -270,6 +253,29 @@ impl Derivation<'_> {
                 false => Vec::new(),
             },
         }
+    }
+
+    /// The symbols that observables and their rates are written in.
+    fn symbols_of_observables(&self, list: &[ObservableFormulas]) -> BTreeSet<SymbolId> {
+        let mut used = BTreeSet::new();
+        let mut note = |symbol| {
+            used.insert(symbol);
+        };
+        for observable in list {
+            for expr in [&observable.value, &observable.rate, &observable.friction] {
+                expr.for_each_symbol(&mut note);
+            }
+            if let Some(canonical) = &observable.canonical {
+                canonical.rate.for_each_symbol(&mut note);
+                for right in canonical.adjoint.iter().flat_map(|system| &system.right) {
+                    right.for_each_symbol(&mut note);
+                }
+            }
+        }
+        for composite in self.composites.values() {
+            composite.argument.symbols().into_iter().for_each(&mut note);
+        }
+        used
     }
 }
 

@@ -130,6 +130,9 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     }
 }
 
+/// A subtree and the top; or the top alone.
+type AndTop<'a, T, V> = (Sweep<'a, T, V>, Option<Sweep<'a, T, V>>);
+
 /// The blocks of a tree: its subtrees, if it is taken apart, and the top, with room for
 /// the numbers of all.
 struct Blocks<'a, T, V> {
@@ -186,7 +189,7 @@ impl<'a, T: Scalar, V: Simd<T>> Blocks<'a, T, V> {
     /// Returns a subtree and the top, or behind the last subtree the top alone; none
     /// where the room is too small.
     #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<(Sweep<'_, T, V>, Option<Sweep<'_, T, V>>)> {
+    fn at(&mut self, index: usize) -> Option<AndTop<'_, T, V>> {
         let (tree, sizes) = (self.tree, self.sizes);
         let [lasting, passing] = &mut self.memory_of_top;
         let mut top = sweep(

@@ -88,22 +88,7 @@ impl Lowering<'_> {
         for orbit in &scene.orbits {
             let LinkId(index) = orbit.links[0];
             let link = &scene.links[index];
-            // Leaves alone count in the constants of what they hang from: the masses of
-            // whole subtrees would hide articulated inertias that are much smaller.
-            let mut places: Vec<([ValueId; 2], ValueId)> = Vec::new();
-            for &child in &children[index] {
-                let child_link = &scene.links[child];
-                let place = self.values_of(&child_link.pivot);
-                let counted = match children[child].is_empty() {
-                    true => self.value_of(&child_link.mass),
-                    false => zero,
-                };
-                let counted = self.builder.mul(copies, counted);
-                match places.iter_mut().find(|(known, _)| *known == place) {
-                    Some((_, sum)) => *sum = self.builder.add(*sum, counted),
-                    None => places.push((place, counted)),
-                }
-            }
+            let places = self.places_below(scene, &children, index, copies);
             has_several_places |= places.len() > 1;
             let composite = self.composite(scene, index, balance, &places);
             // Widths of laws that a link does not have are numbers, no constants.
@@ -158,6 +143,33 @@ impl Lowering<'_> {
             is_leaf,
             has_several_places,
         }
+    }
+
+    /// The places where links hang on this one, with the masses that count there.
+    fn places_below(
+        &mut self,
+        scene: &Scene,
+        children: &[Vec<usize>],
+        index: usize,
+        copies: ValueId,
+    ) -> Vec<([ValueId; 2], ValueId)> {
+        // Leaves alone count in the constants of what they hang from: the masses of
+        // whole subtrees would hide articulated inertias that are much smaller.
+        let mut places: Vec<([ValueId; 2], ValueId)> = Vec::new();
+        for &child in &children[index] {
+            let child_link = &scene.links[child];
+            let place = self.values_of(&child_link.pivot);
+            let counted = match children[child].is_empty() {
+                true => self.value_of(&child_link.mass),
+                false => self.builder.integer(0),
+            };
+            let counted = self.builder.mul(copies, counted);
+            match places.iter_mut().find(|(known, _)| *known == place) {
+                Some((_, sum)) => *sum = self.builder.add(*sum, counted),
+                None => places.push((place, counted)),
+            }
+        }
+        places
     }
 
     /// M, h, the lateral moment and S of a link with these masses on its pivots: the

@@ -17,13 +17,28 @@ impl Lowering<'_> {
         environment: &mut Environment<'_>,
         omega: &[ValueId],
     ) -> Vec<ValueId> {
-        let mechanics = self.mechanics;
         let zero = self.builder.integer(0);
         let mut torques = vec![zero; scene.links.len()];
         let theta = environment.frame.coordinates.iter();
         let theta: Vec<ValueId> = theta
             .map(|&symbol| self.symbol(environment, symbol))
             .collect();
+        self.outside_torques(scene, units, environment, &mut torques);
+        self.friction_torques(scene, units, environment, &mut torques);
+        self.pair_torques(scene, units, environment, &mut torques);
+        self.line_torques(scene, units, environment, &mut torques);
+        self.linear_torques(scene, units, [&theta, omega], &mut torques);
+        torques
+    }
+
+    /// Adds what the caller hands over, and τ on the root.
+    fn outside_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        environment: &mut Environment<'_>,
+        torques: &mut [ValueId],
+    ) {
         if let Some(argument) = environment.torques {
             for (index, link) in scene.links.iter().enumerate() {
                 let outside = self.builder.input(argument, index);
@@ -31,11 +46,22 @@ impl Lowering<'_> {
                 torques[index] = self.builder.mul(unit.per_torque, outside);
             }
         }
-        if let Some(torque) = mechanics.drive.as_ref().and_then(|drive| drive.torque) {
+        let drive = self.mechanics.drive.as_ref();
+        if let Some(torque) = drive.and_then(|drive| drive.torque) {
             let torque = self.symbol(environment, torque);
             let torque = self.builder.mul(units.links[0].per_torque, torque);
             torques[0] = self.builder.add(torques[0], torque);
         }
+    }
+
+    /// Adds friction of links that is not viscous.
+    fn friction_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        environment: &mut Environment<'_>,
+        torques: &mut [ValueId],
+    ) {
         for torque in &environment.frame.torques {
             let TorqueSource::Link { link, against, .. } = torque.source else {
                 continue;
@@ -50,8 +76,17 @@ impl Lowering<'_> {
                 torques[other.0] = self.builder.add(torques[other.0], reaction);
             }
         }
-        self.pair_torques(scene, units, environment, &mut torques);
-        self.line_torques(scene, units, environment, &mut torques);
+    }
+
+    /// Adds −c (ω − ω_π) and −κ (θ − θ_π − ρ) of each joint to its link, and the opposite to the
+    /// link above; and −k ω.
+    fn linear_torques(
+        &mut self,
+        scene: &Scene,
+        units: &Units,
+        [theta, omega]: [&[ValueId]; 2],
+        torques: &mut [ValueId],
+    ) {
         let builder = &mut self.builder;
         let children = super::children(scene);
         let below = |parent: Option<usize>| parent.map_or(&[0][..], |parent| &children[parent]);
@@ -62,7 +97,7 @@ impl Lowering<'_> {
                 let unit = &units.links[scene.links[link].orbit.0];
                 let joint = [
                     ("joint_rate", unit.passive.friction, omega),
-                    ("joint_angle", unit.passive.spring, &theta),
+                    ("joint_angle", unit.passive.spring, theta),
                 ];
                 for (what, coefficient, state) in joint {
                     if builder.is(coefficient, 0) {
@@ -100,7 +135,6 @@ impl Lowering<'_> {
                 torques[parent] = builder.add(torques[parent], torque);
             }
         }
-        torques
     }
 
     /// Adds −(dU/dℓ + γ ℓ̇) ∂ℓ/∂θ_i of each line.
