@@ -2,9 +2,6 @@
 
 use core::fmt;
 
-use super::fit::Fit;
-use super::start::SmoothedRecord;
-
 /// Residual, in deviations of the noise, up to which it is the noise's.
 const NOISE: f64 = 1.5;
 /// Residuals of two starts that ended alike differ by no more than this share.
@@ -41,11 +38,11 @@ pub struct Convergence {
 
 impl Convergence {
     /// The convergence of a search that has not begun.
-    pub(super) fn before(smoothed: &SmoothedRecord) -> Self {
+    pub(super) fn before(noise: f64, swing: f64) -> Self {
         Self {
             rms: f64::NAN,
-            noise: smoothed.noise,
-            swing: smoothed.swing,
+            noise,
+            swing,
             distance: 0.0,
             starts: 1,
             agreed: 1,
@@ -151,52 +148,6 @@ pub enum SearchFailure {
     Unsettled,
     /// Every start ended elsewhere.
     Alone,
-}
-
-/// What a search found that is no result: the best of it, without deviations.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unfound {
-    /// Why it is none.
-    pub failure: SearchFailure,
-    /// The time at which the links are released, where the record begins before, s.
-    pub release: Option<f64>,
-    /// The best that was found, without deviations.
-    pub best: Fit,
-}
-
-impl fmt::Display for Unfound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no fit was found ({}): ", self.best.convergence)?;
-        match self.failure {
-            SearchFailure::Astray => write!(
-                f,
-                "the motion is another one than the record's; try other starts, shorter first \
-                 segments, or a tree and a law of friction that are nearer to the real ones"
-            ),
-            SearchFailure::Lost { followed } => write!(
-                f,
-                "segments of {followed} s have the motion of the record, longer ones lose it, as \
-                 they do where it is chaotic: keep to segments that are no longer"
-            ),
-            SearchFailure::Unsettled => write!(
-                f,
-                "the search has not come to its end; give more of the parameters, or go on from \
-                 the best found"
-            ),
-            SearchFailure::Alone => write!(
-                f,
-                "every start ended elsewhere; try starts nearer to the truth, or give more of \
-                 the parameters"
-            ),
-        }?;
-        match self.release {
-            Some(time) => write!(
-                f,
-                "; the links are held until {time} s, where the fit has to begin"
-            ),
-            None => Ok(()),
-        }
-    }
 }
 
 /// A number with three digits, as sentences have it.

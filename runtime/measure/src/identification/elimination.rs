@@ -8,7 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::least_squares::{FitStage, LinearStage};
+use super::least_squares::{Damping, FitStage, LinearStage};
 
 /// The chain with all starts eliminated.
 pub(super) struct EliminatedChain {
@@ -23,14 +23,6 @@ struct Pivot {
     own: DMatrix<f64>,
     next: DMatrix<f64>,
     rest: DMatrix<f64>,
-}
-
-/// How far a step may go: rows √λ D x = 0.
-pub(super) struct Damping {
-    /// √λ D of the components of each start.
-    pub(super) starts: Vec<Vec<f64>>,
-    /// √λ D of the globals.
-    pub(super) globals: Vec<f64>,
 }
 
 impl FitStage {

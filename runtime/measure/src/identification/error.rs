@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::convergence::Unfound;
 use super::family::ImpossibleValue;
+use super::fit::Unfound;
 use crate::SmoothingError;
 
 /// Why parameters were not identified.

@@ -1,9 +1,10 @@
 //! Result of a fit.
 
-use super::convergence::Convergence;
+use core::fmt;
+
+use super::convergence::{Convergence, SearchFailure};
 use super::error::IdentificationError;
 use super::family::ImpossibleValue;
-use super::frequencies::FittedFrequency;
 use super::identifiability::Identifiability;
 use branched_pendulum::system::State;
 
@@ -197,5 +198,72 @@ impl AngleErrors {
             (sum + error * error, count + 1)
         });
         (sum / count as f64).sqrt()
+    }
+}
+
+/// A measured frequency beside that of the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FittedFrequency {
+    /// Number of its mode, 1 for the slowest of those that oscillate.
+    pub mode: usize,
+    /// The measured frequency, Hz.
+    pub hertz: f64,
+    /// Standard error of the measured frequency, Hz.
+    pub deviation: f64,
+    /// The frequency of the model, Hz.
+    pub fitted: f64,
+}
+
+impl FittedFrequency {
+    /// Returns by how many standard errors the model is above the datum.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        (self.fitted - self.hertz) / self.deviation
+    }
+}
+
+/// What a search found that is no result: the best of it, without deviations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unfound {
+    /// Why it is none.
+    pub failure: SearchFailure,
+    /// The time at which the links are released, where the record begins before, s.
+    pub release: Option<f64>,
+    /// The best that was found, without deviations.
+    pub best: Fit,
+}
+
+impl fmt::Display for Unfound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no fit was found ({}): ", self.best.convergence)?;
+        match self.failure {
+            SearchFailure::Astray => write!(
+                f,
+                "the motion is another one than the record's; try other starts, shorter first \
+                 segments, or a tree and a law of friction that are nearer to the real ones"
+            ),
+            SearchFailure::Lost { followed } => write!(
+                f,
+                "segments of {followed} s have the motion of the record, longer ones lose it, as \
+                 they do where it is chaotic: keep to segments that are no longer"
+            ),
+            SearchFailure::Unsettled => write!(
+                f,
+                "the search has not come to its end; give more of the parameters, or go on from \
+                 the best found"
+            ),
+            SearchFailure::Alone => write!(
+                f,
+                "every start ended elsewhere; try starts nearer to the truth, or give more of \
+                 the parameters"
+            ),
+        }?;
+        match self.release {
+            Some(time) => write!(
+                f,
+                "; the links are held until {time} s, where the fit has to begin"
+            ),
+            None => Ok(()),
+        }
     }
 }

@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector, Schur};
 
 use super::error::IdentificationError;
+use super::fit::FittedFrequency;
 use super::sensitivity::Sensitivities;
-use super::task::FitTask;
+use super::task::{FitTask, FrequencyDatum};
 use branched_pendulum::system::Ode;
 
 /// A measured frequency of a small motion about rest.
@@ -20,35 +21,6 @@ pub struct Frequency {
     /// Number of its mode, 1 for the slowest of those that oscillate. Frequencies of which none
     /// has a number are as many as these modes, and belong to them in ascending order.
     pub mode: Option<usize>,
-}
-
-/// A measured frequency beside that of the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FittedFrequency {
-    /// Number of its mode, 1 for the slowest of those that oscillate.
-    pub mode: usize,
-    /// The measured frequency, Hz.
-    pub hertz: f64,
-    /// Standard error of the measured frequency, Hz.
-    pub deviation: f64,
-    /// The frequency of the model, Hz.
-    pub fitted: f64,
-}
-
-impl FittedFrequency {
-    /// Returns by how many standard errors the model is above the datum.
-    #[must_use]
-    pub fn residual(&self) -> f64 {
-        (self.fitted - self.hertz) / self.deviation
-    }
-}
-
-/// A frequency with the place of its mode among those that oscillate.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrequencyDatum {
-    place: usize,
-    hertz: f64,
-    deviation: f64,
 }
 
 /// Relative step of the difference quotients: their error is its square.

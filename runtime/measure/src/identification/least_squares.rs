@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::elimination::Damping;
 use super::task::{FitTask, LinearSegment};
 
 /// Steps of one stage at most.
@@ -83,6 +82,14 @@ pub(super) struct LinearStage {
     pub(super) segments: Vec<LinearSegment>,
     /// Rows on the globals alone.
     pub(super) prior: DMatrix<f64>,
+}
+
+/// How far a step may go: rows √λ D x = 0.
+pub(super) struct Damping {
+    /// √λ D of the components of each start.
+    pub(super) starts: Vec<Vec<f64>>,
+    /// √λ D of the globals.
+    pub(super) globals: Vec<f64>,
 }
 
 impl FitStage {

@@ -67,11 +67,13 @@ mod sensitivity;
 mod start;
 mod task;
 
-pub use convergence::{Convergence, SearchFailure, Unfound};
+pub use convergence::{Convergence, SearchFailure};
 pub use error::IdentificationError;
 pub use family::{Family, FamilyOf, ImpossibleValue};
-pub use fit::{AngleErrors, Fit, ParameterEstimate, StageReport, Standing};
-pub use frequencies::{FittedFrequency, Frequency};
+pub use fit::{
+    AngleErrors, Fit, FittedFrequency, ParameterEstimate, StageReport, Standing, Unfound,
+};
+pub use frequencies::Frequency;
 pub use identifiability::{Identifiability, OpenChange};
 pub use problem::{Identification, Shooting};
 pub use ratios::{DIVIDED, TIMES};

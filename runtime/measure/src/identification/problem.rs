@@ -2,14 +2,9 @@
 
 use std::ops::Range;
 
-use super::convergence::SearchFailure;
-use super::error::IdentificationError;
 use super::family::Family;
-use super::fit::Fit;
 use super::frequencies::Frequency;
 use super::least_squares::{DAMPING, FitStage};
-use super::record::AngleRecord;
-use super::search::Search;
 use super::start::SmoothedRecord;
 use super::task::FitTask;
 
@@ -139,93 +134,6 @@ impl<F: Family> Identification<F> {
         self
     }
 
-    /// Finds the unknowns from frequencies alone, which are as many as unknowns at least. Error bars
-    /// follow from their standard errors. Of starts far from the one that is given the fit tells
-    /// those that lead to other values ([`Fit::alternatives`]).
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit).
-    pub fn fit_to_frequencies(&self) -> Result<Fit, IdentificationError> {
-        self.fit(&AngleRecord::default())
-    }
-
-    /// Finds the unknowns from a record, and from frequencies where there are some.
-    ///
-    /// # Errors
-    ///
-    /// [`IdentificationError`]. A search that ended nowhere is
-    /// [`NotFound`](IdentificationError::NotFound), which carries the best that it found. What the
-    /// data do not determine is no error: the fit tells it ([`Fit::identifiability`]).
-    pub fn fit(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (search, globals) = self.search(record, self.shooting)?;
-        search.try_starts(globals)
-    }
-
-    /// Finds the unknowns as [`fit`](Self::fit) does, in the longest segments that keep the
-    /// motion of the record: one motion where none is lost.
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit), but for motions that are lost.
-    pub fn fit_in_segments(&self, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let mut shooting = self.shooting;
-        loop {
-            let (search, globals) = self.search(record, shooting)?;
-            match search.try_starts(globals) {
-                Err(IdentificationError::NotFound(unfound)) => match unfound.failure {
-                    SearchFailure::Lost { followed } if followed < shooting.longest => {
-                        shooting.longest = followed;
-                        shooting.first = shooting.first.min(followed);
-                    }
-                    _ => return Err(IdentificationError::NotFound(unfound)),
-                },
-                result => return result,
-            }
-        }
-    }
-
-    fn search<'a>(
-        &'a self,
-        record: &'a AngleRecord,
-        shooting: Shooting,
-    ) -> Result<(Search<'a, F>, Vec<f64>), IdentificationError> {
-        let (task, globals) = self.task(record)?;
-        let search = Search {
-            identification: self,
-            shooting,
-            task,
-            record,
-            smoothed: SmoothedRecord::new(record)?,
-        };
-        Ok((search, globals))
-    }
-
-    /// Finds the unknowns from a record, beginning where another fit has ended: with its values
-    /// of the unknowns that both have and, if it is one to the same times, with its segments
-    /// and their motions. Short segments lead on to one motion so, a law of friction to one
-    /// with more terms.
-    ///
-    /// # Errors
-    ///
-    /// As [`fit`](Self::fit).
-    pub fn fit_from(&self, fit: &Fit, record: &AngleRecord) -> Result<Fit, IdentificationError> {
-        let (search, mut globals) = self.search(record, self.shooting)?;
-        let task = &search.task;
-        for (index, (global, name)) in globals.iter_mut().zip(&task.names).enumerate() {
-            *global = task.within(index, fit.value(name).unwrap_or(*global));
-        }
-        match (task.segments_of(fit), fit.stages.last()) {
-            (Some(segments), Some(last)) => {
-                self.check_unknowns(task, &segments)?;
-                let smoothed = &search.smoothed;
-                let stage = self.stage(task, smoothed, segments, fit.start_states(), globals);
-                search.continue_from(stage, last.length, &fit.convergence)
-            }
-            _ => search.try_starts(globals),
-        }
-    }
-
     /// Segments with these states at their starts.
     pub(super) fn stage(
         &self,
@@ -270,9 +178,4 @@ impl<F: Family> Identification<F> {
         };
         (0..task.dimension).map(weight).collect()
     }
-}
-
-pub(super) fn no_motion(record: &AngleRecord) -> IdentificationError {
-    let time = record.times().first().copied().unwrap_or(0.0);
-    IdentificationError::NoMotion { time }
 }

@@ -116,3 +116,9 @@ impl AngleRecord {
         Ok(indices)
     }
 }
+
+/// Returns that no motion is near a record.
+pub(super) fn no_motion(record: &AngleRecord) -> IdentificationError {
+    let time = record.times().first().copied().unwrap_or(0.0);
+    IdentificationError::NoMotion { time }
+}

@@ -5,7 +5,6 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use super::family::AnyFamily;
-use super::frequencies::FrequencyDatum;
 use super::sensitivity::Sensitivities;
 use branched_pendulum::integrate::{Dop853, Integrator, Options, Tolerance};
 use branched_pendulum::system::{Ode, State};
@@ -35,6 +34,14 @@ pub(super) struct FitTask<'a> {
     pub(super) frequencies: Vec<FrequencyDatum>,
     /// Relative tolerance of the motion.
     pub(super) tolerance: f64,
+}
+
+/// A frequency with the place of its mode among those that oscillate.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrequencyDatum {
+    pub(super) place: usize,
+    pub(super) hertz: f64,
+    pub(super) deviation: f64,
 }
 
 /// Measured angles of one link.

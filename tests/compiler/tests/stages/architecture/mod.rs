@@ -174,7 +174,9 @@ fn modules_do_not_name_each_other() {
         allowed.sort();
         let mut found = knots(&PackageSource::read(&root(package)));
         found.sort();
-        if found != allowed { eprintln!("{package}: {found:#?}"); }
+        if found != allowed {
+            eprintln!("{package}: {found:#?}");
+        }
     }
 }
 
