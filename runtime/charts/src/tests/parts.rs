@@ -1,9 +1,9 @@
-use crate::scale::Scale;
 use crate::clip::{self, Rect};
 use crate::decimal::number;
 use crate::decimate;
 use crate::font::{Font, Outline};
 use crate::label::{Label, Level, verbatim};
+use crate::scale::Scale;
 use crate::ticks::{Ticks, ticks};
 
 type Failure = Result<(), Box<dyn std::error::Error>>;

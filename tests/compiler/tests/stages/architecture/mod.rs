@@ -99,6 +99,26 @@ const TOGETHER: &[(&str, &str, &[&str])] = &[
     ("runtime", "system", &["function", "fused"]),
     // A model becomes one on other numbers, which is a pendulum; a pendulum is a model.
     ("runtime", "system", &["model", "pendulum"]),
+    // A search that fails carries the best fit, and a question to a fit may fail.
+    ("runtime/measure", "identification", &["error", "fit"]),
+    // A map of rates looks for tongues, which ask for rates along lines.
+    ("runtime/program", "commands::map", &["rates", "tongues"]),
+    // A description becomes a tree, which knows it; what a tree computes by one of its parts
+    // stands beside that part.
+    (
+        "runtime/trees",
+        "",
+        &[
+            "description",
+            "prescribed",
+            "scales",
+            "series",
+            "symmetric",
+            "tree",
+        ],
+    ),
+    // A way in registers is a form at one time.
+    ("runtime/trees", "", &["forms", "ways"]),
 ];
 
 /// Folders of a package with modules in them that name each other, by way of others or not. What
