@@ -8,7 +8,7 @@ use branched_pendulum_data::{Cell, Column};
 
 use crate::Failure;
 use crate::frame::Job;
-use crate::motion::Samples;
+use crate::motion::SampledMotion;
 use crate::subject::Subject;
 
 /// A sector along a motion.
@@ -47,7 +47,7 @@ impl SectorSeries {
 }
 
 /// Returns the sectors along a motion; none for a tree without copies.
-pub fn along(subject: &Subject, samples: &Samples) -> Option<Vec<SectorSeries>> {
+pub fn along(subject: &Subject, samples: &SampledMotion) -> Option<Vec<SectorSeries>> {
     let tree = &subject.tree;
     let symmetric = tree.symmetric().ok()?;
     let mut all: Vec<SectorSeries> = symmetric

@@ -36,7 +36,7 @@ impl MethodArguments {
 
 /// Times, and the state at each of them.
 #[derive(Clone, Debug)]
-pub struct Samples {
+pub struct SampledMotion {
     /// Times, s.
     pub times: Vec<f64>,
     /// States: angles, then angular velocities.
@@ -54,7 +54,7 @@ pub fn sample(
     arguments: &MethodArguments,
     start: &State<f64>,
     times: Vec<f64>,
-) -> Result<Samples, Failure> {
+) -> Result<SampledMotion, Failure> {
     let method = arguments.integrator();
     let system = AbsoluteAngles(&subject.tree);
     let mut states = Vec::with_capacity(times.len());
@@ -62,7 +62,7 @@ pub fn sample(
     let solution = method
         .sample(&system, start, &times, visit)
         .map_err(|error| Failure::Motion(Box::new(error)))?;
-    Ok(Samples {
+    Ok(SampledMotion {
         times,
         states,
         report: solution.report,

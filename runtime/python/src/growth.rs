@@ -1,6 +1,6 @@
 //! Growth of small differences: `Pendulum.growth`.
 
-use branched_pendulum::analysis::growth::{Checked, Grown, GrowthError};
+use branched_pendulum::analysis::growth::{Checked, Grown, Growth, GrowthError};
 use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::ensemble::Ensemble;
 use branched_pendulum::system::{Ode, State};
@@ -40,12 +40,6 @@ fn no_copies(alike: &[Vec<String>]) -> PyErr {
     let text = format!("{} are no copies that start alike", sets.join(" or "));
     PyValueError::new_err(text)
 }
-
-/// Looks in a period of the difference.
-const LOOKS_A_PERIOD: f64 = 32.0;
-
-/// Looks whose states are kept at a time, with the first.
-const KEPT_LOOKS: usize = 257;
 
 /// Growth that is asked for.
 pub(crate) struct GrowthTask {
@@ -99,8 +93,8 @@ impl GrowthTask {
     /// all motions at those of them that are kept.
     fn check_memory(&self, differences: &DifferenceGrowth) -> PyResult<()> {
         let last = self.horizons.last().copied().unwrap_or(0.0);
-        let looks = LOOKS_A_PERIOD * differences.growth().frequency_hz * last;
-        let kept = KEPT_LOOKS.min(looks.max(0.0) as usize + 1);
+        let looks = Growth::LOOKS_A_PERIOD * differences.growth().frequency_hz * last;
+        let kept = (Growth::LOOKS_A_SCALE + 1).min(looks.max(0.0) as usize + 1);
         let numbers = differences.system().dimension() + 1;
         let states = bytes(&[self.starts.len(), kept, numbers], 2);
         let all = bytes(&[looks.max(0.0) as usize], 2).zip(states);

@@ -14,7 +14,7 @@ use crate::budget::{self, SectorSeries};
 use crate::frame::command_line::number;
 use crate::frame::film;
 use crate::frame::{Charts, Job};
-use crate::motion::{MethodArguments, Samples, sample};
+use crate::motion::{MethodArguments, SampledMotion, sample};
 use crate::release::ReleaseArguments;
 use crate::subject::{Subject, TreeArguments};
 
@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let count = (arguments.duration * arguments.rate).round().max(1.0);
     let times = (0..=count as usize).map(|k| k as f64 * arguments.duration / count);
     let samples = sample(&subject, &arguments.method, &start, times.collect())?;
-    let energies = Energies::of(&subject, &samples);
+    let energies = SampledEnergies::of(&subject, &samples);
     let sectors = budget::along(&subject, &samples);
     job.print(&report(arguments, &subject, &samples, &energies))?;
     write(job, &subject, &samples, &energies)?;
@@ -103,7 +103,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 /// Energies of the differences between copies, in words.
-fn differences(samples: &Samples, sectors: &[SectorSeries]) -> String {
+fn differences(samples: &SampledMotion, sectors: &[SectorSeries]) -> String {
     let mut text = String::new();
     for sector in sectors.iter().filter(|sector| sector.name != "in_phase") {
         let most = sector.energies.iter().copied().fold(0.0, f64::max);
@@ -123,15 +123,15 @@ fn differences(samples: &Samples, sectors: &[SectorSeries]) -> String {
 type AtState<'a> = dyn Fn(f64, &[f64], &[f64]) -> f64 + 'a;
 
 /// Energies and powers at every sample.
-struct Energies {
+struct SampledEnergies {
     kinetic: Vec<f64>,
     potential: Vec<f64>,
     friction_power: Vec<f64>,
     drive_power: Vec<f64>,
 }
 
-impl Energies {
-    fn of(subject: &Subject, samples: &Samples) -> Self {
+impl SampledEnergies {
+    fn of(subject: &Subject, samples: &SampledMotion) -> Self {
         let tree = &subject.tree;
         let each = |of: &AtState<'_>| -> Vec<f64> {
             let both = samples.times.iter().zip(&samples.states);
@@ -159,8 +159,8 @@ impl Energies {
 fn report(
     arguments: &Arguments,
     subject: &Subject,
-    samples: &Samples,
-    energies: &Energies,
+    samples: &SampledMotion,
+    energies: &SampledEnergies,
 ) -> String {
     let total = energies.total();
     let (first, last) = (total[0], total[total.len() - 1]);
@@ -197,8 +197,8 @@ fn report(
 fn write(
     job: &Job,
     subject: &Subject,
-    samples: &Samples,
-    energies: &Energies,
+    samples: &SampledMotion,
+    energies: &SampledEnergies,
 ) -> Result<(), Failure> {
     let names = subject.tree.names();
     let mut columns = vec![Column::new("time", "s")];
@@ -212,7 +212,7 @@ fn write(
         columns.push(Column::new(name, "W"));
     }
     job.csv("motion.csv", &columns, |csv| {
-        let Energies {
+        let SampledEnergies {
             kinetic,
             potential,
             friction_power,
@@ -233,8 +233,8 @@ const MOST_LINES: usize = 8;
 fn charts(
     job: &Job,
     subject: &Subject,
-    samples: &Samples,
-    energies: &Energies,
+    samples: &SampledMotion,
+    energies: &SampledEnergies,
 ) -> Result<(), Failure> {
     let times = &samples.times;
     let end = times.last().copied().unwrap_or(0.0);

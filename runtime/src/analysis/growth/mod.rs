@@ -99,12 +99,6 @@ pub struct Grown {
     pub frequency_hz: Checked,
 }
 
-/// Looks at a motion in one period of [`Growth::frequency_hz`].
-const LOOKS_A_PERIOD: f64 = 32.0;
-
-/// Looks after which differences are scaled back: they grow by less than e a look.
-const LOOKS_A_SCALE: usize = 256;
-
 /// Tolerance of the run that is believed over that of the other.
 const FINER: f64 = 0.01;
 
@@ -141,6 +135,13 @@ impl GrowthRun {
 }
 
 impl Growth {
+    /// Looks at a motion in one period of [`frequency_hz`](Self::frequency_hz).
+    pub const LOOKS_A_PERIOD: f64 = 32.0;
+
+    /// Looks after which differences are scaled back: they grow by less than e a look. States at so
+    /// many are kept at a time, with the one before them.
+    pub const LOOKS_A_SCALE: usize = 256;
+
     /// Returns the growth along motions from the given starts, on all cores and in the
     /// lanes of vector registers. A start is a state of its [`TransverseSystem`], as of a
     /// [`TransverseOde`](crate::system::TransverseOde): in-phase angles, differences, in-phase
@@ -351,7 +352,7 @@ impl Growth {
 
     /// Times of the looks: the start, equal steps to each horizon, and the horizons.
     fn looks(&self, start: f64) -> Vec<f64> {
-        let interval = 1.0 / (LOOKS_A_PERIOD * self.frequency_hz);
+        let interval = 1.0 / (Self::LOOKS_A_PERIOD * self.frequency_hz);
         let mut times = vec![start];
         let mut before = 0.0;
         for &horizon in &self.horizons {
@@ -368,8 +369,8 @@ impl Growth {
 /// One of the pieces of the times between which differences are scaled back; each begins where
 /// the one before ends.
 fn scale(times: &[f64], number: usize) -> Option<&[f64]> {
-    let start = number * LOOKS_A_SCALE;
-    let end = (start + LOOKS_A_SCALE + 1).min(times.len());
+    let start = number * Growth::LOOKS_A_SCALE;
+    let end = (start + Growth::LOOKS_A_SCALE + 1).min(times.len());
     (start + 1 < times.len()).then(|| &times[start..end])
 }
 

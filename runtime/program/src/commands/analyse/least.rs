@@ -2,7 +2,7 @@
 
 /// An unknown of a closure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unknown {
+pub struct ClosureUnknown {
     /// Largest size that is looked for.
     pub largest: f64,
     /// Largest change in a step.
@@ -26,7 +26,11 @@ pub fn weights(deviations: impl Iterator<Item = f64>) -> Vec<f64> {
 
 /// The value of an unknown, from 0 on, for which a closure is least by the method of Gauss and
 /// Newton; none where it leads too far.
-pub fn value(unknown: Unknown, weights: &[f64], closure: impl Fn(f64) -> Vec<f64>) -> Option<f64> {
+pub fn value(
+    unknown: ClosureUnknown,
+    weights: &[f64],
+    closure: impl Fn(f64) -> Vec<f64>,
+) -> Option<f64> {
     let mut value = 0.0_f64;
     for _ in 0..STEPS {
         let step = step(weights, &closure(value), &closure(value + unknown.small));
@@ -54,11 +58,11 @@ pub fn step(weights: &[f64], here: &[f64], beside: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Unknown, value, weights};
+    use super::{ClosureUnknown, value, weights};
 
     #[test]
     fn unknowns_are_found_or_out_of_reach() {
-        let unknown = Unknown {
+        let unknown = ClosureUnknown {
             largest: 0.8,
             step: 0.2,
             small: 1e-4,

@@ -35,7 +35,7 @@ use branched_pendulum_data::{Table, TableOptions};
 use crate::Failure;
 use crate::frame::{Job, Progress};
 use crate::measured_file::MeasuredLinks;
-use causes::{Search, Unclosed};
+use causes::{CauseSearch, Unclosed};
 use spectrogram::Spectrogram;
 use verdict::Verdict;
 
@@ -108,7 +108,7 @@ fn judged(
     table: Option<(&Table, &MeasuredLinks)>,
     source: &Source,
     progress: &Progress,
-) -> Result<(Estimate, Verdict, Option<Search>), Failure> {
+) -> Result<(Estimate, Verdict, Option<CauseSearch>), Failure> {
     let draws = Draws {
         count: arguments.draws as usize,
         seed: arguments.seed,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::arguments::Arguments;
-use super::causes::{self, Search};
+use super::causes::{self, CauseSearch};
 use super::estimate::{Estimate, quantity};
 use super::report::{Trust, percent};
 use super::subject::Names;
@@ -68,7 +68,12 @@ impl Verdict {
     }
 
     /// The verdict in words, with what a search for causes found where the budget fails.
-    pub fn words(&self, arguments: &Arguments, names: &Names, search: Option<&Search>) -> String {
+    pub fn words(
+        &self,
+        arguments: &Arguments,
+        names: &Names,
+        search: Option<&CauseSearch>,
+    ) -> String {
         let energy = &names.energy;
         let (bars, allowed) = (self.bars, self.allowed);
         let Some(time) = self.fails_from else {
@@ -115,7 +120,7 @@ impl Verdict {
     }
 
     /// The verdict in numbers.
-    pub fn values(&self, search: Option<&Search>) -> Value {
+    pub fn values(&self, search: Option<&CauseSearch>) -> Value {
         json!({
             "closes": self.closes(),
             "fails_from": self.fails_from,

@@ -8,7 +8,7 @@ use branched_pendulum_charts::{
 
 use super::arguments::Arguments;
 use super::equilibrium::Equilibrium;
-use super::findings::{Findings, Scale};
+use super::findings::{Findings, ScaleState};
 use super::report::name;
 use super::tree::DrivenTree;
 use crate::frame::film;
@@ -44,7 +44,7 @@ pub fn scales(
     equilibrium: Option<&Equilibrium>,
 ) -> Option<Chart> {
     let energies = (0..).zip(&findings.scales).filter_map(|(scale, state)| {
-        let Scale::Awake(average) = state else {
+        let ScaleState::Awake(average) = state else {
             return None;
         };
         let freedoms = driven.degrees_of_freedom(scale) as f64;

@@ -41,7 +41,7 @@ pub enum Balance {
 
 /// The state of a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
+pub enum ScaleState {
     /// Energy of the scale, J, in the steady state.
     Awake(Average),
     /// It hardly moves: its mean energy, J.
@@ -85,7 +85,7 @@ pub struct Findings {
     /// Drift of the energy after the transient.
     pub drift: Result<Drift, StatisticsError>,
     /// The scales, from the means on.
-    pub scales: Vec<Scale>,
+    pub scales: Vec<ScaleState>,
     /// Power of the motor, W.
     pub input: Result<Average, StatisticsError>,
     /// Power of all friction, W, positive.
@@ -103,7 +103,7 @@ pub struct Findings {
 impl Findings {
     /// Evaluates the windows of all starts.
     pub fn new(driven: &DrivenTree, starts: &[Followed]) -> Self {
-        let series = Series {
+        let series = LaterWindows {
             scales: driven.generations(),
             starts,
             first: 0,
@@ -115,7 +115,7 @@ impl Findings {
             .map(|window| course.iter().map(|energies| energies[window]).sum())
             .collect();
         let transient = transient(&total);
-        let series = Series {
+        let series = LaterWindows {
             // The second half of what has not settled is shown, and called so.
             first: transient.unwrap_or(series.windows() / 2),
             ..series
@@ -129,14 +129,14 @@ impl Findings {
         let scales = all.clone().map(|scale| {
             let mean = series.mean(scale);
             if mean <= ASLEEP * per_mean * driven.degrees_of_freedom(scale) as f64 {
-                return Scale::Asleep(mean);
+                return ScaleState::Asleep(mean);
             }
             match Average::of(&of(Quantity::Energy, scale..scale + 1, 1.0)) {
-                Ok(average) => Scale::Awake(average),
-                Err(error) => Scale::Unsettled(error),
+                Ok(average) => ScaleState::Awake(average),
+                Err(error) => ScaleState::Unsettled(error),
             }
         });
-        let scales: Vec<Scale> = scales.collect();
+        let scales: Vec<ScaleState> = scales.collect();
         let mut densities = vec![Density::default(); series.scales - 1];
         for start in starts {
             for (all, own) in densities.iter_mut().zip(&start.densities) {
@@ -217,13 +217,13 @@ fn at(row: &[f64], scale: usize, quantity: Quantity) -> f64 {
 
 /// Windows of the starts from one on.
 #[derive(Clone, Copy)]
-struct Series<'a> {
+struct LaterWindows<'a> {
     scales: usize,
     starts: &'a [Followed],
     first: usize,
 }
 
-impl Series<'_> {
+impl LaterWindows<'_> {
     fn windows(&self) -> usize {
         let numbers = self.starts.first().map_or(0, |start| start.windows.len());
         numbers / (QUANTITIES * self.scales)
@@ -274,13 +274,17 @@ fn shape(starts: &[Followed], flux: usize, of: impl Fn(Moments) -> f64) -> Optio
 
 /// The law E/n ∝ ℓ^p of the differences that are awake, ℓ the length of the oldest links that take
 /// part, if there are three.
-fn power_law(driven: &DrivenTree, scales: &[Scale], series: &Series<'_>) -> Option<PowerLaw> {
+fn power_law(
+    driven: &DrivenTree,
+    scales: &[ScaleState],
+    series: &LaterWindows<'_>,
+) -> Option<PowerLaw> {
     let awake: Vec<(usize, Average)> = scales
         .iter()
         .enumerate()
         .skip(1)
         .filter_map(|(scale, state)| match state {
-            Scale::Awake(average) => Some((scale, *average)),
+            ScaleState::Awake(average) => Some((scale, *average)),
             _ => None,
         })
         .collect();

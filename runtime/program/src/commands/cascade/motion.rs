@@ -119,7 +119,7 @@ struct WindowMotion<'a> {
 }
 
 /// A state at the end of a window, and the sums over it.
-type Moved = (Vec<f64>, Window);
+type Moved = (Vec<f64>, WindowSums);
 
 impl WindowMotion<'_> {
     /// Moves starts through the window, in lanes: their states at its end, and sums over it.
@@ -145,7 +145,7 @@ impl WindowMotion<'_> {
         let moved = alone.sample_models_in_lanes(&method, &releases, &times);
         let mut budgets = StateBudgets::new(self);
         let sum = |(samples, motor): (Samples<f64>, &Motor)| {
-            let mut sums = Window::new(self.driven.generations());
+            let mut sums = WindowSums::new(self.driven.generations());
             for (&time, state) in times.iter().zip(samples.states()) {
                 sums.add(budgets.at(time, state, motor), self.counts);
             }
@@ -221,13 +221,13 @@ fn energy(starts: &[Followed], scales: usize) -> f64 {
 
 /// Sums over one window of one start.
 #[derive(Clone)]
-struct Window {
+struct WindowSums {
     sums: Vec<[f64; QUANTITIES]>,
     samples: f64,
     densities: Vec<Density>,
 }
 
-impl Window {
+impl WindowSums {
     fn new(scales: usize) -> Self {
         Self {
             sums: vec![[0.0; QUANTITIES]; scales],

@@ -5,7 +5,7 @@ use branched_pendulum_data::Column;
 
 use super::arguments::Arguments;
 use super::equilibrium::{Equilibrium, WAYS};
-use super::findings::{Balance, Findings, Scale};
+use super::findings::{Balance, Findings, ScaleState};
 use super::motion::{Followed, QUANTITIES};
 use super::tree::DrivenTree;
 use crate::Failure;
@@ -86,7 +86,7 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
         let freedoms = driven.degrees_of_freedom(scale);
         text += &format!("| {} | {freedoms} |", name(scale));
         match state {
-            Scale::Awake(energy) => {
+            ScaleState::Awake(energy) => {
                 text += &format!(
                     " {:.4e} | {:.1} % | {:.4e} | {:.2} |\n",
                     energy.mean,
@@ -95,10 +95,10 @@ fn energies(arguments: &Arguments, driven: &DrivenTree, findings: &Findings) -> 
                     energy.correlation_time / arguments.frequency
                 )
             }
-            Scale::Asleep(energy) => {
+            ScaleState::Asleep(energy) => {
                 text += &format!(" asleep ({energy:.0e}) | | | |\n");
             }
-            Scale::Unsettled(error) => {
+            ScaleState::Unsettled(error) => {
                 text += " – | | | | |\n";
                 missing.add(format!("scale {scale}"), error);
             }
@@ -155,7 +155,7 @@ pub fn equilibrium(driven: &DrivenTree, findings: &Findings, own: &Equilibrium) 
             None => String::new(),
         });
         let over = match (state, own.scales[0].get(scale)) {
-            (Scale::Awake(energy), Some(own)) => format!("{:.3}", energy.mean / own.value),
+            (ScaleState::Awake(energy), Some(own)) => format!("{:.3}", energy.mean / own.value),
             _ => String::new(),
         };
         let freedoms = driven.degrees_of_freedom(scale) as f64;
@@ -335,8 +335,8 @@ pub fn write_scales(
             let bar = |average: &Average| [average.mean, average.error];
             let none = [f64::NAN; 2];
             let energy = match state {
-                Scale::Awake(average) => bar(average),
-                Scale::Asleep(_) | Scale::Unsettled(_) => none,
+                ScaleState::Awake(average) => bar(average),
+                ScaleState::Asleep(_) | ScaleState::Unsettled(_) => none,
             };
             let flux = scale
                 .checked_sub(1)

@@ -178,7 +178,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     if scans.is_empty() {
         return Ok(());
     }
-    let report = report::Report {
+    let report = report::GrowthReport {
         arguments,
         name: &subject.name,
         link: &subject.tree.names()[scanned[0]],

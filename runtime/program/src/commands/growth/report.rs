@@ -17,7 +17,7 @@ const MOST_WINDOWS: usize = 12;
 const SHOWN: [f64; 2] = [0.8, 1e6];
 
 /// What is said of all scans.
-pub(super) struct Report<'a> {
+pub(super) struct GrowthReport<'a> {
     pub(super) arguments: &'a Arguments,
     /// Name of the tree.
     pub(super) name: &'a str,
@@ -26,7 +26,7 @@ pub(super) struct Report<'a> {
     pub(super) scans: &'a [Scan],
 }
 
-impl Report<'_> {
+impl GrowthReport<'_> {
     pub(super) fn text(&self) -> String {
         let mut text = format!(
             "{}: growth G(T) of a small difference between copies, released at {} angles\n\

@@ -12,9 +12,9 @@ use crate::Failure;
 const CURVE: Color = Color::rgb(225, 70, 60);
 
 /// The potential energy Σ G (1 − cos θ) + F sin θ of a tree without springs, in J.
-struct Gravity(Vec<[f64; 2]>);
+struct GravityPotential(Vec<[f64; 2]>);
 
-impl Gravity {
+impl GravityPotential {
     /// Returns the gravity of a tree; none where its potential energy is not of that form.
     fn of(tree: &PendulumTree) -> Option<Self> {
         use std::f64::consts::{FRAC_PI_2, PI};
@@ -65,7 +65,7 @@ pub(super) fn excess(
 ) -> Result<Option<Vec<f64>>, Failure> {
     let trees = plane.trees_at(points)?;
     let excess = points.iter().zip(trees).map(|(point, tree)| {
-        let gravity = Gravity::of(&tree).filter(|_| tree.drive(0.0).is_none())?;
+        let gravity = GravityPotential::of(&tree).filter(|_| tree.drive(0.0).is_none())?;
         let State { values, .. } = plane.start_at(point);
         let (theta, omega) = values.split_at(tree.links());
         let rest = tree.potential_energy_of(&vec![0.0; tree.links()]);

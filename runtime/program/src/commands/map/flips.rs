@@ -37,7 +37,7 @@ pub(super) struct Flips<'a> {
 }
 
 /// A tree with its start.
-type Release<'a> = (AbsoluteAngles<&'a PendulumTree>, State<f64>);
+type TreeStart<'a> = (AbsoluteAngles<&'a PendulumTree>, State<f64>);
 
 /// The first flip of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +84,7 @@ impl Flips<'_> {
     /// not be followed.
     fn of_releases(
         &self,
-        releases: &[Release<'_>],
+        releases: &[TreeStart<'_>],
         tolerance: f64,
     ) -> Vec<Option<Option<(f64, usize)>>> {
         let functions: Vec<_> = self
@@ -133,7 +133,7 @@ impl Question for Flips<'_> {
                     self.plane.start_at(&points[place]),
                 )
             };
-            let releases: Vec<Release<'_>> = places().map(release).collect();
+            let releases: Vec<TreeStart<'_>> = places().map(release).collect();
             let [coarse, fine] = [self.tolerance, FINER * self.tolerance]
                 .map(|tolerance| self.of_releases(&releases, tolerance));
             for (place, (coarse, fine)) in places().zip(coarse.into_iter().zip(fine)) {

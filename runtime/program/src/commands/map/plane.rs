@@ -81,12 +81,12 @@ impl AxisValues {
 }
 
 /// What the values of an axis are of.
-enum Quantity {
+enum AxisQuantity {
     Parameter(String),
     Angles(Vec<usize>),
 }
 
-impl Quantity {
+impl AxisQuantity {
     fn of(subject: &Subject, axis: &AxisValues) -> Result<Self, Failure> {
         if axis.name.contains('+') {
             let links = axis.name.split('+');
@@ -135,7 +135,7 @@ pub(super) struct MapPlane<'a> {
     pub(super) subject: &'a Subject,
     start: State<f64>,
     axes: [&'a AxisValues; 2],
-    quantities: [Quantity; 2],
+    quantities: [AxisQuantity; 2],
 }
 
 impl<'a> MapPlane<'a> {
@@ -148,7 +148,7 @@ impl<'a> MapPlane<'a> {
         start: State<f64>,
         axes: [&'a AxisValues; 2],
     ) -> Result<Self, Failure> {
-        let [x, y] = axes.map(|axis| Quantity::of(subject, axis));
+        let [x, y] = axes.map(|axis| AxisQuantity::of(subject, axis));
         Ok(Self {
             subject,
             start,
@@ -197,15 +197,15 @@ impl<'a> MapPlane<'a> {
     /// Returns a value of an axis with its unit.
     pub(super) fn words(&self, axis: usize, value: f64) -> String {
         match self.quantities[axis] {
-            Quantity::Parameter(_) => value.to_string(),
-            Quantity::Angles(_) => format!("{value}°"),
+            AxisQuantity::Parameter(_) => value.to_string(),
+            AxisQuantity::Angles(_) => format!("{value}°"),
         }
     }
 
     /// Returns the links whose angles the axes are; none where one is a parameter.
     pub(super) fn links(&self) -> Option<[&[usize]; 2]> {
         match &self.quantities {
-            [Quantity::Angles(x), Quantity::Angles(y)] => Some([x, y]),
+            [AxisQuantity::Angles(x), AxisQuantity::Angles(y)] => Some([x, y]),
             _ => None,
         }
     }
@@ -233,7 +233,7 @@ impl<'a> MapPlane<'a> {
     pub(super) fn tree_at(&self, point: &Point) -> Result<PendulumTree, Failure> {
         let mut tree = self.subject.tree.clone();
         for (quantity, &value) in self.quantities.iter().zip(point) {
-            if let Quantity::Parameter(name) = quantity {
+            if let AxisQuantity::Parameter(name) = quantity {
                 let changed = tree.with(name, value);
                 tree = changed.map_err(|source| Failure::tree(&self.subject.name, source))?;
             }
@@ -250,7 +250,7 @@ impl<'a> MapPlane<'a> {
         let tree = |point: &Point| {
             let both = self.quantities.iter().zip(point);
             let parameters =
-                both.filter(|(quantity, _)| matches!(quantity, Quantity::Parameter(_)));
+                both.filter(|(quantity, _)| matches!(quantity, AxisQuantity::Parameter(_)));
             let parameters = parameters.map(|(_, value)| value.to_bits()).collect();
             Ok(match known.entry(parameters) {
                 Entry::Occupied(own) => own.get().clone(),
@@ -264,7 +264,7 @@ impl<'a> MapPlane<'a> {
     pub(super) fn start_at(&self, point: &Point) -> State<f64> {
         let mut start = self.start.clone();
         for (quantity, &value) in self.quantities.iter().zip(point) {
-            if let Quantity::Angles(links) = quantity {
+            if let AxisQuantity::Angles(links) = quantity {
                 for link in links {
                     start.values[*link] = value.to_radians();
                 }
@@ -304,8 +304,8 @@ impl<'a> MapPlane<'a> {
     fn label(&self, axis: usize) -> String {
         let name = verbatim(&self.axes[axis].name);
         match self.quantities[axis] {
-            Quantity::Parameter(_) => name,
-            Quantity::Angles(_) => format!("angle of {name} at the release (°)"),
+            AxisQuantity::Parameter(_) => name,
+            AxisQuantity::Angles(_) => format!("angle of {name} at the release (°)"),
         }
     }
 }

@@ -89,7 +89,7 @@ pub(super) fn run(
         None => true,
     };
     let curves = phase_average.into_iter().zip(along);
-    let study = Study {
+    let study = AmplitudeStudy {
         arguments,
         name: &subject.name,
         curves: curves.filter(|(average, _)| is_asked(average)).collect(),
@@ -101,7 +101,7 @@ pub(super) fn run(
 }
 
 /// Errors and costs of the forms of W of one tree.
-struct Study<'a> {
+struct AmplitudeStudy<'a> {
     arguments: &'a Arguments,
     /// Name of the tree.
     name: &'a str,
@@ -110,7 +110,7 @@ struct Study<'a> {
     costs: Costs,
 }
 
-impl Study<'_> {
+impl AmplitudeStudy<'_> {
     fn text(&self) -> String {
         let samples = self.curves.first().map_or(0, |(_, along)| {
             along.points.iter().map(|point| point.states).sum::<u64>()

@@ -138,7 +138,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         }
         rows.push(row);
     }
-    let series = Series {
+    let series = TransferSeries {
         title: format!("{}: W into {}", subject.name, names[into]),
         times: &samples.times,
         rows: &rows,
@@ -149,13 +149,13 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
 }
 
 /// W along a motion, by every form.
-struct Series<'a> {
+struct TransferSeries<'a> {
     title: String,
     times: &'a [f64],
     rows: &'a [[Transfer<f64>; FORMS.len()]],
 }
 
-impl Series<'_> {
+impl TransferSeries<'_> {
     fn column(&self, form: usize) -> Vec<f64> {
         self.rows.iter().map(|row| row[form].total()).collect()
     }

@@ -47,7 +47,7 @@ impl fmt::Display for Cause {
 
 /// What became of a search for causes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Search {
+pub struct CauseSearch {
     /// The causes that close the budget, the one that does it best first.
     pub closing: Vec<Cause>,
     /// Kinds that were tried.
@@ -77,7 +77,7 @@ impl Unclosed<'_> {
     ///
     /// # Errors
     /// [`Failure::Smoothing`] of the record as it was read.
-    pub fn search(&self, progress: &Progress) -> Result<Search, Failure> {
+    pub fn search(&self, progress: &Progress) -> Result<CauseSearch, Failure> {
         progress.begin("usual causes");
         let measured = Measured {
             subject: self.subject,
@@ -90,9 +90,9 @@ impl Unclosed<'_> {
         };
         causes.extend(self.tilt(&measured, &smooth));
         let wrong = wrong_pictures::stretches(&measured);
-        let mut search = Search {
+        let mut search = CauseSearch {
             leaps: wrong.first().cloned().unwrap_or_default(),
-            ..Search::default()
+            ..CauseSearch::default()
         };
         causes.extend(self.wrong_pictures(wrong));
         let mut closing = Vec::new();

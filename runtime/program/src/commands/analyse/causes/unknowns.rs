@@ -1,7 +1,7 @@
 //! Causes with an unknown of their own, which the closure tells.
 
 use super::super::estimate::{Estimate, Measured, quantity};
-use super::super::least::{self, Unknown};
+use super::super::least::{self, ClosureUnknown};
 use super::super::verdict::Verdict;
 use super::{Cause, FRICTION, Unclosed};
 use crate::measured_file::MeasuredFile;
@@ -9,7 +9,7 @@ use crate::measured_file::MeasuredFile;
 impl Unclosed<'_> {
     /// A camera or an encoder that is not plumb, by the angle that comes nearest to closing.
     pub(super) fn tilt(&self, measured: &Measured<'_>, smooth: &Estimate) -> Option<Cause> {
-        let unknown = Unknown {
+        let unknown = ClosureUnknown {
             largest: 0.8,
             step: 0.2,
             small: 1e-4,
