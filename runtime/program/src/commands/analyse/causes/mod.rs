@@ -1,6 +1,7 @@
 //! Usual causes of a budget that does not close: a table that is to be read in another way.
 
 mod unknowns;
+mod words;
 
 use std::fmt;
 
