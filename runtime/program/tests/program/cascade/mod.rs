@@ -320,7 +320,7 @@ fn other_trees_are_followed_or_refused() {
 #[test]
 fn mistakes_are_named() {
     for (line, message) in [
-        ("--generations 11", "11 is not in 2..=10"),
+        ("--generations 17", "17 is not in 2..=16"),
         ("--generations 3 --tree paper", "leave them or `--tree` out"),
         ("--torque NaN", "must be from 0 to 100 N m"),
         ("--bandwidth 1", "at most 0.9 of the frequency"),
