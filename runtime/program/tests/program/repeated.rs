@@ -36,7 +36,7 @@ fn a_record_repeats_the_run() {
     assert!(chart.contains("width=\"85mm\""), "{chart:.200}");
     // They show a part of the time, of which the table has all.
     assert!(chart.contains(">0.6</text>") && !chart.contains(">0.8</text>"));
-    assert!(first.lines().last().unwrap().starts_with("1,"));
+    assert!(first.lines().last().unwrap().starts_with("1.0,"));
     for format in ["pdf", "png"] {
         let file = folder.0.join(format!("results/motion.{format}"));
         assert!(std::fs::metadata(file).unwrap().len() > 1000);
