@@ -17,7 +17,7 @@ use super::equations::LinkEquations;
 use super::generation::Generation;
 use super::memory::{Room, Sizes, take};
 use super::output::Output;
-use super::partition::{Partition, Policy};
+use super::partition::Policy;
 use super::root::RootDrive;
 use super::skeleton::Skeleton;
 use super::sweep::{Passes, Sweep};
@@ -75,18 +75,35 @@ pub(super) struct ActingOnStates<'a, V> {
 pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
     tree: &Skeleton<T>,
     ActingOnStates { drive, torques }: ActingOnStates<'_, V>,
-    room: &mut [V],
+    mut room: &mut [V],
     theta: impl Fn(usize) -> V,
     omega: impl Fn(usize) -> V,
     outside: impl Fn(usize) -> [V; 2],
     mut alpha: impl FnMut(usize, V),
 ) {
     let plan = &tree.states;
-    // Where the equations say it, order and parents are not compiled: of generations.
-    let (order, parents) = match const { E::COPIES.is_empty() } {
+    let sizes = const { Sizes::of::<E, V>() };
+    let by_link = const { E::COPIES.is_empty() };
+    let top_room = Room::new(&plan.top(), sizes, 1);
+    let top_lasting = take(&mut room, top_room.lasting());
+    let top_passing = take(&mut room, top_room.passing());
+    let above = plan.top().generations.last();
+    let slot = above.map_or(0, |generation| generation.slot);
+
+    // Where the equations say it, what a tree is without is not compiled: order and
+    // parents if it has generations, blocks if these are small.
+    let (order, parents) = match by_link {
         true => (&*plan.order, &*plan.parents),
         false => (&[][..], &[][..]),
     };
+    let partition = match links(E::COPIES) > Policy::STATES.whole {
+        true => plan.partitions.first(),
+        false => None,
+    };
+    let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
+    let blocks = partition.as_ref().map_or(0, |(all, _)| all.count);
+    let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
+    let passing = take(&mut room, passing);
     let motions = StateMotions {
         theta,
         omega,
@@ -95,124 +112,55 @@ pub(super) fn accelerations<E: LinkEquations, T: Scalar, V: Simd<T>>(
         order,
         parents,
     };
-    let above = plan.top().generations.last();
-    let slot = above.map_or(0, |generation| generation.slot);
-    let mut blocks = Blocks::new::<E>(tree, drive, room);
-    let subtrees = blocks.subtrees();
-    // Subtrees up, the top up and down, subtrees down: one body for all, which is compiled
+    // Blocks up, the top up and down, blocks down: one body for all, which is compiled
     // with every set of equations for every register.
-    for step in 0..=2 * subtrees {
-        let [rises, falls] = [step <= subtrees, step >= subtrees];
-        let index = step.min(2 * subtrees - step);
-        let Some((mut own, mut top)) = blocks.at(index) else {
-            return;
+    for step in 0..=2 * blocks {
+        let [rises, falls] = [step <= blocks, step >= blocks];
+        let index = step.min(2 * blocks - step);
+        let memory = [&mut *top_lasting, &mut *top_passing];
+        let mut top = sweep(sizes, tree, plan.top(), &top_room, memory);
+        let (mut own, mut top) = match &partition {
+            Some((partition, own)) if index < blocks => {
+                let start = index * own.lasting();
+                let Some(lasting) = room.get_mut(start..start + own.lasting()) else {
+                    return;
+                };
+                let block = partition.window(index);
+                let block = sweep(sizes, tree, block, own, [lasting, &mut *passing]);
+                (block, Some(top))
+            }
+            _ => {
+                top.torque = drive.map(|drive| drive.torque);
+                let root = tree.root.map(V::splat);
+                top.root = Some(RootDrive::above(root, drive));
+                (top, None)
+            }
         };
         if rises {
-            motions.rise::<E, T>(&mut own);
+            motions.prepare::<E, T>(&mut own);
         }
         if let (Some(top), true) = (&mut top, falls) {
             hand_over(top, slot + index, &mut own, 0, 2);
         }
         let start = own.block.start;
-        if let (Some(view), true) = (own.view(), falls) {
-            let alpha = &mut alpha;
-            Passes::<E, T, V, V>::of(&view).down(&mut Told {
-                alpha,
-                start,
-                order,
-                equations: PhantomData::<E>,
-            });
+        if let Some(view) = own.view() {
+            let passes = Passes::<E, T, V, V>::of(&view);
+            if rises && !by_link {
+                passes.up();
+            }
+            if falls {
+                let alpha = &mut alpha;
+                passes.down(&mut Told {
+                    alpha,
+                    start,
+                    order,
+                    equations: PhantomData::<E>,
+                });
+            }
         }
         if let (Some(top), true) = (&mut top, rises) {
-            let count = own.storage.sizes.responses;
+            let count = sizes.responses;
             hand_over(&mut own, 0, top, slot + index, count);
-        }
-    }
-}
-
-/// A subtree and the top; or the top alone.
-type AndTop<'a, T, V> = (Sweep<'a, T, V>, Option<Sweep<'a, T, V>>);
-
-/// The blocks of a tree: its subtrees, if it is taken apart, and the top, with room for
-/// the numbers of all.
-struct Blocks<'a, T, V> {
-    tree: &'a Skeleton<T>,
-    sizes: Sizes,
-    drive: Option<RootDrive<V>>,
-    top: Room,
-    /// What lasts of the top, and what passes.
-    memory_of_top: [&'a mut [V]; 2],
-    partition: Option<(&'a Partition, Room)>,
-    /// What lasts of each subtree, one after the other.
-    lasting: &'a mut [V],
-    /// What passes of any of them.
-    passing: &'a mut [V],
-}
-
-impl<'a, T: Scalar, V: Simd<T>> Blocks<'a, T, V> {
-    #[inline(always)]
-    fn new<E: LinkEquations>(
-        tree: &'a Skeleton<T>,
-        drive: Option<RootDrive<V>>,
-        mut room: &'a mut [V],
-    ) -> Self {
-        let sizes = const { Sizes::of::<E, V>() };
-        let top = Room::new(&tree.states.top(), sizes, 1);
-        let lasting = take(&mut room, top.lasting());
-        let memory_of_top = [lasting, take(&mut room, top.passing())];
-        // Where the equations say that the tree is small, subtrees are not compiled.
-        let partition = match links(E::COPIES) > Policy::STATES.whole {
-            true => tree.states.partitions.first(),
-            false => None,
-        };
-        let partition = partition.map(|all| (all, Room::new(&all.largest(), sizes, 1)));
-        let passing = partition.as_ref().map_or(0, |(_, room)| room.passing());
-        let passing = take(&mut room, passing);
-        Self {
-            tree,
-            sizes,
-            drive,
-            top,
-            memory_of_top,
-            partition,
-            lasting: room,
-            passing,
-        }
-    }
-
-    /// Returns how many subtrees there are.
-    #[inline(always)]
-    fn subtrees(&self) -> usize {
-        self.partition.as_ref().map_or(0, |(all, _)| all.count)
-    }
-
-    /// Returns a subtree and the top, or behind the last subtree the top alone; none
-    /// where the room is too small.
-    #[inline(always)]
-    fn at(&mut self, index: usize) -> Option<AndTop<'_, T, V>> {
-        let (tree, sizes) = (self.tree, self.sizes);
-        let [lasting, passing] = &mut self.memory_of_top;
-        let mut top = sweep(
-            sizes,
-            tree,
-            tree.states.top(),
-            &self.top,
-            [&mut **lasting, &mut **passing],
-        );
-        match &self.partition {
-            Some((partition, room)) if index < partition.count => {
-                let start = index * room.lasting();
-                let lasting = self.lasting.get_mut(start..start + room.lasting())?;
-                let block = partition.window(index);
-                let own = sweep(sizes, tree, block, room, [lasting, &mut *self.passing]);
-                Some((own, Some(top)))
-            }
-            _ => {
-                top.torque = self.drive.map(|drive| drive.torque);
-                let root = tree.root.map(V::splat);
-                top.root = Some(RootDrive::above(root, self.drive));
-                Some((top, None))
-            }
         }
     }
 }
@@ -288,25 +236,24 @@ where
     R: Fn(usize) -> V,
     O: Fn(usize) -> [V; 2],
 {
-    /// Goes up through a block: links of any shape subtree by subtree.
+    /// Forms the motions of a block, and goes up through links of any shape with them, subtree
+    /// by subtree.
     #[inline(always)]
-    fn rise<E: LinkEquations, T: Scalar>(&self, sweep: &mut Sweep<'_, T, V>)
+    fn prepare<E: LinkEquations, T: Scalar>(&self, sweep: &mut Sweep<'_, T, V>)
     where
         V: Simd<T>,
     {
-        if const { E::COPIES.is_empty() } {
-            for some in sweep.block.strips.subtrees().iter().rev() {
-                let links = [Generation::of_links(some.links.clone())];
-                self.form::<E, T>(sweep, &links);
-                if let Some(view) = sweep.view() {
-                    let passes = Passes::<E, T, V, V>::of(&view);
-                    passes.within(some.strips.clone()).up();
-                }
-            }
-        } else {
-            self.form::<E, T>(sweep, sweep.block.own_generations());
+        if !const { E::COPIES.is_empty() } {
+            let generations = sweep.block.own_generations();
+            self.form::<E, T>(sweep, generations);
+            return;
+        }
+        for some in sweep.block.strips.subtrees().iter().rev() {
+            let links = [Generation::of_links(some.links.clone())];
+            self.form::<E, T>(sweep, &links);
             if let Some(view) = sweep.view() {
-                Passes::<E, T, V, V>::of(&view).up();
+                let passes = Passes::<E, T, V, V>::of(&view);
+                passes.within(some.strips.clone()).up();
             }
         }
     }
