@@ -184,7 +184,7 @@ fn command<A: Arguments>() -> Command {
         .long(FIGURE_WIDTH)
         .value_name("MM")
         .value_parser(millimetres)
-        .help("width of charts as figures of a paper, 66 to 400 mm, with type of 7 and 8\npoints: 85mm is a column of many journals");
+        .help("width of charts as figures of a paper, 66 to 400 mm, with type\nof 7 and 8 points: 85mm is a column of many journals");
     let show = Arg::new(SHOW)
         .long(SHOW)
         .value_name("FROM:TO")
