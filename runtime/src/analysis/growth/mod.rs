@@ -165,8 +165,8 @@ impl Growth {
     }
 
     /// Returns the same of systems that differ in their constants, each with a frequency of its
-    /// own (Hz) in place of [`frequency_hz`](Self::frequency_hz). The result of a release is that
-    /// of [`in_lanes`](Self::in_lanes) with its frequency.
+    /// own (Hz) in place of [`frequency_hz`](Self::frequency_hz), which serves releases behind the last
+    /// frequency. The result of a release is that of [`in_lanes`](Self::in_lanes) with its frequency.
     ///
     /// # Errors
     ///
