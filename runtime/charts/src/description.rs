@@ -253,7 +253,7 @@ impl Panel {
 
     /// Adds a horizontal line at y = 0. The y axis extends to it, unless its
     /// range is given: then a line outside the range is left out. On a
-    /// logarithmic axis it is [`ChartError::MarkerLine`].
+    /// logarithmic axis it is [`ChartError::MarkerLine`](crate::ChartError::MarkerLine).
     pub fn zero_line(mut self) -> Self {
         self.zero_line = true;
         self

@@ -49,6 +49,12 @@ const MOST_NAMES: usize = 8;
 /// `spring = k, rest = r`        a spring in the pivot, N m/rad, at rest at r (rad)
 /// `between(a, b, spring = k,    a spring and friction on the difference of two links' angles;
 /// friction = c)`                `siblings(child, ...)` between all copies of a node under one link
+/// `between(a, b, at = p, ...)`  the same along the line between points of the links: `spring`
+///                               (N/m), `rest` (m), `friction` (N s/m), or a `repulsion` A (J mⁿ)
+///                               with its `exponent` n; `guy(a, at = p, to = (x, y), ...)` to a
+///                               peg, `siblings(child, at = p, ...)` between copies
+/// `in_phase(child)`             copies that move alike, as one link; `locked(arm, 0.3)` a link
+///                               that does not turn against its parent, at that angle (rad)
 /// `drive(y = a * cos(w * t))`   motion of the root's pivot, `x` and `y` (m), or a `torque`
 ///                               (N m) on the root, as functions of the time `t` (s)
 /// ============================  ======================================================
