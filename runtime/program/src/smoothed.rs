@@ -15,7 +15,7 @@ pub type Motion = [Vec<f64>; 2];
 
 /// Measured angles, or symmetric coordinates of them.
 #[derive(Clone, Copy, Debug)]
-pub struct AngleRecord<'a> {
+pub struct AngleRows<'a> {
     /// Times, s.
     pub times: &'a [f64],
     /// Angles at every time, rad: as many as there are links.
@@ -55,7 +55,7 @@ pub struct Disturbances {
 /// # Errors
 /// [`SmoothingError`].
 pub fn one_by_one(
-    record: AngleRecord<'_>,
+    record: AngleRows<'_>,
     smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
 ) -> Result<Smoothed, SmoothingError> {
     let links = record.angles.first().map_or(0, Vec::len);
@@ -96,7 +96,7 @@ impl<L: Linearised<f64>> SmoothingEquations<'_, L> {
     ///
     /// # Errors
     /// [`Failure::Smoothing`], and [`Failure::Lacking`] for more links than the equations of six.
-    pub fn smooth(&self, record: AngleRecord<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
+    pub fn smooth(&self, record: AngleRows<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
         let smoothed = match record.angles.first().map_or(0, Vec::len) {
             1 => self.of_links::<1, 2>(record, guess),
             2 => self.of_links::<2, 4>(record, guess),
@@ -119,7 +119,7 @@ impl<L: Linearised<f64>> SmoothingEquations<'_, L> {
     /// Of N links, D = 2N.
     fn of_links<const N: usize, const D: usize>(
         &self,
-        record: AngleRecord<'_>,
+        record: AngleRows<'_>,
         guess: &[Motion],
     ) -> Result<Smoothed, SmoothingError> {
         let row = |values: &[f64]| -> [f64; N] { std::array::from_fn(|of| values[of]) };

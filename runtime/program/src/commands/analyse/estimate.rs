@@ -10,7 +10,7 @@ use rand_xoshiro::rand_core::SeedableRng;
 
 use super::subject::MeasuredTree;
 use crate::Failure;
-use crate::smoothed::{AngleRecord, Disturbances, Motion, Smoothed, one_by_one};
+use crate::smoothed::{AngleRows, Disturbances, Motion, Smoothed, one_by_one};
 
 /// Indices of the quantities in [`Estimate::energies`].
 pub mod quantity {
@@ -61,7 +61,7 @@ pub struct Measured<'a> {
     /// The pendulum.
     pub subject: &'a MeasuredTree,
     /// The angles.
-    pub record: AngleRecord<'a>,
+    pub record: AngleRows<'a>,
 }
 
 impl Measured<'_> {
@@ -119,7 +119,7 @@ impl Measured<'_> {
             }
         };
         let coordinates: Vec<Vec<Option<f64>>> = self.record.angles.iter().map(whole).collect();
-        let record = AngleRecord {
+        let record = AngleRows {
             angles: &coordinates,
             ..self.record
         };

@@ -7,7 +7,7 @@ use super::camera::{Camera, Truth, motion};
 use super::subject::MeasuredTree;
 use crate::Failure;
 use crate::measured_file::MeasuredLinks;
-use crate::smoothed::AngleRecord;
+use crate::smoothed::AngleRows;
 use crate::subject::Subject;
 
 /// Distance of the two dots of a link before the simulated camera, m.
@@ -89,8 +89,8 @@ impl Source {
     }
 
     /// The angles with their times.
-    pub fn record(&self) -> AngleRecord<'_> {
-        AngleRecord {
+    pub fn record(&self) -> AngleRows<'_> {
+        AngleRows {
             times: &self.times,
             angles: &self.angles,
         }

@@ -11,7 +11,7 @@ use branched_pendulum_charts::verbatim;
 use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
-use crate::smoothed::{AngleRecord, Motion, Smoothed, SmoothingEquations};
+use crate::smoothed::{AngleRows, Motion, Smoothed, SmoothingEquations};
 use crate::subject::Subject;
 
 /// Names of what is told about a tree.
@@ -330,7 +330,7 @@ impl MeasuredTree {
     ///
     /// # Errors
     /// As [`SmoothingEquations::smooth`].
-    pub fn by_model(&self, record: AngleRecord<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
+    pub fn by_model(&self, record: AngleRows<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
         let equations = SmoothingEquations {
             system: &linearised(AbsoluteAngles(&self.tree)),
             mass_matrix: &|theta| self.tree.mass_matrix(theta),

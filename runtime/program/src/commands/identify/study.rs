@@ -16,7 +16,7 @@ use super::arguments::{Arguments, Law, Sign};
 use super::source::Measurement;
 use super::unknowns::{Knowledge, Unknowns};
 use crate::Failure;
-use crate::smoothed::{AngleRecord, MOST_LINKS, Motion, Smoothed, SmoothingEquations, one_by_one};
+use crate::smoothed::{AngleRows, MOST_LINKS, Motion, Smoothed, SmoothingEquations, one_by_one};
 
 /// Length of windows, s.
 pub const WINDOW: f64 = 1.0;
@@ -215,7 +215,7 @@ impl<'a> Study<'a> {
         };
         let angles: Vec<Vec<Option<f64>>> = (0..times.len()).map(at).collect();
         let angles = &angles;
-        let record = AngleRecord { times, angles };
+        let record = AngleRows { times, angles };
         let energies = |found: &Smoothed| {
             let energies = |motion: &[Motion]| -> Vec<[f64; 1]> {
                 let parts = motion.iter().map(|[theta, omega]| [&theta[..], omega]);

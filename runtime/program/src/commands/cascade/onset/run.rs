@@ -321,9 +321,7 @@ mod tests {
         let (release, driven) = release(1.0, 0.0);
         let start = at_release(&release, &driven.tree);
         let method = Dop853::new(Options::with_tolerance(1e-11));
-        let end = method.integrate(&SymmetricCoordinates(&driven.tree), &start, 1.0, |_| {
-            ControlFlow::Continue(())
-        });
+        let end = method.run(&SymmetricCoordinates(&driven.tree), &start, 1.0);
         let end = end.unwrap().state;
         for values in [end.positions(), end.velocities()] {
             assert!(values[..4].iter().all(|value| *value != 0.0));
