@@ -1,14 +1,11 @@
 //! Lyapunov exponents.
 
-use core::ops::ControlFlow;
-
-use nalgebra::DMatrix;
-
+use super::deviations::Deviations;
+use super::error::LyapunovError;
 use super::{Copies, Linearised, Variational};
 use crate::analysis::random::Random;
 use crate::analysis::statistics::Estimate;
-use crate::errors::errors;
-use crate::integrate::{DenseStep, IntegrationError, Integrator};
+use crate::integrate::Integrator;
 use crate::system::State;
 
 /// Computation of the exponents of a motion.
@@ -102,160 +99,8 @@ impl LyapunovSpectrum {
     }
 }
 
-errors! {
-    /// Why there are no exponents.
-    #[derive(Clone, Debug, PartialEq)]
-    #[non_exhaustive]
-    pub enum LyapunovError {
-        /// None, or more than there are independent deviations.
-        Count {
-            /// Exponents asked for.
-            count: usize,
-            /// Number of independent deviations: for all of them the dimension of the system.
-            deviations: usize,
-        } => "{count} exponents asked for, of {deviations} independent deviations: ask for 1 to \
-            {deviations}",
-        /// The interval is not positive and finite, or no interval counts.
-        Interval {
-            /// The interval given.
-            interval: f64,
-            /// The number of intervals given.
-            intervals: u32,
-        } => "{intervals} intervals of {interval} s make no mean: ask for at least one, of a \
-            positive time",
-        /// Exponents within motions in phase or transverse to them, of a start that is in
-        /// another state, or of links that are no copies.
-        NotInPhase => "the copies are not in one state at the start, or do not move on alike: \
-            start them in phase, or ask for the exponents of all deviations",
-        /// A deviation vanished, or left the range of numbers, between two
-        /// orthonormalisations: the interval is too long.
-        Degenerate {
-            /// End of the interval.
-            time: f64,
-        } => "a deviation has no direction any more at t = {time}: the interval is too long",
-        /// The integration failed.
-        Integration(error: IntegrationError<f64>) => "{error}",
-    }
-}
-
-impl std::error::Error for LyapunovError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Integration(error) => error.source(),
-            _ => None,
-        }
-    }
-}
-
-impl From<IntegrationError<f64>> for LyapunovError {
-    fn from(error: IntegrationError<f64>) -> Self {
-        Self::Integration(error)
-    }
-}
-
 /// Parts of a run whose spread gives the standard error.
 const PARTS: usize = 10;
-
-/// Growth of a deviation after which all are made orthonormal again, within an interval too.
-const LARGEST_GROWTH: f64 = 1e3;
-
-/// Deviations that are looked at.
-#[derive(Clone, Copy)]
-enum Deviations<'a> {
-    All,
-    Within(&'a Copies),
-    Transverse(&'a Copies),
-}
-
-impl Deviations<'_> {
-    /// Number of independent ones, in a system of a dimension.
-    fn count(self, dimension: usize) -> usize {
-        match self {
-            Self::All => dimension,
-            Self::Within(copies) => dimension.saturating_sub(copies.differences()),
-            Self::Transverse(copies) => copies.differences().min(dimension),
-        }
-    }
-
-    /// Takes from vectors of length `n` that follow each other what is no such deviation.
-    fn keep(self, vectors: &mut [f64], n: usize) {
-        for vector in vectors.chunks_mut(n) {
-            match self {
-                Self::All => {}
-                Self::Within(copies) => copies.keep_common(vector),
-                Self::Transverse(copies) => {
-                    let all = vector.to_vec();
-                    copies.write_differences(&all, vector);
-                }
-            }
-        }
-    }
-
-    /// Takes from the motion the difference that rounding has made between copies in phase.
-    fn keep_motion(self, motion: &mut [f64]) {
-        if let Self::Within(copies) | Self::Transverse(copies) = self {
-            copies.keep_common(motion);
-        }
-    }
-
-    /// Takes from vectors of length `n` that follow each other what is no such deviation and
-    /// makes them orthonormal; returns the logarithms of the lengths that this takes out.
-    fn orthonormalise(
-        self,
-        vectors: &mut [f64],
-        time: f64,
-        n: usize,
-    ) -> Result<Vec<f64>, LyapunovError> {
-        self.keep(vectors, n);
-        let factors = DMatrix::from_column_slice(n, vectors.len() / n, vectors).qr();
-        let lengths = factors.r().diagonal().map(f64::abs);
-        let is_length = |length: &f64| length.is_finite() && *length > 0.0;
-        if !lengths.iter().all(is_length) {
-            return Err(LyapunovError::Degenerate { time });
-        }
-        vectors.copy_from_slice(factors.q().as_slice());
-        Ok(lengths.iter().map(|length| length.ln()).collect())
-    }
-
-    /// Follows orthonormal deviations from a motion to a time, where they are made orthonormal
-    /// again; returns the logarithms of their growth. Before that time too, wherever one has grown
-    /// by [`LARGEST_GROWTH`]: the rounding of a large part would pass the tolerance of those
-    /// beside it that are small, and no step would be short enough.
-    fn grow<L, M>(
-        self,
-        method: &M,
-        system: &Variational<'_, L>,
-        motion: &State<f64>,
-        vectors: &mut [f64],
-        end: f64,
-    ) -> Result<Vec<f64>, LyapunovError>
-    where
-        L: Linearised<f64>,
-        M: for<'a> Integrator<f64, Variational<'a, L>>,
-    {
-        let dimension = motion.values.len();
-        let mut growth = vec![0.0; vectors.len() / dimension];
-        let mut both = State::new(motion.time, [&motion.values, &*vectors].concat());
-        let has_grown = |step: &mut DenseStep<'_, f64>| {
-            let deviations = step.end().get(dimension..).unwrap_or_default();
-            match deviations.iter().any(|part| part.abs() > LARGEST_GROWTH) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        };
-        while both.time != end {
-            both = method.integrate(system, &both, end, has_grown)?.state;
-            let (beside, deviations) = both.values.split_at_mut(dimension);
-            self.keep_motion(beside);
-            let logarithms = self.orthonormalise(deviations, both.time, dimension)?;
-            for (sum, logarithm) in growth.iter_mut().zip(logarithms) {
-                *sum += logarithm;
-            }
-        }
-        vectors.copy_from_slice(both.values.get(dimension..).unwrap_or_default());
-        Ok(growth)
-    }
-}
 
 impl Lyapunov {
     /// Returns the exponents of the motion of `system` from `start`: of all deviations.
@@ -350,8 +195,7 @@ impl Lyapunov {
         for number in 1..=settling + u64::from(intervals) {
             let end = start.time + number as f64 * interval;
             let row = kept.grow(method, &all, &motion, &mut vectors, end)?;
-            let run = |_: &mut DenseStep<'_, f64>| ControlFlow::Continue(());
-            motion = method.integrate(&alone, &motion, end, run)?.state;
+            motion = method.run(&alone, &motion, end)?.state;
             kept.keep_motion(&mut motion.values);
             if number > settling {
                 logarithms.push(row);

@@ -43,6 +43,8 @@
 //! ```
 
 mod copies;
+mod deviations;
+mod error;
 mod lyapunov;
 mod system;
 
@@ -53,7 +55,8 @@ use crate::scalar::Real;
 use crate::system::{Ode, State};
 
 pub use self::copies::Copies;
-pub use self::lyapunov::{Lyapunov, LyapunovError, LyapunovSpectrum};
+pub use self::error::LyapunovError;
+pub use self::lyapunov::{Lyapunov, LyapunovSpectrum};
 pub use self::system::{ByTangents, Linearised, Tangent, Variational, WithDerivative, linearised};
 
 /// The start with one deviation along each component, of size one.
