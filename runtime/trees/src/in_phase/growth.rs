@@ -115,7 +115,7 @@ impl DifferenceGrowth {
     }
 
     /// Returns the growth in several trees, each after its own start, on all cores and in lanes,
-    /// which trees of one shape share. Horizons and tolerance are those of the first.
+    /// which trees of one shape share that are looked at over equal horizons.
     ///
     /// # Errors
     /// As [`in_lanes`](Self::in_lanes).
@@ -124,24 +124,26 @@ impl DifferenceGrowth {
         cases: &[(&Self, State<f64>)],
     ) -> Result<Vec<Result<Grown, GrowthError>>, TreeError> {
         // Starts of one tree follow each other: its constants stay in their lanes.
-        let mut places: Vec<(usize, *const Self, usize)> = cases
-            .iter()
-            .enumerate()
-            .map(|(place, (own, _))| (own.system.shape(), std::ptr::from_ref(*own), place))
-            .collect();
-        places.sort_unstable();
+        let mut ordered: Vec<(&(&Self, State<f64>), usize)> = cases.iter().zip(0..).collect();
+        ordered.sort_by_key(|((own, _), _)| (own.system.shape(), std::ptr::from_ref(*own)));
+        let share = |one: &Self, other: &Self| {
+            let is_asked_alike = one.growth.horizons == other.growth.horizons
+                && one.growth.tolerance == other.growth.tolerance;
+            one.system.shape() == other.system.shape() && is_asked_alike
+        };
         let mut all: Vec<(usize, Result<Grown, GrowthError>)> = Vec::new();
-        for places in places.chunk_by(|(one, ..), (other, ..)| one == other) {
-            let own = || places.iter().filter_map(|(.., place)| cases.get(*place));
+        for cases in ordered.chunk_by(|((one, _), _), ((other, _), _)| share(one, other)) {
+            let Some(((first, _), _)) = cases.first() else {
+                continue;
+            };
+            let own = || cases.iter().map(|(case, _)| *case);
             let releases = own().map(|(own, start)| Ok((&own.system, own.start(start)?)));
             let releases: Vec<_> = releases.collect::<Result<_, TreeError>>()?;
             let frequencies: Vec<f64> = own().map(|(own, _)| own.growth.frequency_hz).collect();
-            if let Some((first, _)) = cases.first() {
-                let grown = first
-                    .growth
-                    .in_lanes_by_frequency(ensemble, &releases, &frequencies);
-                all.extend(places.iter().map(|(.., place)| *place).zip(grown));
-            }
+            let grown = first
+                .growth
+                .in_lanes_by_frequency(ensemble, &releases, &frequencies);
+            all.extend(cases.iter().map(|(_, place)| *place).zip(grown));
         }
         all.sort_unstable_by_key(|(place, _)| *place);
         Ok(all.into_iter().map(|(_, grown)| grown).collect())
