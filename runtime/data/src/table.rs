@@ -3,18 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::cell::DecimalMark;
-use super::cell::Entry;
+use super::cell::{DecimalMark, Entry};
 use super::error::{Place, ReadError, ReadErrorKind};
 use super::finding::{Basis, Finding, counted, listed};
 use super::format::{Delimiter, Format, TextLine};
 use super::header::{FileKind, Header};
 use super::names::{self, quoted};
-use super::rows;
-use super::text;
 use super::track::Track;
 use super::units::{Unit, bare};
 use super::write::Column;
+use super::{rows, text};
 
 /// Knowledge of a caller about a file; fields that are `None` are detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

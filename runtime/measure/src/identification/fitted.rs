@@ -16,7 +16,7 @@ pub(super) struct FittedGlobals<'a> {
     pub(super) task: &'a FitTask<'a>,
     pub(super) globals: &'a [f64],
     pub(super) open: OpenDirections,
-    /// Those that are neither held nor at a bound.
+    /// Globals that are neither held nor at a bound.
     pub(super) free: Vec<usize>,
     pub(super) curvature: Curvature,
     /// Variance of the data, in those that were given.
