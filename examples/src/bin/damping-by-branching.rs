@@ -53,9 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let rates: Vec<f64> = shape.iter().map(|part| rate * part).collect();
             let start = State::new(0.0, [rest.to_vec(), rates].concat());
             let method = Dop853::new(Options::with_tolerance(1e-10));
-            let end = method.integrate(&AbsoluteAngles(&model), &start, 20.0, |_| {
-                ControlFlow::Continue(())
-            })?;
+            let end = method.run(&AbsoluteAngles(&model), &start, 20.0)?;
             let energy =
                 |state: &State<f64>| model.energy_of(state.positions(), state.velocities());
             let given = model.kinetic_energy_of(start.positions(), start.velocities());

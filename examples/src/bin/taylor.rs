@@ -18,9 +18,7 @@ fn main() -> Result<(), IntegrationError<f64>> {
     let energy = |state: &State<f64>| rods.energy_of(state.positions(), state.velocities());
     for tolerance in [1e-8, 1e-12, 1e-16] {
         let method = Taylor::new(Options::with_tolerance(tolerance));
-        let end = method.integrate(&AbsoluteAngles(&rods), &start, 100.0, |_| {
-            ControlFlow::Continue(())
-        })?;
+        let end = method.run(&AbsoluteAngles(&rods), &start, 100.0)?;
         let change = (energy(&end.state) / energy(&start) - 1.0).abs();
         println!(
             "tolerance {tolerance:.0e}: order {:2}, {:5} steps, energy kept to {change:.1e}",

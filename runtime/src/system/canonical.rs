@@ -35,9 +35,7 @@ use crate::scalar::Scalar;
 /// let point = Point { mass: 0.1, length: 0.5 };
 /// let start = State::from_positions_and_momenta(0.0, &[1.0], &[0.0])?;
 /// let method = Gauss::new(GaussOrder::Four, 0.01);
-/// let end = method.integrate(&CanonicalVariables(&point), &start, 10.0, |_| {
-///     core::ops::ControlFlow::Continue(())
-/// })?;
+/// let end = method.run(&CanonicalVariables(&point), &start, 10.0)?;
 /// assert!(end.state.values[0].abs() <= 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -181,9 +181,7 @@ pub trait LaneTorques<T: Scalar>: Torques<T> {
 ///     branch.point_torques_into(LinkPoint::End, theta, &drag, torques);
 /// });
 /// let method = Dop853::new(Options::with_tolerance(1e-9));
-/// let end = method.integrate(&gusts, &State::at_rest(0.0, &[0.0; 3]), 10.0, |_| {
-///     ControlFlow::Continue(())
-/// })?;
+/// let end = method.run(&gusts, &State::at_rest(0.0, &[0.0; 3]), 10.0)?;
 /// assert!(end.state.values[0] > 0.1);
 /// # Ok::<(), IntegrationError<f64>>(())
 /// ```

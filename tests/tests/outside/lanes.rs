@@ -1,6 +1,5 @@
 //! Torques from outside, and small differences, in the lanes of vector registers.
 
-use std::ops::ControlFlow;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum::state_function;
@@ -79,9 +78,7 @@ where
         for (lane, plain) in lane.values.iter().zip(&plain.values) {
             assert!((lane - plain).abs() < 1e-8, "{lane} {plain}");
         }
-        let free = method.integrate(&AbsoluteAngles(model()), start, 2.0, |_| {
-            ControlFlow::Continue(())
-        });
+        let free = method.run(&AbsoluteAngles(model()), start, 2.0);
         let free = free.unwrap().state.values;
         let pushed = lane
             .values

@@ -149,11 +149,7 @@ mod tests {
         let other = rods_at(10.0, 1e-28).unwrap();
         let method = Verner98::new(Options::with_tolerance(1e-14));
         let (model, start) = (Rods::new(), State::at_rest(0.0, &RODS));
-        let verner = method
-            .integrate(&AbsoluteAngles(&model), &start, 10.0, |_| {
-                std::ops::ControlFlow::Continue(())
-            })
-            .unwrap();
+        let verner = method.run(&AbsoluteAngles(&model), &start, 10.0).unwrap();
         for ((found, other), verner) in found.iter().zip(&other).zip(&verner.state.values) {
             assert!((found - other).abs() <= f64::EPSILON * found.abs());
             assert!((found - verner).abs() < 1e-11, "{found} {verner}");

@@ -17,9 +17,7 @@ fn main() -> Result<(), IntegrationError<f64>> {
     let start = State::at_rest(0.0, &[1.0]);
     let energy = |state: &State<f64>| rod.energy_of(state.positions(), state.velocities());
     let method = Rk4::new(1e-3);
-    let end = method.integrate(&AbsoluteAngles(&rod), &start, 10.0, |_| {
-        ControlFlow::Continue(())
-    })?;
+    let end = method.run(&AbsoluteAngles(&rod), &start, 10.0)?;
     let left = 100.0 * energy(&end.state) / energy(&start);
     println!("{left:.4} % of the energy is left after 10 s of friction");
     Ok(())

@@ -305,14 +305,10 @@ fn symmetric_coordinates_move_as_the_links_do() {
     tree.symmetric_from_absolute(plain, &omega, rates);
     let method = Dop853::new(Options::with_tolerance(1e-12));
     let start = State::new(0.0, start);
-    let own = method.integrate(&SymmetricCoordinates(&tree), &start, 1.0, |_| {
-        ControlFlow::Continue(())
-    });
+    let own = method.run(&SymmetricCoordinates(&tree), &start, 1.0);
     let own = own.unwrap().state;
     let start = State::new(0.0, [&theta[..], &omega].concat());
-    let other = method.integrate(&AbsoluteAngles(&tree), &start, 1.0, |_| {
-        ControlFlow::Continue(())
-    });
+    let other = method.run(&AbsoluteAngles(&tree), &start, 1.0);
     let other = other.unwrap().state;
     let mut absolute = vec![0.0; links];
     tree.absolute_from_symmetric(plain, own.positions(), &mut absolute);

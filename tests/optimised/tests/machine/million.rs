@@ -25,9 +25,7 @@ fn a_million_links_keep_their_energy() {
             + model.potential_energy(state.positions())
     };
     let end = Rk4::new(2.5e-4)
-        .integrate(&AbsoluteAngles(&model), &start, 0.02, |_| {
-            std::ops::ControlFlow::Continue(())
-        })
+        .run(&AbsoluteAngles(&model), &start, 0.02)
         .unwrap()
         .state;
     let moved = model.kinetic_energy(end.positions(), end.velocities());

@@ -260,9 +260,7 @@ fn a_table_keeps_its_energy() {
             + model.potential_energy(state.positions())
     };
     let end = Rk4::new(1e-4)
-        .integrate(&AbsoluteAngles(&model), &start, 0.1, |_| {
-            std::ops::ControlFlow::Continue(())
-        })
+        .run(&AbsoluteAngles(&model), &start, 0.1)
         .unwrap()
         .state;
     let moved = model.kinetic_energy(end.positions(), end.velocities());
