@@ -1,6 +1,5 @@
 //! Torques from outside, and small differences, in the lanes of vector registers.
 
-
 use branched_pendulum::prelude::*;
 use branched_pendulum::state_function;
 use branched_pendulum::system::functions::AccelerationsUnderTorques;
