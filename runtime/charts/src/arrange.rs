@@ -137,30 +137,18 @@ impl Sketch<'_> {
             top: 0.0,
             bottom: 0.0,
         };
-        let strips: Vec<Above> = chart
-            .panels
-            .iter()
-            .zip(&y_ticks)
-            .enumerate()
-            .map(|(index, (panel, ticks))| self.strip(panel, ticks, &across(index)))
-            .collect();
-        // The strips of a row are as high as its highest.
-        let strip_heights: Vec<f64> = strips
-            .chunks(chart.columns)
-            .map(|row| row.iter().map(|strip| strip.height).fold(0.0, f64::max))
-            .collect();
+        let strips = chart.panels.iter().zip(&y_ticks).enumerate();
+        let strips = strips.map(|(index, (panel, ticks))| self.strip(panel, ticks, &across(index)));
+        let strips: Vec<Above> = strips.collect();
         let bottom = x.height() + self.legend_height(&legend, inner) + EDGE;
-        let taken: f64 = strip_heights.iter().sum();
-        let rows = strip_heights.len() as f64;
-        let free = chart.height - top - bottom - taken - PANEL_GAP * (rows - 1.0);
-        let height = (free / rows).max(LEAST_PANEL.1);
+        let rows = self.rows(&strips, chart.height - top - bottom);
 
         let count = chart.panels.len();
         let mut panels = Vec::new();
         let parts = strips.into_iter().zip(y_ticks).zip(y_labels);
         let axes = self.y.iter().zip(&self.styles);
         for (index, (((strip, ticks), label), (scale, styles))) in parts.zip(axes).enumerate() {
-            let above = strip_heights[index / chart.columns];
+            let [above, height] = rows[index / chart.columns];
             let across = across(index);
             let frame = Rect {
                 top: top + above,
@@ -190,6 +178,18 @@ impl Sketch<'_> {
             legend,
             colors,
         })
+    }
+
+    /// Heights of the strips and of the panels below them, row by row, that fill `free` together
+    /// with the gaps.
+    fn rows(&self, strips: &[Above], free: f64) -> Vec<[f64; 2]> {
+        // The strips of a row are as high as its highest.
+        let highest = |row: &[Above]| row.iter().map(|strip| strip.height).fold(0.0, f64::max);
+        let above: Vec<f64> = strips.chunks(self.chart.columns).map(highest).collect();
+        let rows = above.len() as f64;
+        let free = free - above.iter().sum::<f64>() - PANEL_GAP * (rows - 1.0);
+        let height = (free / rows).max(LEAST_PANEL.1);
+        above.into_iter().map(|above| [above, height]).collect()
     }
 
     fn y_labels(&self, heights: &[f64]) -> Vec<Vec<Label>> {

@@ -209,11 +209,31 @@ pub(crate) enum Pivot {
     Word(String),
 }
 
+impl Pivot {
+    fn place(self) -> PyResult<Option<[f64; 2]>> {
+        match self {
+            Self::Place(place) => Ok(Some(place)),
+            Self::Word(word) => choice("pivot", Some(&word), &[("origin", [0.0; 2])]),
+        }
+    }
+}
+
 /// Where a picture's downward vertical comes from.
 #[derive(FromPyObject)]
 pub(crate) enum Plumb {
     Direction([f64; 2]),
     Word(String),
+}
+
+impl Plumb {
+    fn gravity(self) -> PyResult<Gravity> {
+        let word = match self {
+            Self::Direction(direction) => return Ok(Gravity::Along(direction)),
+            Self::Word(word) => word,
+        };
+        let words = [("axis", Gravity::Axis), ("first link", Gravity::FirstLink)];
+        Ok(choice("gravity", Some(&word), &words)?.unwrap_or_default())
+    }
 }
 
 /// Reads measured angles from a file: columns of angles against time, or dots that a camera
@@ -265,15 +285,7 @@ pub(crate) fn read(
     pivot: Option<Pivot>,
     drop_repeated: Option<&str>,
 ) -> PyResult<Recording> {
-    let clock = match (time, frame_rate) {
-        (Some(_), Some(_)) => {
-            let text = "times come from a column or from a frame rate: give time= or frame_rate=";
-            return Err(PyValueError::new_err(text));
-        }
-        (Some(column), None) => Clock::Column(column),
-        (None, Some(rate)) => Clock::FrameRate(rate),
-        (None, None) => Clock::Detect,
-    };
+    let clock = clock(time, frame_rate)?;
     let delimiters = [
         (",", Delimiter::Comma),
         (";", Delimiter::Semicolon),
@@ -304,32 +316,11 @@ pub(crate) fn read(
         let text = "angles come from dots or from columns: give dots= or columns=";
         return Err(PyValueError::new_err(text));
     }
-    let pivot = match pivot {
-        None => None,
-        Some(Pivot::Place(place)) => Some(place),
-        Some(Pivot::Word(word)) => choice("pivot", Some(&word), &[("origin", [0.0; 2])])?,
-    };
-    let links = dots.unwrap_or_default().into_iter();
-    let links = links.map(|pair| match <[String; 2]>::try_from(pair) {
-        Ok([upper, lower]) => Ok(LinkMarkers { upper, lower }),
-        Err(pair) => Err(PyValueError::new_err(format!(
-            "dots must have a pair of names for each link, got {}",
-            pair.len()
-        ))),
-    });
-    let gravity = match gravity {
-        None => Gravity::Axis,
-        Some(Plumb::Direction(direction)) => Gravity::Along(direction),
-        Some(Plumb::Word(word)) => {
-            let words = [("axis", Gravity::Axis), ("first link", Gravity::FirstLink)];
-            choice("gravity", Some(&word), &words)?.unwrap_or_default()
-        }
-    };
     let of_dots = Markers {
         clock: clock.clone(),
-        links: links.collect::<PyResult<_>>()?,
-        pivot,
-        gravity,
+        links: link_markers(dots.unwrap_or_default())?,
+        pivot: pivot.map(Pivot::place).transpose()?.flatten(),
+        gravity: gravity.map_or(Ok(Gravity::Axis), Plumb::gravity)?,
         y_down,
         mirrored,
         likelihood,
@@ -343,4 +334,27 @@ pub(crate) fn read(
         read_angles(&table, &of_columns, &of_dots)
     })?;
     Recording::of(py, angles.map_err(|error| refused(py, error))?)
+}
+
+fn clock(time: Option<String>, frame_rate: Option<f64>) -> PyResult<Clock> {
+    match (time, frame_rate) {
+        (Some(_), Some(_)) => {
+            let text = "times come from a column or from a frame rate: give time= or frame_rate=";
+            Err(PyValueError::new_err(text))
+        }
+        (Some(column), None) => Ok(Clock::Column(column)),
+        (None, Some(rate)) => Ok(Clock::FrameRate(rate)),
+        (None, None) => Ok(Clock::Detect),
+    }
+}
+
+fn link_markers(dots: Vec<Vec<String>>) -> PyResult<Vec<LinkMarkers>> {
+    let of_link = |pair: Vec<String>| match <[String; 2]>::try_from(pair) {
+        Ok([upper, lower]) => Ok(LinkMarkers { upper, lower }),
+        Err(pair) => Err(PyValueError::new_err(format!(
+            "dots must have a pair of names for each link, got {}",
+            pair.len()
+        ))),
+    };
+    dots.into_iter().map(of_link).collect()
 }
