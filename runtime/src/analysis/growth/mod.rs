@@ -12,6 +12,7 @@ mod error;
 mod floquet;
 mod record;
 mod rotation;
+mod run;
 mod transverse;
 
 use std::iter;
@@ -24,6 +25,7 @@ pub use self::error::GrowthError;
 pub use self::floquet::Floquet;
 use self::record::GrowthRecord;
 pub use self::rotation::turns_a_second;
+use self::run::{DifferenceRanges, GrowthRun, follow_in_lanes, scales};
 use self::transverse::places;
 pub use self::transverse::{TransverseSystem, frequency_at_rest};
 use super::variational::{Linearised, Variational};
@@ -102,38 +104,6 @@ pub struct Grown {
 /// Tolerance of the run that is believed over that of the other.
 const FINER: f64 = 0.01;
 
-/// Where differences stand in a state.
-#[derive(Clone, Debug)]
-struct DifferenceRanges {
-    angles: Range<usize>,
-    rates: Range<usize>,
-}
-
-/// A motion on its way, and what was seen of it.
-struct GrowthRun {
-    state: State<f64>,
-    place: DifferenceRanges,
-    record: GrowthRecord,
-}
-
-impl GrowthRun {
-    fn look(&mut self, time: f64, state: &[f64]) {
-        let DifferenceRanges { angles, rates } = self.place.clone();
-        self.record.look(time, &state[angles], &state[rates]);
-    }
-
-    /// Divides these components by the amplitude of the differences, which are among them, so
-    /// that they stay within numbers.
-    fn scale(&mut self, components: &[Range<usize>]) {
-        let factor = self.record.scale();
-        for place in components {
-            for value in &mut self.state.values[place.clone()] {
-                *value /= factor;
-            }
-        }
-    }
-}
-
 impl Growth {
     /// Looks at a motion in one period of [`frequency_hz`](Self::frequency_hz).
     pub const LOOKS_A_PERIOD: f64 = 32.0;
@@ -207,42 +177,7 @@ impl Growth {
                 with(frequency).begin(release.clone(), places(ode))
             });
             let mut runs: Vec<Result<GrowthRun, GrowthError>> = runs.collect();
-            for number in 0.. {
-                // Of the runs that go on, the times until differences are scaled back.
-                let both = runs.iter().zip(&looks);
-                let pieces = both.map(|(run, looks)| {
-                    let times = scale(looks, number)?;
-                    run.is_ok().then_some(times)
-                });
-                let pieces: Vec<Option<&[f64]>> = pieces.collect();
-                let times: Vec<&[f64]> = pieces.iter().copied().flatten().collect();
-                if times.is_empty() {
-                    break;
-                }
-                let all = runs.iter().zip(&pieces).zip(releases);
-                let moving = all.filter_map(|((run, piece), (ode, _))| {
-                    let run = run.as_ref().ok()?;
-                    piece.map(|_| (ode, run.state.clone()))
-                });
-                let cases: Vec<_> = moving.collect();
-                let samples = ensemble.sample_models_at_own_times(&method, &cases, &times);
-                let moving = runs.iter_mut().zip(&pieces);
-                let moving = moving.filter_map(|(run, piece)| Some((run, (*piece)?)));
-                for ((place, times), samples) in moving.zip(samples) {
-                    let Ok(run) = place else { continue };
-                    for (&time, state) in times.iter().zip(samples.states()).skip(1) {
-                        run.look(time, state);
-                    }
-                    match samples.end {
-                        Ok(end) => {
-                            run.state = end.state;
-                            let DifferenceRanges { angles, rates } = run.place.clone();
-                            run.scale(&[angles, rates]);
-                        }
-                        Err(error) => *place = Err(error.into()),
-                    }
-                }
-            }
+            follow_in_lanes(&method, ensemble, releases, &looks, &mut runs);
             runs
         });
         let both = coarse.into_iter().zip(fine);
@@ -364,19 +299,6 @@ impl Growth {
         }
         times
     }
-}
-
-/// One of the pieces of the times between which differences are scaled back; each begins where
-/// the one before ends.
-fn scale(times: &[f64], number: usize) -> Option<&[f64]> {
-    let start = number * Growth::LOOKS_A_SCALE;
-    let end = (start + Growth::LOOKS_A_SCALE + 1).min(times.len());
-    (start + 1 < times.len()).then(|| &times[start..end])
-}
-
-/// All of them.
-fn scales(times: &[f64]) -> impl Iterator<Item = &[f64]> {
-    (0..).map_while(|number| scale(times, number))
 }
 
 impl Grown {

@@ -1,6 +1,6 @@
 //! Motions in phase with small differences beside them, as systems.
 
-use super::DifferenceRanges;
+use super::run::DifferenceRanges;
 use crate::system::{Ode, State, Transverse, TransverseOde};
 
 /// A motion of copies in phase and small differences beside it, as one system: the state is the
