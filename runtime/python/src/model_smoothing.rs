@@ -45,10 +45,8 @@ pub(crate) fn smoothed_by_equations<M: MeasuredModel>(
     let method = Rk4::new(ModelSmoother::LONGEST_STEP);
     let system = linearised(AbsoluteAngles(model.clone()));
     let mass = |theta: &[f64]| model.mass_rows(theta);
-    let motion =
-        smoother.smooth(&method, &system, mass, times, angles, &guess)?;
-    let rows =
-        |of: &dyn Fn(usize) -> Vec<f64>| (0..times.len()).flat_map(of).collect();
+    let motion = smoother.smooth(&method, &system, mass, times, angles, &guess)?;
+    let rows = |of: &dyn Fn(usize) -> Vec<f64>| (0..times.len()).flat_map(of).collect();
     Ok(Estimate {
         states: [
             rows(&|time| motion.mean(time)),
