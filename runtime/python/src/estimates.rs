@@ -103,7 +103,7 @@ impl Smoother {
         }
     }
 
-    fn smooth(self, times: &[f64], data: &[Option<f64>]) -> Result<Smoothed<3>, SmoothingError> {
+    fn smooth(self, times: &[f64], data: &[Option<f64>]) -> Result<Smoothed, SmoothingError> {
         match self {
             Self::Kinematic(smoother) => smoother.smooth(times, data),
             Self::Polynomials(smoother) => smoother.smooth(times, data),
@@ -121,7 +121,7 @@ impl Smoother {
         let smoothed = SmoothedCoordinates::new(data, |data| self.smooth(times, data))?;
         let all = smoothed.coordinates();
         // Of the coordinates' values, rates and accelerations, at a time.
-        let rows = |of: &dyn Fn(&Smoothed<3>) -> [f64; 3]| -> [Vec<f64>; 3] {
+        let rows = |of: &dyn Fn(&Smoothed) -> [f64; 3]| -> [Vec<f64>; 3] {
             let each: Vec<[f64; 3]> = all.iter().map(of).collect();
             [0, 1, 2].map(|order| each.iter().map(|own| own[order]).collect())
         };

@@ -8,68 +8,54 @@ use branched_pendulum_measure::{ModelSmoother, SmoothingError};
 use crate::estimates::Estimate;
 use crate::measured_model::MeasuredModel;
 
-/// A smoothing by equations of motion that is asked for.
-pub(crate) struct ModelSmoothing<'a, M> {
-    pub(crate) model: &'a M,
-    pub(crate) noise: Option<f64>,
-    pub(crate) friction: bool,
-    pub(crate) times: &'a [f64],
-    pub(crate) angles: &'a [Vec<Option<f64>>],
-    pub(crate) guess: &'a [f64],
-}
-
-/// Most links of a pendulum whose equations smooth angles.
-pub(crate) const MOST_SMOOTHED: usize = 4;
-
-impl<M: MeasuredModel> ModelSmoothing<'_, M> {
-    pub(crate) fn estimate<const N: usize, const D: usize>(
-        &self,
-    ) -> Result<Estimate, SmoothingError> {
-        let array = |row: &Vec<Option<f64>>| std::array::from_fn(|link| row[link]);
-        let angles: Vec<[Option<f64>; N]> = self.angles.iter().map(array).collect();
-        let (guess, _) = self.guess.as_chunks::<D>();
-        // Forces on a single coordinate, and in the pivot of a single link.
-        let coordinates = self.model.smoothed_coordinates().of_links;
-        let pattern = |row: &Vec<f64>| std::array::from_fn(|link| row[link]);
-        let parents = self.model.link_parents();
-        let joint = |(own, parent): (usize, &Option<usize>)| {
-            let weight = |link: usize| match link {
-                link if link == own => 1.0,
-                link if Some(link) == *parent => -1.0,
-                _ => 0.0,
-            };
-            vec![std::array::from_fn(weight)]
+/// Smooths measured angles by the equations of motion of a model, and by friction in single pivots
+/// that they lack where this is looked for, beginning from states near the true ones, one after
+/// the other.
+pub(crate) fn smoothed_by_equations<M: MeasuredModel>(
+    model: &M,
+    noise: Option<f64>,
+    friction: bool,
+    times: &[f64],
+    angles: &[Vec<Option<f64>>],
+    guess: &[f64],
+) -> Result<Estimate, SmoothingError> {
+    let parents = model.link_parents();
+    let links = parents.len();
+    let guess = guess.chunks(2 * links).map(<[f64]>::to_vec);
+    let guess: Vec<Vec<f64>> = guess.collect();
+    // Friction in the pivot of a single link.
+    let joint = |(own, parent): (usize, &Option<usize>)| {
+        let weight = |link: usize| match link {
+            link if link == own => 1.0,
+            link if Some(link) == *parent => -1.0,
+            _ => 0.0,
         };
-        let smoother = ModelSmoother {
-            noise: self.noise,
-            disturbances: coordinates.iter().map(pattern).collect(),
-            frictions: match self.friction {
-                true => parents.iter().enumerate().map(joint).collect(),
-                false => Vec::new(),
-            },
-            ..ModelSmoother::<N>::default()
-        };
-        let method = Rk4::new(ModelSmoother::<N>::LONGEST_STEP);
-        let system = linearised(AbsoluteAngles(self.model.clone()));
-        let mass = |theta: &[f64; N]| {
-            let rows = self.model.mass_rows(theta);
-            let entry = |row: usize, column: usize| rows.get(row)?.get(column).copied();
-            std::array::from_fn(|row| {
-                std::array::from_fn(|column| entry(row, column).unwrap_or(f64::NAN))
-            })
-        };
-        let motion = smoother.smooth(&method, &system, mass, self.times, &angles, guess)?;
-        let rows = |of: &dyn Fn(usize) -> [f64; D]| (0..self.times.len()).flat_map(of).collect();
-        Ok(Estimate {
-            states: [
-                rows(&|time| motion.mean(time)),
-                rows(&|time| motion.deviation(time)),
-            ],
-            accelerations: None,
-            noise: vec![motion.noise(); N],
-            whiteness: motion.whiteness(),
-            frictions: motion.frictions().to_vec(),
-            draw: Box::new(move |normal| motion.draw(normal).into_flattened()),
-        })
-    }
+        vec![(0..links).map(weight).collect()]
+    };
+    let smoother = ModelSmoother {
+        noise,
+        // Forces on a single coordinate.
+        disturbances: model.smoothed_coordinates().of_links,
+        frictions: match friction {
+            true => parents.iter().enumerate().map(joint).collect(),
+            false => Vec::new(),
+        },
+        ..ModelSmoother::default()
+    };
+    let method = Rk4::new(ModelSmoother::LONGEST_STEP);
+    let system = linearised(AbsoluteAngles(model.clone()));
+    let mass = |theta: &[f64]| model.mass_rows(theta);
+    let motion = smoother.smooth(&method, &system, mass, times, angles, &guess)?;
+    let rows = |of: &dyn Fn(usize) -> Vec<f64>| (0..times.len()).flat_map(of).collect();
+    Ok(Estimate {
+        states: [
+            rows(&|time| motion.mean(time)),
+            rows(&|time| motion.deviation(time)),
+        ],
+        accelerations: None,
+        noise: vec![motion.noise(); links],
+        whiteness: motion.whiteness(),
+        frictions: motion.frictions().to_vec(),
+        draw: Box::new(move |normal| motion.draw(normal).concat()),
+    })
 }

@@ -18,7 +18,7 @@ use branched_pendulum_trees::{DifferenceGrowth, TreeError};
 use crate::estimates::{Coordinates, Estimate};
 use crate::kept::{End, KeepError, Kept, OutputTimes};
 use crate::measured_model::MeasuredModel;
-use crate::model_smoothing::{MOST_SMOOTHED, ModelSmoothing};
+use crate::model_smoothing::smoothed_by_equations;
 
 /// Deviations whose exponents are asked for.
 pub(crate) enum Deviations {
@@ -278,25 +278,6 @@ impl<M: MeasuredModel> Motions for AbsoluteAngles<M> {
         angles: &[Vec<Option<f64>>],
         guess: &[f64],
     ) -> Result<Estimate, SmoothingError> {
-        let task = ModelSmoothing {
-            model: &self.0,
-            noise,
-            friction,
-            times,
-            angles,
-            guess,
-        };
-        let links = Ode::<f64>::dimension(self) / 2;
-        match links {
-            1 => task.estimate::<1, 2>(),
-            2 => task.estimate::<2, 4>(),
-            3 => task.estimate::<3, 6>(),
-            MOST_SMOOTHED => task.estimate::<4, 8>(),
-            _ => Err(SmoothingError::Dimension {
-                dimension: 2 * links,
-                state: 2 * MOST_SMOOTHED,
-                measured: links,
-            }),
-        }
+        smoothed_by_equations(&self.0, noise, friction, times, angles, guess)
     }
 }

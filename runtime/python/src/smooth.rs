@@ -10,12 +10,12 @@ use crate::memory::{bytes, need};
 use crate::pendulum::Pendulum;
 use crate::smoothing::{SmoothedMotion, refused, rows};
 
-/// Numbers that are kept of a datum, about.
+/// Numbers that are kept of a datum, about: by equations of motion, of each pair of data of a time.
 const NUMBERS_OF_A_DATUM: usize = 60;
 
 /// Passes data that a smoother has room for.
-fn check_memory(times: usize, columns: usize) -> PyResult<()> {
-    need("the motion", bytes(&[times, columns], NUMBERS_OF_A_DATUM))
+fn check_memory(data: &[usize]) -> PyResult<()> {
+    need("the motion", bytes(data, NUMBERS_OF_A_DATUM))
 }
 
 /// Smooths any coordinates, each by itself.
@@ -63,7 +63,7 @@ pub(crate) fn smooth(
         ))
     })?;
     let columns = data.first().map_or(0, Vec::len);
-    check_memory(times.len(), columns)?;
+    check_memory(&[times.len(), columns])?;
     let coordinates = Coordinates::links(columns);
     let kept = times.clone();
     let estimate = on_own_thread(py, move || smoother.estimate(&kept, &data, coordinates))?;
@@ -88,8 +88,8 @@ impl Pendulum {
     ///     missing.
     /// method : {"kinematic", "polynomials", "equations"}
     ///     "kinematic" knows that the motion is smooth and no more; "polynomials" fits one near
-    ///     each time, a cross-check; "equations" knows the equations of motion, of pendulums of up
-    ///     to four links, and finds out how much they lack: errors are far smaller where they hold.
+    ///     each time, a cross-check; "equations" knows the equations of motion, and finds out how
+    ///     much they lack: errors are far smaller where they hold.
     /// noise : float
     ///     Standard deviation of the angles (rad), found from them if it is not given.
     /// friction : bool
@@ -136,7 +136,8 @@ impl Pendulum {
             let words = r#"must be "kinematic", "polynomials" or "equations""#;
             PyValueError::new_err(format!("method is {method:?}, {words}"))
         })?;
-        check_memory(times.len(), columns)?;
+        let beside = if by_equations { columns } else { 1 };
+        check_memory(&[times.len(), columns, beside])?;
         let kept = times.clone();
         let estimate = on_own_thread(py, move || {
             let estimate = smoother.estimate(&kept, &angles, motions.smoothed_coordinates())?;

@@ -6,6 +6,7 @@ import branched_pendulum as bp
 import numpy as np
 import pytest
 from branched_pendulum import analysis
+from scipy.integrate import solve_ivp
 
 import camera
 from test_tree import PAPER
@@ -176,6 +177,40 @@ def test_friction_that_the_equations_lack():
     assert size[1] < 0.8 * size[0]
     with pytest.raises(ValueError, match='needs method = "equations", not "kinematic"'):
         ideal.smooth(t, film.y[:, :3], friction=True)
+
+
+def test_equations_of_a_chain_of_eight_links():
+    """A motion by SciPy of equations in closed form; smoothed by those of the tree."""
+    n, g, mass, com, inertia, joint = 8, 9.81, 0.1, 0.05, 1e-4, 0.1
+    below = np.arange(n - 1, -1, -1)
+    coupled = joint * mass * (com + joint * np.minimum.outer(below, below))
+    np.fill_diagonal(coupled, inertia + mass * (com**2 + joint**2 * below))
+    weight = g * mass * (com + joint * below)
+
+    def rates(_, state):
+        theta, omega = state[:n], state[n:]
+        between = theta[:, None] - theta
+        torques = -(coupled * np.sin(between)) @ omega**2 - weight * np.sin(theta)
+        return np.concatenate([omega, np.linalg.solve(coupled * np.cos(between), torques)])
+
+    t = np.arange(0, 1, 1 / 120)
+    start = np.concatenate([np.linspace(0.5, 0.9, n), np.zeros(n)])
+    truth = solve_ivp(rates, (0, 1), start, "DOP853", t, rtol=1e-11, atol=1e-12).y.T
+    seen = truth[:, :n] + np.random.default_rng(5).normal(0, 1e-3, (len(t), n))
+    seen[40, 3] = np.nan
+    text = f"l{n}(mass = {mass}, com = {com}, inertia = {inertia})"
+    for link in range(n - 1, 0, -1):
+        text = f"l{link}(mass = {mass}, com = {com}, inertia = {inertia}, joint = {joint}) [{text}]"
+    chain = bp.Tree(f"gravity = {g}, {text}")
+    motion = chain.smooth(t, seen, method="equations")
+    assert motion.y.shape == motion.y_error.shape == (len(t), 2 * n)
+    assert motion.noise == pytest.approx(np.full(n, 1e-3), rel=0.1)
+    # The errors of all times are those of one start: sixteen numbers.
+    pull = (motion.y - truth) / motion.y_error
+    assert 0.5 < np.sqrt(np.mean(pull**2)) < 1.5
+    by_smoothness = chain.smooth(t, seen)
+    error, rough = (np.abs(found.y - truth).mean() for found in (motion, by_smoothness))
+    assert error < 0.4 * rough
 
 
 def test_draws_are_those_of_the_estimate(model, film):

@@ -13,7 +13,7 @@ use crate::smoothing::SmoothedMotion;
 
 /// What the data show by the smoothness of their motion alone.
 pub(super) struct SmoothedRecord {
-    links: Vec<SmoothedMotion<3>>,
+    links: Vec<SmoothedMotion>,
     /// Root mean square of the data's errors, rad.
     pub(super) noise: f64,
     /// Root mean square of the motion about its mean, rad, 1 at most.

@@ -4,38 +4,28 @@
 //! takes along what each would do: a regression of the innovations finds them (B. Friedland,
 //! *Treatment of bias in recursive filtering*, IEEE Transactions on Automatic Control 14 (1969)).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Dyn};
 
-use super::gaussian::{Back, Innovations, Step};
+use super::gaussian::{Innovations, Step};
 
-/// Changes of a state by constants of one: a column each.
-pub(super) type Effects<const D: usize, const K: usize> = SMatrix<f64, D, K>;
-
-/// Changes of the state at one time, before and after its data.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct StepEffects<const D: usize, const K: usize> {
-    pub(super) predicted: Effects<D, K>,
-    pub(super) updated: Effects<D, K>,
+/// Changes of the state at one time by constants of one, a column each: before and after the data
+/// of the time.
+#[derive(Clone, Debug)]
+pub(super) struct StepEffects {
+    pub(super) predicted: DMatrix<f64>,
+    pub(super) updated: DMatrix<f64>,
 }
 
 /// Constants that were fitted.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FittedConstants<const K: usize> {
+#[derive(Clone, Debug)]
+pub(super) struct FittedConstants {
     /// Zero for those that the data do not ask for.
-    pub(super) values: SVector<f64, K>,
+    pub(super) values: DVector<f64>,
     /// A root of their variance, for data of a standard deviation of 1.
-    root: SMatrix<f64, K, K>,
+    root: DMatrix<f64>,
 }
 
-impl<const K: usize> FittedConstants<K> {
-    /// None that differ from zero.
-    pub(super) fn none() -> Self {
-        Self {
-            values: SVector::zeros(),
-            root: SMatrix::zeros(),
-        }
-    }
-
+impl FittedConstants {
     /// Fits constants to innovations, of which each moves by its row times them, in its
     /// deviations; takes what they explain out of the innovations. One after the other is
     /// taken, the one that gains most first, until none is worth its number.
@@ -43,26 +33,27 @@ impl<const K: usize> FittedConstants<K> {
     /// `noise` is the standard deviation of the data, where it is known.
     pub(super) fn fit(
         innovations: &mut Innovations,
-        rows: &[SVector<f64, K>],
+        rows: &[DVector<f64>],
         noise: Option<f64>,
     ) -> Self {
-        let mut found = Self::none();
-        if rows.is_empty() {
-            return found;
-        }
-        let (mut information, mut pull) = (SMatrix::zeros(), SVector::zeros());
+        let count = rows.first().map_or(0, |row| row.len());
+        let mut found = Self {
+            values: DVector::zeros(count),
+            root: DMatrix::zeros(count, count),
+        };
+        let (mut information, mut pull) = (found.root.clone(), found.values.clone());
         let used = rows.iter().zip(&innovations.standard);
         for (row, value) in used.skip(innovations.free) {
-            information += row * row.transpose();
-            pull += row * *value;
+            information.ger(1.0, row, row, 1.0);
+            pull.axpy(*value, row, 1.0);
         }
         let all = innovations.clone();
-        let mut taken = [false; K];
+        let mut taken = vec![false; count];
         loop {
             let mut better = None;
             let mut best = innovations.log_likelihood(noise);
-            for one in (0..K).filter(|&one| !taken[one]) {
-                let mut trial = taken;
+            for one in (0..count).filter(|&one| !taken[one]) {
+                let mut trial = taken.clone();
                 trial[one] = true;
                 let Some(constants) = Self::solve(&information, &pull, &trial) else {
                     continue;
@@ -86,18 +77,14 @@ impl<const K: usize> FittedConstants<K> {
     }
 
     /// Least squares with those constants that are taken; none where they cannot be told apart.
-    fn solve(
-        information: &SMatrix<f64, K, K>,
-        pull: &SVector<f64, K>,
-        taken: &[bool; K],
-    ) -> Option<Self> {
-        let unit = SMatrix::<f64, K, K>::identity();
-        let own = SMatrix::<f64, K, K>::from_fn(|i, j| match taken[i] && taken[j] {
+    fn solve(information: &DMatrix<f64>, pull: &DVector<f64>, taken: &[bool]) -> Option<Self> {
+        let count = taken.len();
+        let own = DMatrix::from_fn(count, count, |i, j| match taken[i] && taken[j] {
             true => information[(i, j)],
-            false => unit[(i, j)],
+            false => f64::from(u8::from(i == j)),
         });
         let factor = own.cholesky()?;
-        let pull = SVector::from_fn(|i, _| if taken[i] { pull[i] } else { 0.0 });
+        let pull = DVector::from_fn(count, |i, _| if taken[i] { pull[i] } else { 0.0 });
         let mut root = factor.inverse().cholesky()?.l();
         for (one, _) in taken.iter().enumerate().filter(|(_, taken)| !**taken) {
             root.row_mut(one).fill(0.0);
@@ -109,34 +96,31 @@ impl<const K: usize> FittedConstants<K> {
     }
 
     /// Moves the states of a filter to where the constants take them.
-    pub(super) fn move_steps<const D: usize>(
-        &self,
-        steps: &mut [Step<D>],
-        effects: &[StepEffects<D, K>],
-    ) {
+    pub(super) fn move_steps(&self, steps: &mut [Step<Dyn>], effects: &[StepEffects]) {
         for (step, effects) in steps.iter_mut().zip(effects) {
-            step.predicted.mean += effects.predicted * self.values;
-            step.updated.mean += effects.updated * self.values;
+            step.predicted.mean += &effects.predicted * &self.values;
+            step.updated.mean += &effects.updated * &self.values;
         }
     }
 
     /// Returns the changes of the smoothed states by independent errors of one deviation of the
     /// constants: a series each.
-    pub(super) fn errors<const D: usize>(
+    pub(super) fn errors(
         &self,
-        back: &[Back<D>],
-        effects: &[StepEffects<D, K>],
-    ) -> Vec<Vec<SVector<f64, D>>> {
-        let mut smoothed: Vec<Effects<D, K>> = Vec::with_capacity(effects.len());
-        for (index, (own, back)) in effects.iter().zip(back).enumerate().rev() {
-            let later = smoothed.last().zip(effects.get(index + 1));
-            let ahead = later.map_or_else(SMatrix::zeros, |(later, next)| later - next.predicted);
-            smoothed.push(own.updated + back.gain * ahead);
+        gains: &[DMatrix<f64>],
+        effects: &[StepEffects],
+    ) -> Vec<Vec<Vec<f64>>> {
+        let mut smoothed: Vec<_> = effects.iter().map(|own| own.updated.clone()).collect();
+        for ((index, gain), next) in gains.iter().enumerate().zip(effects.iter().skip(1)).rev() {
+            let learnt = &smoothed[index + 1] - &next.predicted;
+            smoothed[index] += gain * learnt;
         }
         let of = |one: usize| {
-            let direction = self.root.column(one).into_owned();
-            let states = smoothed.iter().rev();
-            states.map(|effects| effects * direction).collect()
+            let direction = self.root.column(one);
+            let states = smoothed.iter();
+            states
+                .map(|effects| (effects * direction).data.into())
+                .collect()
         };
         self.known().map(of).collect()
     }
@@ -144,11 +128,11 @@ impl<const K: usize> FittedConstants<K> {
     /// Columns of the root that are not zero.
     fn known(&self) -> impl Iterator<Item = usize> {
         let is_known = |one: &usize| self.root.column(*one).iter().any(|&part| part != 0.0);
-        (0..K).filter(is_known)
+        (0..self.values.len()).filter(is_known)
     }
 
     /// Returns unit vectors of what the constants explain of the innovations they were fitted to.
-    pub(super) fn explained(&self, rows: &[SVector<f64, K>]) -> Vec<Vec<f64>> {
+    pub(super) fn explained(&self, rows: &[DVector<f64>]) -> Vec<Vec<f64>> {
         let of = |one: usize| {
             rows.iter()
                 .map(|row| row.dot(&self.root.column(one)))

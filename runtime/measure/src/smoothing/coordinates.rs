@@ -31,7 +31,7 @@ use super::series::SmoothedMotion;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothedCoordinates {
-    coordinates: Vec<SmoothedMotion<3>>,
+    coordinates: Vec<SmoothedMotion>,
 }
 
 impl SmoothedCoordinates {
@@ -42,7 +42,7 @@ impl SmoothedCoordinates {
     /// Errors of `smooth`.
     pub fn new(
         data: impl IntoIterator<Item = Vec<Option<f64>>>,
-        smooth: impl Fn(&[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
+        smooth: impl Fn(&[Option<f64>]) -> Result<SmoothedMotion, SmoothingError>,
     ) -> Result<Self, SmoothingError> {
         let coordinates = data.into_iter().map(|data| smooth(&data));
         Ok(Self {
@@ -51,7 +51,7 @@ impl SmoothedCoordinates {
     }
 
     /// Each coordinate with its first and second derivative.
-    pub fn coordinates(&self) -> &[SmoothedMotion<3>] {
+    pub fn coordinates(&self) -> &[SmoothedMotion] {
         &self.coordinates
     }
 

@@ -2,59 +2,82 @@
 //!
 //! S. J. Koopman, *Disturbance smoother for state space models*, Biometrika 80 (1993).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Dyn};
 
-use super::gaussian::Innovation;
+use super::gaussian::{Innovation, Step};
 
 /// A time of a filter, and the step that leads to it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct DisturbedStep<const D: usize> {
+pub(super) struct DisturbedStep {
     /// Derivative of the step from the time before.
-    pub(super) transition: SMatrix<f64, D, D>,
+    pub(super) transition: DMatrix<f64>,
     /// Variance that disturbances add on the way, for data of a variance of 1.
-    pub(super) variance: SMatrix<f64, D, D>,
+    pub(super) variance: DMatrix<f64>,
     /// Innovations by the data of the time, in the order in which they were taken.
-    pub(super) data: Vec<Innovation<D>>,
+    pub(super) data: Vec<Innovation<Dyn>>,
 }
 
 /// What tells the disturbances of a motion.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub(super) struct Disturbances<const D: usize> {
-    pub(super) steps: Vec<DisturbedStep<D>>,
+pub(super) struct Disturbances {
+    pub(super) steps: Vec<DisturbedStep>,
     /// Unit vectors of what constants that were fitted explain of the innovations.
     pub(super) explained: Vec<Vec<f64>>,
 }
 
-impl<const D: usize> Disturbances<D> {
+impl Disturbances {
+    /// Those of a filter's steps, with the innovations by the data of each time.
+    pub(super) fn new(
+        steps: Vec<Step<Dyn>>,
+        data: Vec<Vec<Innovation<Dyn>>>,
+        explained: Vec<Vec<f64>>,
+    ) -> Self {
+        let steps = steps.into_iter().zip(data);
+        let steps = steps.map(|(step, data)| DisturbedStep {
+            transition: step.transition,
+            variance: step.noise,
+            data,
+        });
+        Self {
+            steps: steps.collect(),
+            explained,
+        }
+    }
+
+    /// Numbers of a state.
+    fn size(&self) -> usize {
+        self.steps.first().map_or(0, |step| step.variance.nrows())
+    }
+
     /// Returns the changes of the state that the likeliest disturbances make in each step, by
     /// all innovations over the roots of their variances for data of a variance of 1.
-    pub(super) fn likeliest(&self, innovations: &[f64]) -> Vec<[f64; D]> {
+    pub(super) fn likeliest(&self, innovations: &[f64]) -> Vec<Vec<f64>> {
         let mut innovations = innovations.iter().rev();
         // What a change of the state would gain by all later data: r of physics (16.2).
-        let mut pull = SVector::<f64, D>::zeros();
+        let mut pull = DVector::zeros(self.size());
         let changes = self.steps.iter().rev().map(|step| {
             for (datum, innovation) in step.data.iter().rev().zip(&mut innovations) {
                 pull[datum.component] += innovation / datum.variance.sqrt() - datum.gain.dot(&pull);
             }
-            let change = step.variance * pull;
-            pull = step.transition.transpose() * pull;
-            change.into()
+            let change = &step.variance * &pull;
+            pull = step.transition.tr_mul(&pull);
+            change.data.into()
         });
-        let mut changes: Vec<[f64; D]> = changes.collect();
+        let mut changes: Vec<Vec<f64>> = changes.collect();
         changes.reverse();
         changes
     }
 
     /// Returns those that noise alone feigns where nothing disturbs the motion: `noise` gives
     /// that of a datum.
-    pub(super) fn spurious(&self, mut noise: impl FnMut() -> f64) -> Vec<[f64; D]> {
-        let mut state = SVector::<f64, D>::zeros();
+    pub(super) fn spurious(&self, mut noise: impl FnMut() -> f64) -> Vec<Vec<f64>> {
+        let mut state = DVector::zeros(self.size());
         let mut innovations = Vec::new();
         for step in &self.steps {
-            state = step.transition * state;
+            state = &step.transition * state;
             for datum in &step.data {
                 let innovation = noise() - state[datum.component];
-                state += datum.gain * innovation;
+                state.axpy(innovation, &datum.gain, 1.0);
                 innovations.push(innovation / datum.variance.sqrt());
             }
         }

@@ -6,18 +6,22 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SmoothingError {
-    /// As many data as times are needed.
+    /// As many data as times are needed, and as many states of a guess.
     Length {
         /// Number of times.
         times: usize,
-        /// Number of data.
-        data: usize,
+        /// What there are not as many of: `data` or `guess`.
+        rows: &'static str,
+        /// Their number.
+        found: usize,
     },
     /// Too few data that are not missing: four are needed, for polynomials two more than
-    /// their degree.
+    /// their degree, by equations of motion one more than a state has numbers.
     TooFew {
         /// Number of data.
         found: usize,
+        /// Number that is needed.
+        needed: usize,
     },
     /// A time that is not finite or not later than the one before.
     Time {
@@ -33,27 +37,30 @@ pub enum SmoothingError {
         /// The datum.
         value: f64,
     },
-    /// The system's dimension is not that of the state, or the state is not measured angles
-    /// and their rates.
+    /// The system's dimension is odd: a state is angles, followed by as many rates.
     Dimension {
         /// Dimension of the system.
         dimension: usize,
-        /// Numbers of the state.
-        state: usize,
-        /// Numbers that are measured.
-        measured: usize,
+    },
+    /// A row that does not have a number for each angle of the system, of a guess one for each
+    /// angle and rate.
+    Row {
+        /// What the row belongs to: `data`, `guess`, `disturbances` or `frictions`.
+        rows: &'static str,
+        /// Index of the row, of frictions that of their kind.
+        index: usize,
+        /// How many numbers it has.
+        found: usize,
+        /// How many it needs.
+        needed: usize,
     },
     /// The model's motion leaves the data, or cannot be integrated.
     Diverged,
-    /// The mass matrix of a motion is not positive definite.
+    /// The mass matrix of a motion is not positive definite, or does not have a row and a column
+    /// for each angle.
     Mass {
         /// Index of the time.
         index: usize,
-    },
-    /// More kinds of friction than angles.
-    Frictions {
-        /// Their number.
-        frictions: usize,
         /// Number of angles.
         angles: usize,
     },
@@ -70,10 +77,14 @@ pub enum SmoothingError {
 impl fmt::Display for SmoothingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Length { times, data } => write!(f, "{times} times for {data} data"),
-            Self::TooFew { found } => {
-                write!(f, "{found} data that are not missing; smoothing needs 4")
-            }
+            Self::Length { times, rows, found } => match *rows {
+                "data" => write!(f, "{times} times for {found} data"),
+                rows => write!(f, "{times} times for {found} states of the {rows}"),
+            },
+            Self::TooFew { found, needed } => write!(
+                f,
+                "{found} data that are not missing; smoothing needs {needed}"
+            ),
             Self::Time { index, value } => write!(
                 f,
                 "time {index} is {value} s: times are finite and each later than the one before"
@@ -81,23 +92,24 @@ impl fmt::Display for SmoothingError {
             Self::Datum { index, value } => {
                 write!(f, "datum {index} is {value}; missing ones are none")
             }
-            Self::Dimension {
-                dimension,
-                state,
-                measured,
+            Self::Dimension { dimension } => write!(
+                f,
+                "a system of dimension {dimension}: a state is angles, followed by as many rates"
+            ),
+            Self::Row {
+                rows,
+                index,
+                found,
+                needed,
             } => write!(
                 f,
-                "a system of dimension {dimension} for states of {state} numbers, {measured} of \
-                 them measured; a state is the measured angles and their rates"
+                "row {index} of the {rows} has {found} numbers; the equations of motion need {needed}"
             ),
             Self::Diverged => write!(f, "the motion of the model does not stay near the data"),
-            Self::Mass { index } => write!(
+            Self::Mass { index, angles } => write!(
                 f,
-                "the mass matrix at time {index} is not positive definite"
-            ),
-            Self::Frictions { frictions, angles } => write!(
-                f,
-                "{frictions} kinds of friction for {angles} angles: at most one for each"
+                "the mass matrix at time {index} is not positive definite with a row and a column \
+                 for each of {angles} angles"
             ),
             Self::Option {
                 name: name @ ("degree" | "window"),
@@ -121,13 +133,10 @@ const FEWEST: usize = 4;
 /// Refuses data that do not belong to the times, are too few, or are not finite, and times
 /// that are misplaced.
 pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), SmoothingError> {
-    if times.len() != data.len() {
-        let (times, data) = (times.len(), data.len());
-        return Err(SmoothingError::Length { times, data });
-    }
-    let found = data.iter().flatten().count();
-    if found < FEWEST {
-        return Err(SmoothingError::TooFew { found });
+    check_length(times, "data", data.len())?;
+    let (found, needed) = (data.iter().flatten().count(), FEWEST);
+    if found < needed {
+        return Err(SmoothingError::TooFew { found, needed });
     }
     for (index, datum) in data.iter().enumerate() {
         if let Some(value) = *datum
@@ -137,6 +146,19 @@ pub(super) fn check_data(times: &[f64], data: &[Option<f64>]) -> Result<(), Smoo
         }
     }
     check_times(times)
+}
+
+/// Refuses rows that are not as many as times.
+pub(super) fn check_length(
+    times: &[f64],
+    rows: &'static str,
+    found: usize,
+) -> Result<(), SmoothingError> {
+    let times = times.len();
+    match times == found {
+        true => Ok(()),
+        false => Err(SmoothingError::Length { times, rows, found }),
+    }
 }
 
 /// Finds the first time that is not finite or not later than the one before, with its index.

@@ -1,154 +1,208 @@
 //! Normal distributions of a state that go forth with it and back.
+//!
+//! A state has `D` numbers: three by a constant, or as many as a model has.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
 
 /// A normal distribution of a state, variances in units of those of the data.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gaussian<const D: usize> {
-    pub(super) mean: SVector<f64, D>,
-    pub(super) variance: SMatrix<f64, D, D>,
+#[derive(Clone, Debug)]
+pub(super) struct Gaussian<D: Dim>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    pub(super) mean: OVector<f64, D>,
+    pub(super) variance: OMatrix<f64, D, D>,
 }
 
 /// Difference of a datum from the expected one, its variance, and what it moves the state by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Innovation<const D: usize> {
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Innovation<D: Dim>
+where
+    DefaultAllocator: Allocator<D>,
+{
     /// The component that was measured.
     pub(super) component: usize,
     pub(super) value: f64,
     pub(super) variance: f64,
     /// Change of the state for an innovation of one.
-    pub(super) gain: SVector<f64, D>,
+    pub(super) gain: OVector<f64, D>,
 }
 
-impl<const D: usize> Gaussian<D> {
+impl<D: Dim> Gaussian<D>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
     /// The distribution after a step to `mean` whose derivative is `transition`, `noise`
     /// being the variance that comes from outside.
     pub(super) fn step(
         &self,
-        mean: SVector<f64, D>,
-        transition: &SMatrix<f64, D, D>,
-        noise: &SMatrix<f64, D, D>,
+        mean: OVector<f64, D>,
+        transition: &OMatrix<f64, D, D>,
+        noise: &OMatrix<f64, D, D>,
     ) -> Self {
-        Self {
-            mean,
-            variance: symmetric(transition * self.variance * transition.transpose() + noise),
-        }
+        let mut variance = carried(transition, &self.variance);
+        variance += noise;
+        symmetrise(&mut variance);
+        Self { mean, variance }
     }
 
     /// Takes a datum of one component into account.
     pub(super) fn update(&mut self, component: usize, datum: f64) -> Innovation<D> {
         let variance = self.variance[(component, component)] + 1.0;
         let gain = self.variance.column(component) / variance;
-        let innovation = Innovation {
+        let value = datum - self.mean[component];
+        self.mean.axpy(value, &gain, 1.0);
+        // Joseph's form K P Kᵀ + g gᵀ, K = 1 − g eᵀ, which stays positive: K from the left, and
+        // once more after a transposition.
+        for _ in 0..2 {
+            for mut column in self.variance.column_iter_mut() {
+                let own = column[component];
+                column.axpy(-own, &gain, 1.0);
+                column[component] = own / variance;
+            }
+            self.variance.transpose_mut();
+        }
+        self.variance.ger(1.0, &gain, &gain, 1.0);
+        symmetrise(&mut self.variance);
+        Innovation {
             component,
-            value: datum - self.mean[component],
+            value,
             variance,
             gain,
-        };
-        self.mean += gain * innovation.value;
-        // Joseph's form, which stays positive.
-        let mut kept = SMatrix::<f64, D, D>::identity();
-        for row in 0..D {
-            kept[(row, component)] -= gain[row];
         }
-        self.variance =
-            symmetric(kept * self.variance * kept.transpose() + gain * gain.transpose());
-        innovation
-    }
-
-    /// Standard deviations of the components, for data of a standard deviation of 1.
-    pub(super) fn deviations(&self) -> SVector<f64, D> {
-        self.variance
-            .diagonal()
-            .map(|variance| variance.max(0.0).sqrt())
     }
 }
 
 /// A filter at one time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Step<const D: usize> {
+#[derive(Clone, Debug)]
+pub(super) struct Step<D: Dim>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
     /// Derivative of the step from the time before.
-    pub(super) transition: SMatrix<f64, D, D>,
+    pub(super) transition: OMatrix<f64, D, D>,
     /// Variance that comes from outside on that step.
-    pub(super) noise: SMatrix<f64, D, D>,
+    pub(super) noise: OMatrix<f64, D, D>,
     /// The state before the data of this time.
     pub(super) predicted: Gaussian<D>,
     /// The state after them.
     pub(super) updated: Gaussian<D>,
 }
 
-/// The state at one time given the one at the next: `offset + gain · next`, and a root of
-/// the variance about it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Back<const D: usize> {
-    pub(super) offset: SVector<f64, D>,
-    pub(super) gain: SMatrix<f64, D, D>,
-    pub(super) root: SMatrix<f64, D, D>,
+/// Gains by which what is learnt of each state comes back to the one before, one less than steps.
+pub(super) fn gains<D: Dim>(steps: &[Step<D>]) -> Vec<OMatrix<f64, D, D>>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    let gain = |(step, next): (&Step<D>, &Step<D>)| {
+        let mut gain = &next.transition * &step.updated.variance;
+        match next.predicted.variance.clone().cholesky() {
+            Some(factor) => factor.solve_mut(&mut gain),
+            // A variance that rounding has made singular leaves nothing to be learnt.
+            None => gain.fill(0.0),
+        }
+        gain.transpose_mut();
+        gain
+    };
+    steps.iter().zip(steps.iter().skip(1)).map(gain).collect()
 }
 
-/// Runs back over the steps of a filter: the distributions given all data, and each state
-/// given the next one (the last by itself).
-pub(super) fn smooth<const D: usize>(steps: &[Step<D>]) -> (Vec<Gaussian<D>>, Vec<Back<D>>) {
-    let mut smoothed: Vec<Gaussian<D>> = Vec::with_capacity(steps.len());
-    let mut backs = Vec::with_capacity(steps.len());
-    for (index, step) in steps.iter().enumerate().rev() {
-        let Gaussian { mean, variance } = step.updated;
-        let (Some(next), Some(later)) = (steps.get(index + 1), smoothed.last()) else {
-            smoothed.push(step.updated);
-            backs.push(Back {
-                offset: mean,
-                gain: SMatrix::zeros(),
-                root: root(variance),
-            });
-            continue;
-        };
-        let predicted = &next.predicted;
-        let cross = next.transition * variance;
-        // A variance that rounding has made singular leaves nothing to be learnt.
-        let gain = predicted
-            .variance
-            .cholesky()
-            .map(|factor| factor.solve(&cross).transpose());
-        let gain = gain.unwrap_or_else(SMatrix::zeros);
+/// Means given all data, by the gains.
+pub(super) fn smoothed_means<D: Dim>(
+    steps: &[Step<D>],
+    gains: &[OMatrix<f64, D, D>],
+) -> Vec<OVector<f64, D>>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    let mut means: Vec<_> = steps.iter().map(|step| step.updated.mean.clone()).collect();
+    for (index, gain) in gains.iter().enumerate().rev() {
+        let learnt = &means[index + 1] - &steps[index + 1].predicted.mean;
+        means[index].gemv(1.0, gain, &learnt, 1.0);
+    }
+    means
+}
+
+/// Variances given all data, by the gains; a root of the variance of each state given the next one
+/// (the last by itself).
+pub(super) fn smoothed_variances<D: Dim>(
+    steps: &[Step<D>],
+    gains: &[OMatrix<f64, D, D>],
+) -> [Vec<OMatrix<f64, D, D>>; 2]
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    let mut variances: Vec<_> = steps
+        .iter()
+        .map(|step| step.updated.variance.clone())
+        .collect();
+    let mut roots: Vec<_> = variances.last().cloned().map(root).into_iter().collect();
+    for (index, gain) in gains.iter().enumerate().rev() {
+        let next = &steps[index + 1];
+        let (size, _) = gain.shape_generic();
         // Joseph's form here too: the variance of a start that nothing is known of is so large
         // that a difference would be rounding.
-        let kept = SMatrix::identity() - gain * next.transition;
-        let given = kept * variance * kept.transpose() + gain * next.noise * gain.transpose();
-        let given = root(symmetric(given));
-        backs.push(Back {
-            offset: mean - gain * predicted.mean,
-            gain,
-            root: given,
-        });
+        let mut kept = OMatrix::identity_generic(size, size);
+        kept.gemm(-1.0, gain, &next.transition, 1.0);
+        let given = root(carried(&kept, &variances[index]) + carried(gain, &next.noise));
         // A sum of squares: a difference of variances may round to less than none.
-        let variance = gain * later.variance * gain.transpose() + given * given.transpose();
-        smoothed.push(Gaussian {
-            mean: mean + gain * (later.mean - predicted.mean),
-            variance: symmetric(variance),
-        });
+        let mut variance = carried(gain, &variances[index + 1]);
+        variance.gemm(1.0, &given, &given.transpose(), 1.0);
+        symmetrise(&mut variance);
+        variances[index] = variance;
+        roots.push(given);
     }
-    smoothed.reverse();
-    backs.reverse();
-    (smoothed, backs)
+    roots.reverse();
+    [variances, roots]
 }
 
-fn symmetric<const D: usize>(matrix: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
-    0.5 * (matrix + matrix.transpose())
+/// The variance A P Aᵀ of A x, P that of x.
+pub(super) fn carried<D: Dim>(
+    matrix: &OMatrix<f64, D, D>,
+    variance: &OMatrix<f64, D, D>,
+) -> OMatrix<f64, D, D>
+where
+    DefaultAllocator: Allocator<D, D>,
+{
+    // P is symmetric.
+    let mut half = matrix * variance;
+    half.transpose_mut();
+    matrix * half
+}
+
+/// Puts the mean of a matrix and its transpose in its place.
+fn symmetrise<D: Dim>(matrix: &mut OMatrix<f64, D, D>)
+where
+    DefaultAllocator: Allocator<D, D>,
+{
+    for column in 0..matrix.ncols() {
+        for row in 0..column {
+            let mean = 0.5 * (matrix[(row, column)] + matrix[(column, row)]);
+            matrix[(row, column)] = mean;
+            matrix[(column, row)] = mean;
+        }
+    }
 }
 
 /// A lower triangular root of a variance; directions in which rounding has left none have
 /// none.
-fn root<const D: usize>(mut variance: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
+fn root<D: Dim>(mut variance: OMatrix<f64, D, D>) -> OMatrix<f64, D, D>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    symmetrise(&mut variance);
+    let (size, _) = variance.shape_generic();
     let largest = variance.diagonal().amax();
-    let mut root = SMatrix::zeros();
-    for column in 0..D {
+    let mut root = OMatrix::zeros_generic(size, size);
+    for column in 0..size.value() {
         let pivot = variance[(column, column)];
         if pivot <= f64::EPSILON * largest {
             continue;
         }
         let direction = variance.column(column) / pivot.sqrt();
-        variance -= direction * direction.transpose();
-        for row in column..D {
+        variance.ger(-1.0, &direction, &direction, 1.0);
+        for row in column..size.value() {
             root[(row, column)] = direction[row];
         }
     }
@@ -177,7 +231,10 @@ impl Innovations {
         }
     }
 
-    pub(super) fn push<const D: usize>(&mut self, innovation: Innovation<D>) {
+    pub(super) fn push<D: Dim>(&mut self, innovation: &Innovation<D>)
+    where
+        DefaultAllocator: Allocator<D>,
+    {
         if self.standard.len() >= self.free {
             self.logs += innovation.variance.ln();
         }

@@ -1,9 +1,9 @@
 //! Kalman filter and Rauch–Tung–Striebel smoother of a motion whose jerk is white noise.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, U3, Vector3};
 
 use super::error::{SmoothingError, check_data, check_option, usual_interval};
-use super::gaussian::{Gaussian, Innovations, Step};
+use super::gaussian::{Gaussian, Innovations, Step, gains};
 use super::likelihood::largest;
 use super::series::{Scale, SmoothedMotion};
 
@@ -63,7 +63,7 @@ impl KinematicSmoother {
         &self,
         times: &[f64],
         data: &[Option<f64>],
-    ) -> Result<SmoothedMotion<3>, SmoothingError> {
+    ) -> Result<SmoothedMotion, SmoothingError> {
         check_data(times, data)?;
         check_option("noise", self.noise)?;
         check_option("jerk", self.jerk)?;
@@ -96,7 +96,14 @@ impl KinematicSmoother {
             densities: vec![ratio * noise * noise / scale],
             factors: Vector3::new(1.0, 1.0 / unit, 1.0 / (unit * unit)),
         };
-        Ok(SmoothedMotion::new(times, &steps, innovations, scale))
+        Ok(SmoothedMotion::new(
+            times,
+            &steps,
+            &gains(&steps),
+            innovations,
+            scale,
+            Into::into,
+        ))
     }
 }
 
@@ -116,7 +123,7 @@ struct JerkFilter<'a> {
 
 impl JerkFilter<'_> {
     /// Runs the filter with r = q τ⁵/σ², and hands its steps on.
-    fn filter(&self, ratio: f64, mut keep: impl FnMut(Step<3>)) -> Innovations {
+    fn filter(&self, ratio: f64, mut keep: impl FnMut(Step<U3>)) -> Innovations {
         let first = self.data.iter().flatten().next().copied().unwrap_or(0.0);
         let mut state = Gaussian {
             mean: Vector3::new(first, 0.0, 0.0),
@@ -127,15 +134,15 @@ impl JerkFilter<'_> {
         for (&time, datum) in self.times.iter().zip(self.data) {
             let (transition, noise) = step((time - before) / self.unit, ratio);
             let predicted = state.step(transition * state.mean, &transition, &noise);
-            state = predicted;
+            state = predicted.clone();
             if let Some(datum) = *datum {
-                innovations.push(state.update(0, datum));
+                innovations.push(&state.update(0, datum));
             }
             keep(Step {
                 transition,
                 noise,
                 predicted,
-                updated: state,
+                updated: state.clone(),
             });
             before = time;
         }

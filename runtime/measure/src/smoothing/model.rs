@@ -1,8 +1,10 @@
 //! Smoother whose motion obeys equations of motion.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector};
 
-use super::error::{SmoothingError, check_option, check_times, usual_interval};
+use super::disturbances::Disturbances;
+use super::error::{SmoothingError, check_length, check_option, check_times, usual_interval};
+use super::gaussian::{carried, gains};
 use super::likelihood::climb;
 use super::model_filter::{BrakedMotion, Filtered, ModelFilter, SmoothingSolution, inverse_mass};
 use super::series::{Scale, SmoothedMotion};
@@ -37,31 +39,35 @@ use branched_pendulum::integrate::Integrator;
 /// use branched_pendulum_measure::ModelSmoother;
 ///
 /// let smoother = ModelSmoother {
-///     disturbances: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
+///     disturbances: vec![
+///         vec![1.0, 0.0, 0.0],
+///         vec![0.0, 1.0, 1.0],
+///         vec![0.0, 1.0, -1.0],
+///     ],
 ///     frictions: vec![
-///         vec![[1.0, 0.0, 0.0]],
-///         vec![[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+///         vec![vec![1.0, 0.0, 0.0]],
+///         vec![vec![-1.0, 1.0, 0.0], vec![-1.0, 0.0, 1.0]],
 ///     ],
 ///     ..ModelSmoother::default()
 /// };
 /// # assert_eq!(smoother.disturbances.len(), 3);
 /// ```
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct ModelSmoother<const N: usize> {
+pub struct ModelSmoother {
     /// Standard deviation σ of measured angles, rad; without it the one of largest
     /// likelihood.
     pub noise: Option<f64>,
     /// Spectral density q of the generalized forces, (N m)² s; without it the one of
     /// largest likelihood.
     pub density: Option<f64>,
-    /// Patterns of the generalized forces on the links, each with the likeliest density of
-    /// its own; without any all links are disturbed independently with one density.
-    pub disturbances: Vec<[f64; N]>,
-    /// Viscous friction that the equations may lack, at most `N` kinds: of each kind the
-    /// relative angles p·θ on which it acts, one for each joint, with torques −c Σ p (p·ω).
+    /// Patterns of the generalized forces, each a number for each angle and with the likeliest
+    /// density of its own; without any all angles are disturbed independently with one density.
+    pub disturbances: Vec<Vec<f64>>,
+    /// Viscous friction that the equations may lack: of each kind the relative angles p·θ on
+    /// which it acts, one for each joint, with torques −c Σ p (p·ω); p is a number for each angle.
     /// Each coefficient c (N m s) is found where the likelihood gains more by it than one more
     /// number does by itself (Schwarz's criterion), and zero otherwise.
-    pub frictions: Vec<Vec<[f64; N]>>,
+    pub frictions: Vec<Vec<Vec<f64>>>,
 }
 
 /// Change of the angles, in deviations of the data, below which they end.
@@ -80,42 +86,47 @@ const STEPS: [f64; 2] = [LOG_STEP, 0.3];
 /// Times that the likeliest ones are sought, each about the motion of the last ones.
 const SEARCHES: usize = 2;
 
-impl<const N: usize> ModelSmoother<N> {
+impl ModelSmoother {
     /// Longest step (s) from time to time of a method of fourth order: its error is far
     /// below that of any camera.
     pub const LONGEST_STEP: f64 = 2e-3;
 
     /// Estimates angles and angular velocities at all times, where data are missing too.
     ///
-    /// `system` is that of the angles followed by their rates, `D` numbers in all, of which
-    /// the first `N = D/2` are measured; `mass_matrix` gives the rows of the mass matrix
-    /// (kg m²) at angles, by which forces accelerate: where it is the unit matrix, disturbances
-    /// and friction are accelerations; `method` integrates from time to time; `guess` is
-    /// a motion near the true one, as a [`KinematicSmoother`](super::KinematicSmoother)
-    /// gives it. The cost is that of D deviations over the record for each iteration, of
-    /// which there are some 5 for each of some 15 values of q.
+    /// | argument | meaning |
+    /// |---|---|
+    /// | `method` | integrates from time to time |
+    /// | `system` | rates of a state of 2n numbers: n angles, followed by their rates |
+    /// | `mass_matrix` | n rows of n numbers (kg m²) at n angles, by which forces accelerate; where it is the unit matrix, disturbances and friction are accelerations |
+    /// | `data` | for each time a row of the n angles (rad), none where one is missing |
+    /// | `guess` | for each time a state near the true one, as a [`KinematicSmoother`](super::KinematicSmoother) finds it |
+    ///
+    /// The cost is that of 2n deviations over the record for each iteration, of which there are
+    /// some 5 for each of some 15 values of q.
     ///
     /// # Errors
     ///
     /// [`SmoothingError`]; [`SmoothingError::Diverged`] where the motion of the model does
     /// not stay near the data.
-    pub fn smooth<const D: usize, L, M>(
+    pub fn smooth<L, M>(
         &self,
         method: &M,
         system: &L,
-        mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
+        mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
         times: &[f64],
-        data: &[[Option<f64>; N]],
-        guess: &[[f64; D]],
-    ) -> Result<SmoothedMotion<D>, SmoothingError>
+        data: &[Vec<Option<f64>>],
+        guess: &[Vec<f64>],
+    ) -> Result<SmoothedMotion<Vec<f64>>, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
     {
         self.check(system.dimension(), times, data, guess)?;
         let unit = usual_interval(times);
-        let mut kinds = self.kinds();
-        let size = self.size_of_accelerations(&kinds, &mass_matrix, guess)?;
+        let links = system.dimension() / 2;
+        let states: Vec<_> = guess.iter().map(|state| column(state)).collect();
+        let mut kinds = self.kinds(links);
+        let size = size_of_accelerations(&kinds, &mass_matrix, &states)?;
         for kind in &mut kinds {
             *kind /= size;
         }
@@ -125,11 +136,12 @@ impl<const N: usize> ModelSmoother<N> {
             mass_matrix,
             times,
             data,
+            links,
             unit,
             noise: self.noise,
             density: self.density.map(|density| density * size),
             kinds,
-            frictions: self.torques_of_friction(),
+            frictions: self.torques_of_friction(links),
         };
         let cube = unit.powi(3);
         let ratio = match (problem.noise, problem.density) {
@@ -137,8 +149,8 @@ impl<const N: usize> ModelSmoother<N> {
             _ => None,
         };
         let start = BrakedMotion {
-            states: guess.to_vec(),
-            frictions: SVector::zeros(),
+            states,
+            frictions: DVector::zeros(self.frictions.len()),
         };
         let solution = match ratio {
             Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
@@ -148,9 +160,10 @@ impl<const N: usize> ModelSmoother<N> {
         let Filtered {
             innovations,
             steps,
+            data,
             constants,
+            rows,
             effects,
-            disturbances,
         } = filtered;
         let noise = problem.noise_of(&logs, &innovations);
         let scale = Scale {
@@ -159,38 +172,42 @@ impl<const N: usize> ModelSmoother<N> {
                 .iter()
                 .map(|log| log.exp() * noise * noise / (cube * size))
                 .collect(),
-            factors: SVector::repeat(1.0),
+            factors: DVector::repeat(2 * links, 1.0),
         };
-        let frictions = constants.values.iter().take(problem.frictions.len());
-        let motion = SmoothedMotion::new(times, &steps, innovations, scale);
-        let motion = motion.with_disturbances(disturbances);
-        Ok(motion.with_frictions(frictions.copied().collect(), |back| {
-            constants.errors(back, &effects)
-        }))
+        let gains = gains(&steps);
+        let row = |state: DVector<f64>| state.data.into();
+        let motion = SmoothedMotion::new(times, &steps, &gains, innovations, scale, row);
+        let frictions = constants.values.iter().copied().collect();
+        let motion = motion.with_frictions(frictions, constants.errors(&gains, &effects));
+        let explained = constants.explained(&rows);
+        Ok(motion.with_disturbances(Disturbances::new(steps, data, explained)))
     }
 
-    fn check<const D: usize>(
+    fn check(
         &self,
         dimension: usize,
         times: &[f64],
-        data: &[[Option<f64>; N]],
-        guess: &[[f64; D]],
+        data: &[Vec<Option<f64>>],
+        guess: &[Vec<f64>],
     ) -> Result<(), SmoothingError> {
-        if dimension != D || D != 2 * N {
-            let state = D;
-            return Err(SmoothingError::Dimension {
-                dimension,
-                state,
-                measured: N,
-            });
+        let links = dimension / 2;
+        if dimension != 2 * links {
+            return Err(SmoothingError::Dimension { dimension });
         }
-        if times.len() != data.len() || times.len() != guess.len() {
-            let (times, data) = (times.len(), data.len().min(guess.len()));
-            return Err(SmoothingError::Length { times, data });
-        }
+        check_length(times, "data", data.len())?;
+        check_length(times, "guess", guess.len())?;
+        let frictions = self.frictions.iter().enumerate();
+        let frictions = frictions.flat_map(|(kind, all)| all.iter().map(move |row| (kind, row)));
+        check_rows("data", links, data.iter().map(Vec::len).enumerate())?;
+        check_rows("guess", dimension, guess.iter().map(Vec::len).enumerate())?;
+        let disturbances = self.disturbances.iter().map(Vec::len).enumerate();
+        check_rows("disturbances", links, disturbances)?;
+        let frictions = frictions.map(|(kind, row)| (kind, row.len()));
+        check_rows("frictions", links, frictions)?;
         let found = data.iter().flatten().flatten().count();
-        if found <= D || times.len() < 2 {
-            return Err(SmoothingError::TooFew { found });
+        let needed = dimension + 1;
+        if found < needed || times.len() < 2 {
+            return Err(SmoothingError::TooFew { found, needed });
         }
         check_times(times)?;
         for (index, (data, guess)) in data.iter().zip(guess).enumerate() {
@@ -199,72 +216,40 @@ impl<const N: usize> ModelSmoother<N> {
                 return Err(SmoothingError::Datum { index, value });
             }
         }
-        if self.frictions.len() > N {
-            return Err(SmoothingError::Frictions {
-                frictions: self.frictions.len(),
-                angles: N,
-            });
-        }
         check_option("noise", self.noise)?;
         check_option("density", self.density)
     }
 
     /// Covariances of the forces that have a density of their own.
-    fn kinds(&self) -> Vec<SMatrix<f64, N, N>> {
+    fn kinds(&self, links: usize) -> Vec<DMatrix<f64>> {
         if self.disturbances.is_empty() {
-            return vec![SMatrix::identity()];
+            return vec![DMatrix::identity(links, links)];
         }
-        let patterns = self.disturbances.iter().map(|p| SVector::from(*p));
-        patterns
-            .map(|pattern| pattern * pattern.transpose())
-            .collect()
-    }
-
-    /// Density of the accelerations by forces of these covariances, a mean over the links and
-    /// the motion: by which densities of forces are told as such of accelerations. One where
-    /// there are no forces.
-    fn size_of_accelerations<const D: usize>(
-        &self,
-        kinds: &[SMatrix<f64, N, N>],
-        mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
-        motion: &[[f64; D]],
-    ) -> Result<f64, SmoothingError> {
-        let mut sum = 0.0;
-        for (index, state) in motion.iter().enumerate() {
-            let angles = SVector::from_fn(|row, _| state[row]);
-            let inverse = inverse_mass(&mass_matrix, &angles, index)?;
-            let traces = kinds
-                .iter()
-                .map(|kind| (inverse * kind * inverse.transpose()).trace());
-            sum += traces.sum::<f64>();
-        }
-        let mean = sum / (motion.len() * kinds.len() * N) as f64;
-        Ok(if mean > 0.0 { mean } else { 1.0 })
+        self.disturbances.iter().map(|own| square(own)).collect()
     }
 
     /// Torques of each kind of friction by angular velocities, for a coefficient of one, with
     /// the sign of the friction.
-    fn torques_of_friction(&self) -> Vec<SMatrix<f64, N, N>> {
-        let kinds = self.frictions.iter();
-        kinds
-            .map(|joints| {
-                let joints = joints.iter().map(|joint| SVector::from(*joint));
-                joints.map(|joint| joint * joint.transpose()).sum()
-            })
-            .collect()
+    fn torques_of_friction(&self, links: usize) -> Vec<DMatrix<f64>> {
+        let none = DMatrix::zeros(links, links);
+        let sum = |joints: &Vec<Vec<f64>>| {
+            let joints = joints.iter().map(|joint| square(joint));
+            joints.fold(none.clone(), |sum, joint| sum + joint)
+        };
+        self.frictions.iter().map(sum).collect()
     }
 
-    fn likeliest<const D: usize, L, M, A>(
+    fn likeliest<L, M, A>(
         &self,
-        problem: &ModelFilter<'_, N, L, M, A>,
-        start: BrakedMotion<D, N>,
-    ) -> Result<SmoothingSolution<D, N>, SmoothingError>
+        problem: &ModelFilter<'_, L, M, A>,
+        start: BrakedMotion,
+    ) -> Result<SmoothingSolution, SmoothingError>
     where
         L: Linearised<f64>,
         M: for<'a> Integrator<f64, Variational<'a, L>>,
-        A: Fn(&[f64; N]) -> [[f64; N]; N],
+        A: Fn(&[f64]) -> Vec<Vec<f64>>,
     {
-        let of = |solution: &SmoothingSolution<D, N>| {
+        let of = |solution: &SmoothingSolution| {
             problem.likelihood(&solution.logs, &solution.filtered.innovations)
         };
         let [low, high] = LOG_RATIOS;
@@ -293,8 +278,10 @@ impl<const N: usize> ModelSmoother<N> {
             // The linearisation about the best motion serves its neighbours.
             let linear = problem.linearise(&best.motion)?;
             let near = |logs: &[f64]| {
-                let filtered = problem.filter(logs, &best.motion.states, &linear);
-                problem.likelihood(logs, &filtered.innovations)
+                problem.likelihood(
+                    logs,
+                    &problem.innovations(logs, &best.motion.states, &linear),
+                )
             };
             let logs = climb(near, best.logs.clone(), low, STEPS);
             let enough = if search < SEARCHES { NEAR } else { CONVERGED };
@@ -302,4 +289,51 @@ impl<const N: usize> ModelSmoother<N> {
         }
         Ok(best)
     }
+}
+
+/// Refuses rows, by their indices and lengths, that do not have a number for each of `needed`.
+fn check_rows(
+    rows: &'static str,
+    needed: usize,
+    mut lengths: impl Iterator<Item = (usize, usize)>,
+) -> Result<(), SmoothingError> {
+    match lengths.find(|(_, found)| *found != needed) {
+        None => Ok(()),
+        Some((index, found)) => Err(SmoothingError::Row {
+            rows,
+            index,
+            found,
+            needed,
+        }),
+    }
+}
+
+fn column(row: &[f64]) -> DVector<f64> {
+    DVector::from_column_slice(row)
+}
+
+/// The matrix p pᵀ of a row p.
+fn square(row: &[f64]) -> DMatrix<f64> {
+    let column = column(row);
+    &column * column.transpose()
+}
+
+/// Density of the accelerations by forces of these covariances, a mean over the links and the
+/// motion: by which densities of forces are told as such of accelerations. One where there are
+/// no forces.
+fn size_of_accelerations(
+    kinds: &[DMatrix<f64>],
+    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+    motion: &[DVector<f64>],
+) -> Result<f64, SmoothingError> {
+    let (mut sum, mut count) = (0.0, 0);
+    for (index, state) in motion.iter().enumerate() {
+        let (angles, _) = state.as_slice().split_at(state.len() / 2);
+        let inverse = inverse_mass(&mass_matrix, angles, index)?;
+        let traces = kinds.iter().map(|kind| carried(&inverse, kind).trace());
+        sum += traces.sum::<f64>();
+        count += kinds.len() * inverse.nrows();
+    }
+    let mean = sum / count as f64;
+    Ok(if mean > 0.0 { mean } else { 1.0 })
 }

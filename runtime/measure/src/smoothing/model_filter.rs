@@ -1,11 +1,10 @@
 //! Kalman filter and smoother about a motion of given equations.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Dyn};
 
-use super::constants::{Effects, FittedConstants, StepEffects};
-use super::disturbances::{Disturbances, DisturbedStep};
+use super::constants::{FittedConstants, StepEffects};
 use super::error::SmoothingError;
-use super::gaussian::{Gaussian, Innovations, Step, smooth};
+use super::gaussian::{Gaussian, Innovation, Innovations, Step, carried, gains, smoothed_means};
 use super::kinematic::DIFFUSE;
 use branched_pendulum::analysis::variational::{Linearised, Variational, flow_jacobian};
 use branched_pendulum::integrate::Integrator;
@@ -15,13 +14,15 @@ use branched_pendulum::system::State;
 const ITERATIONS: usize = 12;
 
 /// Data and the equations of what they were measured on.
-pub(super) struct ModelFilter<'a, const N: usize, L, M, A> {
+pub(super) struct ModelFilter<'a, L, M, A> {
     pub(super) method: &'a M,
     pub(super) system: &'a L,
-    /// The mass matrix at angles.
+    /// Rows of the mass matrix at angles.
     pub(super) mass_matrix: A,
     pub(super) times: &'a [f64],
-    pub(super) data: &'a [[Option<f64>; N]],
+    pub(super) data: &'a [Vec<Option<f64>>],
+    /// Number of angles.
+    pub(super) links: usize,
     /// The usual interval, s.
     pub(super) unit: f64,
     /// Standard deviation of the data, where it is given.
@@ -30,56 +31,60 @@ pub(super) struct ModelFilter<'a, const N: usize, L, M, A> {
     pub(super) density: Option<f64>,
     /// Covariances of the disturbances, each of such a density that the accelerations have one
     /// of about 1.
-    pub(super) kinds: Vec<SMatrix<f64, N, N>>,
+    pub(super) kinds: Vec<DMatrix<f64>>,
     /// Torques of friction with a coefficient of one, by angular velocities, with the sign
     /// of the friction.
-    pub(super) frictions: Vec<SMatrix<f64, N, N>>,
+    pub(super) frictions: Vec<DMatrix<f64>>,
 }
 
 /// The flow from one time to the next about a motion.
-pub(super) struct LinearFlow<const D: usize, const N: usize> {
+pub(super) struct LinearFlow {
     /// Where it leads without the friction that the equations lack.
-    end: SVector<f64, D>,
+    end: DVector<f64>,
     /// Derivative of the end, with that friction as it is.
-    transition: SMatrix<f64, D, D>,
-    /// Changes of the end by coefficients of friction of one.
-    effects: Effects<D, N>,
+    transition: DMatrix<f64>,
+    /// Changes of the end by coefficients of friction of one, a column each.
+    effects: DMatrix<f64>,
     /// Accelerations by generalized forces.
-    inverse_mass: SMatrix<f64, N, N>,
+    inverse_mass: DMatrix<f64>,
 }
 
 /// Findings of a filter.
-pub(super) struct Filtered<const D: usize, const N: usize> {
+pub(super) struct Filtered {
     pub(super) innovations: Innovations,
-    pub(super) steps: Vec<Step<D>>,
+    pub(super) steps: Vec<Step<Dyn>>,
+    /// Innovations by the data of each time, in the order in which they were taken.
+    pub(super) data: Vec<Vec<Innovation<Dyn>>>,
     /// The coefficients of friction.
-    pub(super) constants: FittedConstants<N>,
-    pub(super) effects: Vec<StepEffects<D, N>>,
-    pub(super) disturbances: Disturbances<D>,
+    pub(super) constants: FittedConstants,
+    /// Changes of each innovation by coefficients of one, in its deviations.
+    pub(super) rows: Vec<DVector<f64>>,
+    /// Changes of the states by coefficients of one.
+    pub(super) effects: Vec<StepEffects>,
 }
 
 /// A motion, with the friction that acts on it beside the equations.
 #[derive(Clone)]
-pub(super) struct BrakedMotion<const D: usize, const N: usize> {
-    pub(super) states: Vec<[f64; D]>,
+pub(super) struct BrakedMotion {
+    pub(super) states: Vec<DVector<f64>>,
     /// Coefficients of the friction.
-    pub(super) frictions: SVector<f64, N>,
+    pub(super) frictions: DVector<f64>,
 }
 
 /// The motion for given ratios q τ³/σ².
-pub(super) struct SmoothingSolution<const D: usize, const N: usize> {
+pub(super) struct SmoothingSolution {
     /// Their logarithms: one for each kind of disturbance, or one for all.
     pub(super) logs: Vec<f64>,
-    pub(super) motion: BrakedMotion<D, N>,
+    pub(super) motion: BrakedMotion,
     /// Findings of the filter that led to it.
-    pub(super) filtered: Filtered<D, N>,
+    pub(super) filtered: Filtered,
 }
 
-impl<const N: usize, L, M, A> ModelFilter<'_, N, L, M, A>
+impl<L, M, A> ModelFilter<'_, L, M, A>
 where
     L: Linearised<f64>,
     M: for<'a> Integrator<f64, Variational<'a, L>>,
-    A: Fn(&[f64; N]) -> [[f64; N]; N],
+    A: Fn(&[f64]) -> Vec<Vec<f64>>,
 {
     /// The deviation of the data that goes with logarithms of ratios, where one is given.
     fn given_noise(&self, logs: &[f64]) -> Option<f64> {
@@ -100,21 +105,20 @@ where
 
     /// Iterates from a motion to the likeliest one, until it changes by `converged`
     /// deviations of the data.
-    pub(super) fn solve<const D: usize>(
+    pub(super) fn solve(
         &self,
         logs: &[f64],
-        mut motion: BrakedMotion<D, N>,
+        mut motion: BrakedMotion,
         converged: f64,
-    ) -> Result<SmoothingSolution<D, N>, SmoothingError> {
+    ) -> Result<SmoothingSolution, SmoothingError> {
         for iteration in 1.. {
             let flow = self.linearise(&motion)?;
             let filtered = self.filter(logs, &motion.states, &flow);
-            motion.frictions = filtered.constants.values;
-            let (smoothed, _) = smooth(&filtered.steps);
+            motion.frictions.copy_from(&filtered.constants.values);
+            let smoothed = smoothed_means(&filtered.steps, &gains(&filtered.steps));
             let mut change = 0.0_f64;
-            for (old, new) in motion.states.iter_mut().zip(&smoothed) {
-                let new: [f64; D] = new.mean.into();
-                for (old, new) in old.iter().zip(&new).take(N) {
+            for (old, new) in motion.states.iter().zip(&smoothed) {
+                for (old, new) in old.iter().zip(new).take(self.links) {
                     // NaN does not pass as small.
                     change = if (new - old).abs() <= change {
                         change
@@ -122,8 +126,8 @@ where
                         (new - old).abs()
                     };
                 }
-                *old = new;
             }
+            motion.states = smoothed;
             if !change.is_finite() {
                 return Err(SmoothingError::Diverged);
             }
@@ -139,23 +143,26 @@ where
         Err(SmoothingError::Diverged)
     }
 
-    pub(super) fn linearise<const D: usize>(
+    pub(super) fn linearise(
         &self,
-        about: &BrakedMotion<D, N>,
-    ) -> Result<Vec<LinearFlow<D, N>>, SmoothingError> {
+        about: &BrakedMotion,
+    ) -> Result<Vec<LinearFlow>, SmoothingError> {
         let ends = self.times.iter().zip(&about.states).skip(1);
         let pairs = self.times.iter().zip(&about.states).zip(ends).enumerate();
+        let size = 2 * self.links;
         pairs
             .map(|(index, ((&time, state), (&end, next)))| {
-                let start = State::new(time, state.to_vec());
+                let start = State::new(time, state.as_slice().to_vec());
                 let flow = flow_jacobian(self.method, self.system, &start, end);
                 let (reached, columns) = flow.map_err(|_| SmoothingError::Diverged)?;
-                let ends = [AnglesAndRates::of(state), AnglesAndRates::of(next)];
+                let ends = [state, next].map(AnglesAndRates::of);
+                let angles = ends[0].angles.as_slice();
+                let inverse_mass = inverse_mass(&self.mass_matrix, angles, index)?;
                 let mut flow = LinearFlow {
-                    end: SVector::from_column_slice(&reached.values),
-                    transition: SMatrix::from_column_slice(&columns),
-                    effects: SMatrix::zeros(),
-                    inverse_mass: inverse_mass(&self.mass_matrix, &ends[0].angles, index)?,
+                    end: DVector::from_vec(reached.values),
+                    transition: DMatrix::from_vec(size, size, columns),
+                    effects: DMatrix::zeros(size, self.frictions.len()),
+                    inverse_mass,
                 };
                 if !self.frictions.is_empty() {
                     self.brake(&mut flow, &about.frictions, end - time, &ends, index)?;
@@ -167,185 +174,208 @@ where
 
     /// Adds friction to a flow over h: changes of its end by coefficients of one, and of its
     /// derivative by those that were found.
-    fn brake<const D: usize>(
+    fn brake(
         &self,
-        flow: &mut LinearFlow<D, N>,
-        coefficients: &SVector<f64, N>,
+        flow: &mut LinearFlow,
+        coefficients: &DVector<f64>,
         h: f64,
-        [first, last]: &[AnglesAndRates<N>; 2],
+        [first, last]: &[AnglesAndRates; 2],
         index: usize,
     ) -> Result<(), SmoothingError> {
+        let links = self.links;
         let middle = first.halfway(last, h);
-        let at_middle = inverse_mass(&self.mass_matrix, &middle.angles, index)?;
-        let at_last = inverse_mass(&self.mass_matrix, &last.angles, index)?;
+        let at_middle = inverse_mass(&self.mass_matrix, middle.angles.as_slice(), index)?;
+        let at_last = inverse_mass(&self.mass_matrix, last.angles.as_slice(), index)?;
         // The second half of the flow: a root of the whole, by its series.
-        let unit = SMatrix::<f64, D, D>::identity();
-        let change = flow.transition - unit;
-        let half = unit + 0.5 * change - 0.125 * change * change;
-        let mut found = SMatrix::<f64, N, N>::zeros();
+        let unit = DMatrix::identity(2 * links, 2 * links);
+        let change = &flow.transition - &unit;
+        let half = unit + 0.5 * &change - 0.125 * &change * &change;
+        // Changes of the end by those of rates.
+        let [whole, half] = [&flow.transition, &half].map(|flow| flow.columns(links, links));
+        let mut found = DMatrix::zeros(links, links);
         let kinds = self.frictions.iter().zip(coefficients).enumerate();
         for (column, (friction, coefficient)) in kinds {
-            let push = |inverse_mass: &SMatrix<f64, N, N>, at: &AnglesAndRates<N>| {
-                let braking = inverse_mass * friction * at.rates;
-                SVector::<f64, D>::from_fn(|row, _| row.checked_sub(N).map_or(0.0, |i| -braking[i]))
+            let braking = |inverse_mass: &DMatrix<f64>, at: &AnglesAndRates| {
+                inverse_mass * (friction * &at.rates)
             };
             // Simpson's rule for what a push at each time has become at the end.
-            let pushes = flow.transition * push(&flow.inverse_mass, first)
-                + 4.0 * half * push(&at_middle, &middle)
-                + push(&at_last, last);
-            flow.effects.set_column(column, &(h / 6.0 * pushes));
+            let mut pushes = whole * braking(&flow.inverse_mass, first);
+            pushes += half * braking(&at_middle, &middle) * 4.0;
+            let mut rates = pushes.rows_mut(links, links);
+            rates += braking(&at_last, last);
+            flow.effects.set_column(column, &(-h / 6.0 * pushes));
             found += friction * *coefficient;
         }
         let lost = h * at_middle * found;
-        for (row, column) in (0..N).flat_map(|row| (0..N).map(move |column| (row, column))) {
-            flow.transition[(row, N + column)] -= 0.5 * h * lost[(row, column)];
-            flow.transition[(N + row, N + column)] -= lost[(row, column)];
-        }
+        let mut by_rates = flow.transition.columns_mut(links, links);
+        let mut angles = by_rates.rows_mut(0, links);
+        angles -= 0.5 * h * &lost;
+        let mut rates = by_rates.rows_mut(links, links);
+        rates -= lost;
         Ok(())
     }
 
-    pub(super) fn filter<const D: usize>(
+    /// Runs the filter and keeps its steps.
+    pub(super) fn filter(
         &self,
         logs: &[f64],
-        motion: &[[f64; D]],
-        flow: &[LinearFlow<D, N>],
-    ) -> Filtered<D, N> {
+        motion: &[DVector<f64>],
+        flow: &[LinearFlow],
+    ) -> Filtered {
+        self.run(logs, motion, flow, true)
+    }
+
+    /// Runs the filter for its innovations alone.
+    pub(super) fn innovations(
+        &self,
+        logs: &[f64],
+        motion: &[DVector<f64>],
+        flow: &[LinearFlow],
+    ) -> Innovations {
+        self.run(logs, motion, flow, false).innovations
+    }
+
+    fn run(
+        &self,
+        logs: &[f64],
+        motion: &[DVector<f64>],
+        flow: &[LinearFlow],
+        is_kept: bool,
+    ) -> Filtered {
         let ratios = logs.iter().cycle().map(|log| log.exp());
-        let kinds = self.kinds.iter().zip(ratios);
-        let forces: SMatrix<f64, N, N> = kinds.map(|(kind, ratio)| kind * ratio).sum();
-        let mut innovations = Innovations::new(D);
-        let mut steps: Vec<Step<D>> = Vec::with_capacity(self.times.len());
-        let mut effects: Vec<StepEffects<D, N>> = Vec::new();
-        let mut rows = Vec::new();
-        let mut disturbed = Vec::with_capacity(self.times.len());
+        let mut forces = DMatrix::zeros(self.links, self.links);
+        for (kind, ratio) in self.kinds.iter().zip(ratios) {
+            forces += kind * ratio;
+        }
+        let size = 2 * self.links;
+        let mut innovations = Innovations::new(size);
+        let (mut steps, mut all_data) = (Vec::new(), Vec::new());
+        let (mut rows, mut effects) = (Vec::new(), Vec::new());
         let is_braked = !self.frictions.is_empty();
+        let mut state = self.start(motion);
+        let mut moved = DMatrix::zeros(size, self.frictions.len());
         for (index, row) in self.data.iter().enumerate() {
-            let (transition, variance, predicted) = match (steps.last(), index.checked_sub(1)) {
-                (Some(last), Some(before)) => {
-                    let flow = &flow[before];
-                    let h = (self.times[index] - self.times[before]) / self.unit;
-                    let about = SVector::from(motion[before]);
-                    let mean = flow.end + flow.transition * (last.updated.mean - about);
-                    let accelerations = flow.inverse_mass * forces * flow.inverse_mass.transpose();
+            let last = index.checked_sub(1);
+            let step = last.and_then(|last| Some((last, flow.get(last)?)));
+            let noise = match step {
+                Some((last, flow)) => {
+                    let h = (self.times[index] - self.times[last]) / self.unit;
+                    let accelerations = carried(&flow.inverse_mass, &forces);
                     let noise = self.noise(&accelerations, h);
-                    let transition = flow.transition;
-                    let predicted = last.updated.step(mean, &transition, &noise);
-                    (transition, noise, predicted)
+                    let mut mean = flow.end.clone();
+                    let from = &state.mean - &motion[last];
+                    mean.gemv(1.0, &flow.transition, &from, 1.0);
+                    state = state.step(mean, &flow.transition, &noise);
+                    if is_braked {
+                        moved = &flow.transition * moved + &flow.effects;
+                    }
+                    noise
                 }
-                _ => (SMatrix::identity(), SMatrix::zeros(), self.start(motion)),
+                None => DMatrix::zeros(size, size),
             };
-            let moved = effects.last().map_or_else(SMatrix::zeros, |last| {
-                transition * last.updated + flow[index - 1].effects
-            });
-            let mut own = StepEffects {
-                predicted: moved,
-                updated: moved,
-            };
-            let mut updated = predicted;
-            let mut data = Vec::with_capacity(N);
+            let before = is_kept.then(|| (state.clone(), moved.clone()));
+            let mut data = Vec::with_capacity(self.links);
             for (component, datum) in row.iter().enumerate() {
                 let Some(datum) = *datum else { continue };
-                let innovation = updated.update(component, datum);
-                innovations.push(innovation);
+                let innovation = state.update(component, datum);
+                innovations.push(&innovation);
                 if is_braked {
-                    let moves = own.updated.row(component).into_owned();
-                    own.updated -= innovation.gain * moves;
-                    rows.push(moves.transpose() / innovation.variance.sqrt());
+                    let moves = moved.row(component).transpose();
+                    moved.ger(-1.0, &innovation.gain, &moves, 1.0);
+                    rows.push(moves / innovation.variance.sqrt());
                 }
                 data.push(innovation);
             }
-            disturbed.push(DisturbedStep {
-                transition,
-                variance,
-                data,
-            });
-            if is_braked {
-                effects.push(own);
+            if let Some((predicted, changes)) = before {
+                let identity = || DMatrix::identity(size, size);
+                let transition = step.map_or_else(identity, |(_, flow)| flow.transition.clone());
+                steps.push(Step {
+                    transition,
+                    noise,
+                    predicted,
+                    updated: state.clone(),
+                });
+                effects.push(StepEffects {
+                    predicted: changes,
+                    updated: moved.clone(),
+                });
+                all_data.push(data);
             }
-            steps.push(Step {
-                transition,
-                noise: variance,
-                predicted,
-                updated,
-            });
         }
         let constants = FittedConstants::fit(&mut innovations, &rows, self.given_noise(logs));
         constants.move_steps(&mut steps, &effects);
-        let disturbances = Disturbances {
-            steps: disturbed,
-            explained: constants.explained(&rows),
-        };
         Filtered {
             innovations,
             steps,
+            data: all_data,
             constants,
+            rows,
             effects,
-            disturbances,
         }
     }
 
     /// The state before the first data: not known.
-    fn start<const D: usize>(&self, motion: &[[f64; D]]) -> Gaussian<D> {
+    fn start(&self, motion: &[DVector<f64>]) -> Gaussian<Dyn> {
         let rates = DIFFUSE / (self.unit * self.unit);
+        let variances = DVector::from_fn(2 * self.links, |row, _| {
+            if row < self.links { DIFFUSE } else { rates }
+        });
         Gaussian {
-            mean: motion.first().copied().unwrap_or([0.0; D]).into(),
-            variance: SMatrix::from_diagonal(&SVector::from_fn(|row, _| {
-                if row < N { DIFFUSE } else { rates }
-            })),
+            mean: motion.first().cloned().unwrap_or_default(),
+            variance: DMatrix::from_diagonal(&variances),
         }
     }
 
     /// Variance that white accelerations add over h usual intervals.
-    fn noise<const D: usize>(
-        &self,
-        accelerations: &SMatrix<f64, N, N>,
-        h: f64,
-    ) -> SMatrix<f64, D, D> {
-        let unit = self.unit;
-        SMatrix::from_fn(|row, column| {
-            let part = match (row < N, column < N) {
+    fn noise(&self, accelerations: &DMatrix<f64>, h: f64) -> DMatrix<f64> {
+        let (unit, links) = (self.unit, self.links);
+        DMatrix::from_fn(2 * links, 2 * links, |row, column| {
+            let part = match (row < links, column < links) {
                 (true, true) => h.powi(3) / 3.0,
                 (false, false) => h / (unit * unit),
                 _ => 0.5 * h * h / unit,
             };
-            part * accelerations[(row % N, column % N)]
+            part * accelerations[(row % links, column % links)]
         })
     }
 }
 
 /// Angles and angular velocities at one time.
-struct AnglesAndRates<const N: usize> {
-    angles: SVector<f64, N>,
-    rates: SVector<f64, N>,
+struct AnglesAndRates {
+    angles: DVector<f64>,
+    rates: DVector<f64>,
 }
 
-impl<const N: usize> AnglesAndRates<N> {
-    fn of(state: &[f64]) -> Self {
-        let part = |first: usize| SVector::from_fn(|row, _| state[first + row]);
+impl AnglesAndRates {
+    fn of(state: &DVector<f64>) -> Self {
+        let links = state.len() / 2;
         Self {
-            angles: part(0),
-            rates: part(N),
+            angles: state.rows(0, links).into_owned(),
+            rates: state.rows(links, links).into_owned(),
         }
     }
 
     /// Angles and rates in the middle of h until others, by Hermite's cubic.
     fn halfway(&self, next: &Self, h: f64) -> Self {
-        let step = next.angles - self.angles;
+        let step = &next.angles - &self.angles;
         Self {
-            angles: self.angles + 0.5 * step + 0.125 * h * (self.rates - next.rates),
-            rates: 1.5 / h * step - 0.25 * (self.rates + next.rates),
+            angles: &self.angles + 0.5 * &step + 0.125 * h * (&self.rates - &next.rates),
+            rates: 1.5 / h * step - 0.25 * (&self.rates + &next.rates),
         }
     }
 }
 
 /// Returns the inverse of the mass matrix at the angles of the time with this index.
-pub(super) fn inverse_mass<const N: usize>(
-    mass_matrix: impl Fn(&[f64; N]) -> [[f64; N]; N],
-    angles: &SVector<f64, N>,
+pub(super) fn inverse_mass(
+    mass_matrix: impl Fn(&[f64]) -> Vec<Vec<f64>>,
+    angles: &[f64],
     index: usize,
-) -> Result<SMatrix<f64, N, N>, SmoothingError> {
-    let rows = mass_matrix(&(*angles).into());
-    let mass = SMatrix::<f64, N, N>::from_fn(|row, column| rows[row][column]);
-    let factor = mass.cholesky().ok_or(SmoothingError::Mass { index })?;
+) -> Result<DMatrix<f64>, SmoothingError> {
+    let (rows, links) = (mass_matrix(angles), angles.len());
+    let is_square = rows.len() == links && rows.iter().all(|row| row.len() == links);
+    let mass = || DMatrix::from_fn(links, links, |row, column| rows[row][column]);
+    let factor = is_square.then(mass).and_then(DMatrix::cholesky);
+    let angles = links;
+    let factor = factor.ok_or(SmoothingError::Mass { index, angles })?;
     Ok(factor.inverse())
 }

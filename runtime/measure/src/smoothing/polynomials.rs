@@ -69,7 +69,7 @@ impl LocalPolynomials {
         &self,
         times: &[f64],
         data: &[Option<f64>],
-    ) -> Result<SmoothedMotion<3>, SmoothingError> {
+    ) -> Result<SmoothedMotion, SmoothingError> {
         check_data(times, data)?;
         check_option("noise", self.noise)?;
         let degree = usize::from(self.degree);
@@ -86,7 +86,8 @@ impl LocalPolynomials {
         let narrowest = degree + 2;
         let found = record.points.len();
         if found < narrowest {
-            return Err(SmoothingError::TooFew { found });
+            let needed = narrowest;
+            return Err(SmoothingError::TooFew { found, needed });
         }
         let window = match self.window {
             Some(window) if !(narrowest..=found).contains(&window) => {
@@ -166,7 +167,7 @@ impl Record {
 
     /// Weights of the data of the window about a time in the first `D` of value, first and
     /// second derivative of the polynomial there.
-    fn weights<const D: usize>(&self, time: f64, window: usize) -> DataWeights<D> {
+    fn weights<const D: usize>(&self, time: f64, window: usize) -> DataWeights<[f64; D]> {
         let after = self.points.partition_point(|[other, _]| *other < time);
         let mut first = after.saturating_sub(window);
         while first + window < self.points.len()
@@ -202,7 +203,7 @@ impl Record {
         let weight = |place: &f64| {
             let horner = |sum: SVector<f64, D>, power: &SVector<f64, D>| sum * *place + power;
             let polynomial = coefficients.iter().rev().fold(SVector::zeros(), horner);
-            polynomial * (1.0 - place * place)
+            (polynomial * (1.0 - place * place)).into()
         };
         DataWeights {
             first,

@@ -1,92 +1,130 @@
 //! A motion estimated from data, with its errors.
 
-use nalgebra::SVector;
+use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
 
 use super::disturbances::Disturbances;
-use super::gaussian::{Back, Innovations, Step, smooth};
+use super::gaussian::{Innovations, Step, smoothed_means, smoothed_variances};
 
-/// A motion of `D` components at every time, their errors, and draws from all motions that
-/// the data allow: for a [`KinematicSmoother`](super::KinematicSmoother) and
-/// [`LocalPolynomials`](super::LocalPolynomials) a coordinate with its first and second time
-/// derivative, for a [`ModelSmoother`](super::ModelSmoother) angles and angular velocities.
+/// A motion at every time, its errors, and draws from all motions that the data allow. A state
+/// is a row of numbers: for a [`KinematicSmoother`](super::KinematicSmoother) and
+/// [`LocalPolynomials`](super::LocalPolynomials) a coordinate, its first and its second time
+/// derivative in an array, for a [`ModelSmoother`](super::ModelSmoother) all angles, followed by
+/// their angular velocities, in a vector.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SmoothedMotion<const D: usize> {
+pub struct SmoothedMotion<R = [f64; 3]> {
     times: Vec<f64>,
     noise: f64,
     densities: Vec<f64>,
     frictions: Vec<f64>,
-    means: Vec<[f64; D]>,
-    deviations: Vec<[f64; D]>,
-    spread: Spread<D>,
+    means: Vec<R>,
+    deviations: Vec<R>,
+    /// The row beyond the last time: NaN.
+    beyond: R,
+    errors: Errors<R>,
     innovations: Vec<f64>,
-    disturbances: Disturbances<D>,
+    disturbances: Disturbances,
     free: usize,
 }
 
-/// How the errors of a motion hang together.
+/// How the errors of a motion follow from independent ones of a deviation of 1.
 #[derive(Clone, Debug, PartialEq)]
-enum Spread<const D: usize> {
-    /// Each state given the next.
+enum Errors<R> {
+    /// From that at the next time and errors of its own.
     Steps {
-        back: Vec<Back<D>>,
-        /// Factors that take the smoother's state to the user's units.
-        factors: SVector<f64, D>,
-        /// Changes at each time by independent errors of one deviation, which all states share.
-        shared: Vec<Vec<SVector<f64, D>>>,
+        /// Matrices for the next one, column by column, one time after the other.
+        gains: Vec<f64>,
+        /// Matrices for own errors, likewise.
+        roots: Vec<f64>,
+        /// Changes at each time by errors that all states share.
+        shared: Vec<Vec<R>>,
     },
-    /// Each state a sum over data of independent errors.
+    /// As sums over errors of data.
     Sums {
-        rows: Vec<DataWeights<D>>,
+        rows: Vec<DataWeights<R>>,
         /// Number of data.
         data: usize,
+        /// Their deviation.
+        noise: f64,
     },
 }
 
 /// Weights of some data, from the one with index `first` on, in a state.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct DataWeights<const D: usize> {
+pub(super) struct DataWeights<R> {
     pub(super) first: usize,
-    pub(super) weights: Vec<SVector<f64, D>>,
+    pub(super) weights: Vec<R>,
 }
 
-impl<const D: usize> DataWeights<D> {
-    fn sum(&self, data: &[f64]) -> SVector<f64, D> {
+impl<R: AsRef<[f64]>> DataWeights<R> {
+    fn add_to(&self, state: &mut [f64], data: &[f64]) {
         let terms = self.weights.iter().zip(data.iter().skip(self.first));
-        terms.map(|(weight, datum)| weight * *datum).sum()
+        terms.for_each(|(weight, datum)| add(state, *datum, weight.as_ref()));
+    }
+}
+
+/// Adds a multiple of a row to another.
+// Where this is inlined, the length of an array is known: draws take a third of the time.
+#[inline(always)]
+fn add(sum: &mut [f64], factor: f64, row: &[f64]) {
+    for (sum, part) in sum.iter_mut().zip(row) {
+        *sum += factor * part;
     }
 }
 
 /// Knowledge of a smoother's state beside the steps.
-pub(super) struct Scale<const D: usize> {
+pub(super) struct Scale<D: Dim>
+where
+    DefaultAllocator: Allocator<D>,
+{
     /// Standard deviation of the data.
     pub(super) noise: f64,
     /// Spectral densities of what disturbs the motion.
     pub(super) densities: Vec<f64>,
     /// Factors that take the state to the user's units.
-    pub(super) factors: SVector<f64, D>,
+    pub(super) factors: OVector<f64, D>,
 }
 
-impl<const D: usize> SmoothedMotion<D> {
-    /// Smooths what a filter has gone over.
-    pub(super) fn new(
+impl<R> SmoothedMotion<R> {
+    /// A motion that a filter has gone over, with the gains of its steps, in rows that `row`
+    /// makes of states.
+    pub(super) fn new<D: Dim>(
         times: &[f64],
         steps: &[Step<D>],
+        gains: &[OMatrix<f64, D, D>],
         innovations: Innovations,
         scale: Scale<D>,
-    ) -> Self {
+        row: impl Fn(OVector<f64, D>) -> R,
+    ) -> Self
+    where
+        DefaultAllocator: Allocator<D> + Allocator<D, D>,
+    {
         let Scale {
             noise,
             densities,
             factors,
         } = scale;
-        let (smoothed, back) = smooth(steps);
-        let means = smoothed
-            .iter()
-            .map(|state| state.mean.component_mul(&factors).into());
-        let deviations = smoothed.iter().map(|state| {
-            let deviations = noise * state.deviations();
-            deviations.component_mul(&factors).into()
+        let means = smoothed_means(steps, gains);
+        let means = means.iter().map(|mean| row(mean.component_mul(&factors)));
+        let [variances, roots] = smoothed_variances(steps, gains);
+        let deviations = variances.iter().map(|variance| {
+            let deviations = variance.diagonal().map(|own| noise * own.max(0.0).sqrt());
+            row(deviations.component_mul(&factors))
         });
+        // Columns in the user's units, each times its factor of `from`.
+        let scaled = |matrices: &[OMatrix<f64, D, D>], from: OVector<f64, D>| {
+            let mut numbers = Vec::new();
+            for matrix in matrices {
+                for (column, from) in matrix.column_iter().zip(&from) {
+                    numbers.extend(&(column.component_mul(&factors) * *from));
+                }
+            }
+            numbers
+        };
+        let roots = scaled(&roots, factors.map(|_| noise));
+        let mut gains = scaled(gains, factors.map(|factor| 1.0 / factor));
+        // Behind the last time there is none.
+        gains.resize(roots.len(), 0.0);
         Self {
             times: times.to_vec(),
             noise,
@@ -94,9 +132,10 @@ impl<const D: usize> SmoothedMotion<D> {
             frictions: Vec::new(),
             means: means.collect(),
             deviations: deviations.collect(),
-            spread: Spread::Steps {
-                back,
-                factors,
+            beyond: row(factors.map(|_| f64::NAN)),
+            errors: Errors::Steps {
+                gains,
+                roots,
                 shared: Vec::new(),
             },
             innovations: innovations
@@ -108,9 +147,51 @@ impl<const D: usize> SmoothedMotion<D> {
             free: innovations.free,
         }
     }
+}
 
+impl SmoothedMotion {
+    /// A motion whose states are sums of data with independent errors.
+    pub(super) fn by_weights(
+        times: &[f64],
+        rows: Vec<DataWeights<[f64; 3]>>,
+        data: &[f64],
+        noise: f64,
+    ) -> Self {
+        let mean = |row: &DataWeights<[f64; 3]>| {
+            let mut state = [0.0; 3];
+            row.add_to(&mut state, data);
+            state
+        };
+        let deviation = |row: &DataWeights<[f64; 3]>| {
+            [0, 1, 2].map(|part| {
+                let squares = row.weights.iter().map(|weight| weight[part] * weight[part]);
+                noise * squares.sum::<f64>().sqrt()
+            })
+        };
+        Self {
+            times: times.to_vec(),
+            noise,
+            densities: Vec::new(),
+            frictions: Vec::new(),
+            means: rows.iter().map(mean).collect(),
+            deviations: rows.iter().map(deviation).collect(),
+            beyond: [f64::NAN; 3],
+            errors: Errors::Sums {
+                rows,
+                data: data.len(),
+                noise,
+            },
+            innovations: Vec::new(),
+            disturbances: Disturbances::default(),
+            free: 0,
+        }
+    }
+}
+
+/// What a [`ModelSmoother`](super::ModelSmoother) finds beside the motion.
+impl SmoothedMotion<Vec<f64>> {
     /// The motion with what tells its disturbances.
-    pub(super) fn with_disturbances(mut self, disturbances: Disturbances<D>) -> Self {
+    pub(super) fn with_disturbances(mut self, disturbances: Disturbances) -> Self {
         self.disturbances = disturbances;
         self
     }
@@ -121,60 +202,47 @@ impl<const D: usize> SmoothedMotion<D> {
     pub(super) fn with_frictions(
         mut self,
         frictions: Vec<f64>,
-        errors: impl FnOnce(&[Back<D>]) -> Vec<Vec<SVector<f64, D>>>,
+        mut errors: Vec<Vec<Vec<f64>>>,
     ) -> Self {
         self.frictions = frictions;
-        let Spread::Steps {
-            back,
-            factors,
-            shared,
-        } = &mut self.spread
-        else {
-            return self;
-        };
-        *shared = errors(back);
-        for error in shared.iter() {
-            for (deviations, error) in self.deviations.iter_mut().zip(error) {
-                let error = self.noise * error.component_mul(factors);
-                for (deviation, error) in deviations.iter_mut().zip(&error) {
+        for states in &mut errors {
+            for (deviations, errors) in self.deviations.iter_mut().zip(states) {
+                for (deviation, error) in deviations.iter_mut().zip(errors) {
+                    *error *= self.noise;
                     *deviation = deviation.hypot(*error);
                 }
             }
         }
+        if let Errors::Steps { shared, .. } = &mut self.errors {
+            *shared = errors;
+        }
         self
     }
 
-    /// A motion whose states are sums of data with independent errors.
-    pub(super) fn by_weights(
-        times: &[f64],
-        rows: Vec<DataWeights<D>>,
-        data: &[f64],
-        noise: f64,
-    ) -> Self {
-        let deviation = |row: &DataWeights<D>| {
-            let squares = row
-                .weights
-                .iter()
-                .map(|weight| weight.component_mul(weight));
-            squares.sum::<SVector<f64, D>>().map(|x| noise * x.sqrt())
-        };
-        Self {
-            times: times.to_vec(),
-            noise,
-            densities: Vec::new(),
-            frictions: Vec::new(),
-            means: rows.iter().map(|row| row.sum(data).into()).collect(),
-            deviations: rows.iter().map(|row| deviation(row).into()).collect(),
-            spread: Spread::Sums {
-                rows,
-                data: data.len(),
-            },
-            innovations: Vec::new(),
-            disturbances: Disturbances::default(),
-            free: 0,
-        }
+    /// Coefficients (N m s) of the friction that the equations of motion lack, one for each
+    /// kind that the smoother looks for: zero where the data do not ask for one.
+    pub fn frictions(&self) -> &[f64] {
+        &self.frictions
     }
 
+    /// Changes of the state from the time before to each that the equations of motion do not
+    /// make, nor the frictions that were found: those of the likeliest disturbances.
+    pub fn disturbances(&self) -> Vec<Vec<f64>> {
+        let innovations = self.innovations.iter();
+        let innovations: Vec<f64> = innovations.map(|value| self.noise * value).collect();
+        self.disturbances.likeliest(&innovations)
+    }
+
+    /// Draws the [`disturbances`](Self::disturbances) that another measurement would feign of a
+    /// motion that has none, with its densities as they were found. What the found ones do, and
+    /// these do not, is no noise: a test of the equations. `normal` gives independent numbers of
+    /// a standard normal distribution.
+    pub fn spurious_disturbances(&self, mut normal: impl FnMut() -> f64) -> Vec<Vec<f64>> {
+        self.disturbances.spurious(|| self.noise * normal())
+    }
+}
+
+impl<R: AsRef<[f64]> + AsMut<[f64]> + Clone> SmoothedMotion<R> {
     /// Times, s.
     pub fn times(&self) -> &[f64] {
         &self.times
@@ -193,26 +261,19 @@ impl<const D: usize> SmoothedMotion<D> {
         &self.densities
     }
 
-    /// Coefficients (N m s) of the friction that the equations of motion lack, one for each
-    /// kind that a [`ModelSmoother`](super::ModelSmoother) looks for: zero where the data do
-    /// not ask for one.
-    pub fn frictions(&self) -> &[f64] {
-        &self.frictions
+    /// Returns the state at a time, NaN beyond the last.
+    pub fn mean(&self, index: usize) -> R {
+        self.means.get(index).unwrap_or(&self.beyond).clone()
     }
 
-    /// Returns the components at a time, NaN beyond the last.
-    pub fn mean(&self, index: usize) -> [f64; D] {
-        self.means.get(index).copied().unwrap_or([f64::NAN; D])
-    }
-
-    /// Returns their standard deviations, NaN beyond the last time.
-    pub fn deviation(&self, index: usize) -> [f64; D] {
-        self.deviations.get(index).copied().unwrap_or([f64::NAN; D])
+    /// Returns the standard deviations of its numbers, NaN beyond the last time.
+    pub fn deviation(&self, index: usize) -> R {
+        self.deviations.get(index).unwrap_or(&self.beyond).clone()
     }
 
     /// Difference of each datum from the one that those before it led to expect, in standard
-    /// deviations of that: white and normal if noise and motion are as assumed. The first
-    /// `D` say nothing. [`LocalPolynomials`](super::LocalPolynomials) expect nothing: none.
+    /// deviations of that: white and normal if noise and motion are as assumed. The first, as many
+    /// as a state has numbers, say nothing. [`LocalPolynomials`](super::LocalPolynomials) expect nothing: none.
     pub fn innovations(&self) -> &[f64] {
         &self.innovations
     }
@@ -227,56 +288,45 @@ impl<const D: usize> SmoothedMotion<D> {
         (used.len() as f64).sqrt() * product / square
     }
 
-    /// Changes of the state from the time before to each that the equations of motion of a
-    /// [`ModelSmoother`](super::ModelSmoother) do not make, nor the frictions that it found: those
-    /// of the likeliest disturbances. Other smoothers know of none.
-    pub fn disturbances(&self) -> Vec<[f64; D]> {
-        let innovations = self.innovations.iter();
-        let innovations: Vec<f64> = innovations.map(|value| self.noise * value).collect();
-        self.disturbances.likeliest(&innovations)
-    }
-
-    /// Draws the [`disturbances`](Self::disturbances) that another measurement would feign of a
-    /// motion that has none, with its densities as they were found. What the found ones do, and
-    /// these do not, is no noise: a test of the equations. `normal` gives independent numbers of
-    /// a standard normal distribution.
-    pub fn spurious_disturbances(&self, mut normal: impl FnMut() -> f64) -> Vec<[f64; D]> {
-        self.disturbances.spurious(|| self.noise * normal())
-    }
-
-    /// Draws a motion, each as likely as the data make it: the components at every time.
-    /// `normal` gives independent numbers of a standard normal distribution.
-    pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<[f64; D]> {
-        match &self.spread {
-            Spread::Steps {
-                back,
-                factors,
+    /// Draws a motion, each as likely as the data make it: the state at every time. `normal`
+    /// gives independent numbers of a standard normal distribution.
+    pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Vec<R> {
+        let mut motion = self.means.clone();
+        match &self.errors {
+            Errors::Steps {
+                gains,
+                roots,
                 shared,
             } => {
-                let mut motion = vec![SVector::zeros(); back.len()];
-                for error in shared {
-                    let size = self.noise * normal();
-                    for (slot, error) in motion.iter_mut().zip(error) {
-                        *slot += size * error;
+                for changes in shared {
+                    let size = normal();
+                    for (state, change) in motion.iter_mut().zip(changes) {
+                        add(state.as_mut(), size, change.as_ref());
                     }
                 }
-                let mut next = SVector::zeros();
-                for (slot, back) in motion.iter_mut().zip(back).rev() {
-                    let kick = SVector::from_fn(|_, _| self.noise * normal());
-                    next = back.offset + back.gain * next + back.root * kick;
-                    *slot += next;
+                let [mut error, mut next] = [self.beyond.clone(), self.beyond.clone()];
+                next.as_mut().fill(0.0);
+                let size = next.as_ref().len();
+                let [gains, roots] = [gains, roots].map(|all| all.chunks_exact(size * size));
+                for ((state, gain), root) in motion.iter_mut().zip(gains).zip(roots).rev() {
+                    error.as_mut().fill(0.0);
+                    for column in root.chunks_exact(size) {
+                        add(error.as_mut(), normal(), column);
+                    }
+                    for (column, next) in gain.chunks_exact(size).zip(next.as_ref()) {
+                        add(error.as_mut(), *next, column);
+                    }
+                    add(state.as_mut(), 1.0, error.as_ref());
+                    core::mem::swap(&mut error, &mut next);
                 }
-                let told = motion.iter().map(|state| state.component_mul(factors));
-                told.map(Into::into).collect()
             }
-            Spread::Sums { rows, data } => {
-                let errors: Vec<f64> = (0..*data).map(|_| self.noise * normal()).collect();
-                let states = rows.iter().zip(&self.means);
-                let drawn = |(row, mean): (&DataWeights<D>, &[f64; D])| {
-                    (SVector::from(*mean) + row.sum(&errors)).into()
-                };
-                states.map(drawn).collect()
+            Errors::Sums { rows, data, noise } => {
+                let errors: Vec<f64> = (0..*data).map(|_| noise * normal()).collect();
+                for (state, row) in motion.iter_mut().zip(rows) {
+                    row.add_to(state.as_mut(), &errors);
+                }
             }
         }
+        motion
     }
 }

@@ -96,12 +96,18 @@ impl Regression<'_> {
         all.filter_map(|(t, y)| Some([*t, (*y)?])).collect()
     }
 
-    fn agrees<const D: usize>(&self, smoothed: &SmoothedMotion<D>) {
+    /// Asserts that smoothed states have the means and deviations of the regression: their numbers
+    /// from `first` on, every `stride`th, are the value and its derivatives.
+    fn agrees<R>(&self, smoothed: &SmoothedMotion<R>, first: usize, stride: usize)
+    where
+        R: AsRef<[f64]> + AsMut<[f64]> + Clone,
+    {
         for (index, &time) in self.times.iter().enumerate() {
             let (means, deviations) = (smoothed.mean(index), smoothed.deviation(index));
-            for derivative in 0..D {
+            let numbers = means.as_ref().iter().zip(deviations.as_ref());
+            let own = numbers.skip(first).step_by(stride);
+            for (derivative, (own, bar)) in own.enumerate() {
                 let [mean, deviation] = self.at(time, derivative);
-                let (own, bar) = (means[derivative], deviations[derivative]);
                 assert!(
                     (own - mean).abs() < 1e-3 * deviation,
                     "{index} {derivative}"
@@ -146,7 +152,7 @@ fn a_white_jerk() {
                 times: &times,
                 data: &data,
             };
-            exact.agrees(&smoother.smooth(&times, &data).unwrap());
+            exact.agrees(&smoother.smooth(&times, &data).unwrap(), 0, 1);
         }
     }
 }
@@ -238,23 +244,45 @@ fn bands_have_the_deviations_of_their_draws() {
     assert!((found.deviations[0][0] - 13.0_f64.sqrt()).abs() < 1e-14);
 }
 
-/// A body that turns freely under white torques.
-#[test]
-fn white_torques() {
+/// Bodies that turn freely under white torques, each for itself: as many as there are inertias.
+fn white_torques_on(inertias: &[f64], [noise, density]: [f64; 2]) {
+    let count = inertias.len();
     let free = WithDerivative::new(
-        OdeFn::new(2, |_: f64, y: &[f64], rates: &mut [f64]| {
-            rates.copy_from_slice(&[y[1], 0.0]);
+        OdeFn::new(2 * count, move |_: f64, y: &[f64], rates: &mut [f64]| {
+            rates.fill(0.0);
+            rates[..count].copy_from_slice(&y[count..]);
         }),
-        |_: f64, _: &[f64], v: &[f64], out: &mut [f64]| out.copy_from_slice(&[v[1], 0.0]),
+        move |_: f64, _: &[f64], v: &[f64], out: &mut [f64]| {
+            out.fill(0.0);
+            out[..count].copy_from_slice(&v[count..]);
+        },
     );
+    let mass = |_: &[f64]| -> Vec<Vec<f64>> {
+        let row = |own: usize| {
+            let entry = |other: usize| if other == own { inertias[own] } else { 0.0 };
+            (0..count).map(entry).collect()
+        };
+        (0..count).map(row).collect()
+    };
     let method = Dop853::new(Options::with_tolerance(1e-10));
     for (times, data) in records() {
-        for (noise, density, inertia) in [(0.02, 5.0, 1.0), (0.1, 0.3, 0.2), (1e-3, 40.0, 3.0)] {
-            let smoother = ModelSmoother::<1> {
-                noise: Some(noise),
-                density: Some(density),
-                ..ModelSmoother::default()
-            };
+        let smoother = ModelSmoother {
+            noise: Some(noise),
+            density: Some(density),
+            ..ModelSmoother::default()
+        };
+        // Each body misses other data, and turns by an angle of its own more.
+        let datum = |time: usize, body: usize| {
+            let is_seen = body == 0 || (time + body) % 4 != 2;
+            Some(data[time]? + body as f64).filter(|_| is_seen)
+        };
+        let rows = (0..times.len()).map(|time| (0..count).map(|body| datum(time, body)).collect());
+        let rows: Vec<Vec<Option<f64>>> = rows.collect();
+        let guess = vec![vec![0.0; 2 * count]; times.len()];
+        let smoothed = smoother.smooth(&method, &free, mass, &times, &rows, &guess);
+        let smoothed = smoothed.unwrap();
+        for (body, inertia) in inertias.iter().enumerate() {
+            let data: Vec<Option<f64>> = rows.iter().map(|row| row[body]).collect();
             let exact = Regression {
                 order: 2,
                 density: density / (inertia * inertia),
@@ -262,10 +290,20 @@ fn white_torques() {
                 times: &times,
                 data: &data,
             };
-            let guess = vec![[0.0; 2]; times.len()];
-            let data: Vec<[Option<f64>; 1]> = data.iter().map(|datum| [*datum]).collect();
-            let smoothed = smoother.smooth(&method, &free, |_| [[inertia]], &times, &data, &guess);
-            exact.agrees(&smoothed.unwrap());
+            exact.agrees(&smoothed, body, count);
         }
     }
+}
+
+#[test]
+fn white_torques() {
+    white_torques_on(&[1.0], [0.02, 5.0]);
+    white_torques_on(&[0.2], [0.1, 0.3]);
+    white_torques_on(&[3.0], [1e-3, 40.0]);
+}
+
+#[test]
+fn white_torques_on_eight_bodies() {
+    let inertias = [0.5, 1.0, 0.7, 2.0, 0.3, 1.5, 3.0, 0.9];
+    white_torques_on(&inertias, [0.02, 5.0]);
 }

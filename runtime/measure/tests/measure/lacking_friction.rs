@@ -8,8 +8,8 @@ use branched_pendulum_measure::{KinematicSmoother, ModelSmoother, SmoothedMotion
 use crate::normal::Normal;
 
 /// Forces per unit of inertia.
-fn unit_mass(_: &[f64; 1]) -> [[f64; 1]; 1] {
-    [[1.0]]
+fn unit_mass(_: &[f64]) -> Vec<Vec<f64>> {
+    vec![vec![1.0]]
 }
 
 /// Rates of a pendulum.
@@ -40,7 +40,7 @@ impl Swing {
     }
 
     /// Smooths by equations without friction.
-    fn smoothed(&self, seed: u64, with_friction: bool) -> SmoothedMotion<2> {
+    fn smoothed(&self, seed: u64, with_friction: bool) -> SmoothedMotion<Vec<f64>> {
         let ideal = WithDerivative::new(
             OdeFn::new(2, without_friction),
             |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
@@ -55,12 +55,12 @@ impl Swing {
             .collect();
         let rough = KinematicSmoother::default();
         let rough = rough.smooth(&self.times, &angles).unwrap();
-        let guess = (0..self.times.len()).map(|i| [rough.mean(i)[0], rough.mean(i)[1]]);
-        let guess: Vec<[f64; 2]> = guess.collect();
-        let data: Vec<[Option<f64>; 1]> = angles.iter().map(|angle| [*angle]).collect();
+        let guess = (0..self.times.len()).map(|i| rough.mean(i)[..2].to_vec());
+        let guess: Vec<Vec<f64>> = guess.collect();
+        let data: Vec<Vec<Option<f64>>> = angles.iter().map(|angle| vec![*angle]).collect();
         let smoother = ModelSmoother {
             frictions: match with_friction {
-                true => vec![vec![[1.0]]],
+                true => vec![vec![vec![1.0]]],
                 false => Vec::new(),
             },
             ..ModelSmoother::default()
@@ -72,7 +72,7 @@ impl Swing {
     }
 
     /// Errors of the velocity in its deviations, and as they are (rms).
-    fn errors(&self, motion: &SmoothedMotion<2>) -> (Vec<f64>, f64) {
+    fn errors(&self, motion: &SmoothedMotion<Vec<f64>>) -> (Vec<f64>, f64) {
         let errors = self.truth.iter().enumerate();
         let errors: Vec<[f64; 2]> = errors
             .map(|(i, truth)| {
@@ -138,13 +138,13 @@ fn draws_have_the_errors_of_the_friction() {
 }
 
 /// Energy of the motion at all times that disturbances bring since the first.
-fn brought(motion: &SmoothedMotion<2>, disturbances: &[[f64; 2]]) -> Vec<f64> {
+fn brought(motion: &SmoothedMotion<Vec<f64>>, disturbances: &[Vec<f64>]) -> Vec<f64> {
     let mut sum = 0.0;
     let changes = disturbances.iter().enumerate();
     changes
-        .map(|(index, [angle, rate])| {
-            let [theta, omega] = motion.mean(index);
-            sum += 14.7 * theta.sin() * angle + omega * rate;
+        .map(|(index, change)| {
+            let state = motion.mean(index);
+            sum += 14.7 * state[0].sin() * change[0] + state[1] * change[1];
             sum
         })
         .collect()
@@ -156,11 +156,11 @@ fn disturbances_are_where_the_motion_leaves_its_equations() {
     let motion = swing.smoothed(3, false);
     let disturbances = motion.disturbances();
     assert_eq!(disturbances[0], [0.0; 2]);
-    let largest = disturbances.iter().map(|[_, rate]| rate.abs());
+    let largest = disturbances.iter().map(|change| change[1].abs());
     let largest = largest.fold(0.0, f64::max);
     let (method, ode) = (Rk4::new(0.005), OdeFn::new(2, without_friction));
     for (index, times) in swing.times.windows(2).enumerate() {
-        let start = State::new(times[0], motion.mean(index).to_vec());
+        let start = State::new(times[0], motion.mean(index));
         let end = method.sample_to_vec(&ode, &start, &times[1..]).unwrap();
         let next = motion.mean(index + 1);
         for part in 0..2 {

@@ -2,6 +2,7 @@
 //! motions, parameters against those of simulated and measured pendulums.
 
 mod dense_regression;
+mod equations;
 mod identification;
 mod lacking_friction;
 mod lines;

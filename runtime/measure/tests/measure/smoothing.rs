@@ -1,11 +1,7 @@
 //! Motions estimated from noisy data, against the motions that they were made from.
 
-use branched_pendulum::analysis::variational::WithDerivative;
-use branched_pendulum::integrate::{Dop853, Integrator, Options, Rk4};
-use branched_pendulum::system::{OdeFn, State};
 use branched_pendulum_measure::{
-    KinematicSmoother, LocalPolynomials, ModelSmoother, SmoothedMotion, SmoothingError,
-    running_integral,
+    KinematicSmoother, LocalPolynomials, SmoothedMotion, SmoothingError, running_integral,
 };
 
 use crate::normal::Normal;
@@ -27,7 +23,7 @@ fn signal(time: f64) -> [f64; 3] {
 /// In how many of all cases angle and rate lie within 1.96 deviations. (Those of the second
 /// derivative are too wide: the signal is smoother than the integral of a white jerk.)
 fn coverage(
-    smooth: impl Fn(&[f64], &[Option<f64>]) -> SmoothedMotion<3>,
+    smooth: impl Fn(&[f64], &[Option<f64>]) -> SmoothedMotion,
     times: &[f64],
     noise: f64,
     missing: impl Fn(usize) -> bool,
@@ -60,11 +56,11 @@ fn coverage(
     inside.map(|inside| f64::from(inside) / f64::from(count))
 }
 
-fn by_smoothness(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion<3> {
+fn by_smoothness(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion {
     KinematicSmoother::default().smooth(times, data).unwrap()
 }
 
-fn by_polynomials(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion<3> {
+fn by_polynomials(times: &[f64], data: &[Option<f64>]) -> SmoothedMotion {
     LocalPolynomials::default().smooth(times, data).unwrap()
 }
 
@@ -197,7 +193,7 @@ fn draws_have_the_deviations_of_the_estimate() {
     }
 }
 
-fn check_draws(smoothed: &SmoothedMotion<3>, normal: &mut Normal) {
+fn check_draws(smoothed: &SmoothedMotion, normal: &mut Normal) {
     assert!(
         (smoothed.noise() / 1e-3 - 1.0).abs() < 0.15,
         "{}",
@@ -283,91 +279,4 @@ fn impossible_data_are_refused() {
             value: 0.0
         })
     );
-}
-
-/// A pendulum that swings far, seen 30 times a second: equations of motion that hold give
-/// its velocity closer than smoothness does; those of a friction that is not there are
-/// found out, and cost nothing.
-#[test]
-fn equations_of_motion_help_where_they_hold() {
-    let equations = |friction: f64| {
-        WithDerivative::new(
-            OdeFn::new(2, move |_time: f64, y: &[f64], rates: &mut [f64]| {
-                rates[0] = y[1];
-                rates[1] = -14.7 * y[0].sin() - friction * y[1];
-            }),
-            move |_time: f64, y: &[f64], v: &[f64], out: &mut [f64]| {
-                out[0] = v[1];
-                out[1] = -14.7 * y[0].cos() * v[0] - friction * v[1];
-            },
-        )
-    };
-    let times: Vec<f64> = (0..300).map(|i| f64::from(i) / 30.0).collect();
-    let exact = Dop853::new(Options::with_tolerance(1e-13));
-    let truth = exact
-        .sample_to_vec(&equations(0.0), &State::at_rest(0.0, &[2.0]), &times)
-        .unwrap();
-    let method = Rk4::new(0.005);
-    let wrong_rate = |rate: f64, index: usize| rate - truth[index].values[1];
-    let rms = |errors: &mut dyn Iterator<Item = f64>| {
-        (errors.map(|error| error * error).sum::<f64>() / times.len() as f64).sqrt()
-    };
-    let mut inside = 0;
-    for seed in 1..=24 {
-        let mut normal = Normal(seed * 0x9e37_79b9);
-        let angles = truth
-            .iter()
-            .map(|state| Some(state.values[0] + 2e-3 * normal.next()));
-        let angles: Vec<Option<f64>> = angles.collect();
-        let rough = KinematicSmoother::default()
-            .smooth(&times, &angles)
-            .unwrap();
-        let guess = (0..times.len()).map(|i| [rough.mean(i)[0], rough.mean(i)[1]]);
-        let guess: Vec<[f64; 2]> = guess.collect();
-        let data: Vec<[Option<f64>; 1]> = angles.iter().map(|angle| [*angle]).collect();
-        let smooth = |friction: f64| {
-            let smoother = ModelSmoother::default();
-            smoother
-                .smooth(
-                    &method,
-                    &equations(friction),
-                    |_| [[1.0]],
-                    &times,
-                    &data,
-                    &guess,
-                )
-                .unwrap()
-        };
-        let right = smooth(0.0);
-        inside += (0..times.len())
-            .filter(|&i| wrong_rate(right.mean(i)[1], i).abs() < 1.96 * right.deviation(i)[1])
-            .count();
-        if seed > 3 {
-            continue;
-        }
-        let by_smoothness = rms(&mut (0..times.len()).map(|i| wrong_rate(rough.mean(i)[1], i)));
-        let by_model = rms(&mut (0..times.len()).map(|i| wrong_rate(right.mean(i)[1], i)));
-        assert!(by_model < 0.1 * by_smoothness, "{by_model} {by_smoothness}");
-        assert!(
-            (right.noise() / 2e-3 - 1.0).abs() < 0.15,
-            "{}",
-            right.noise()
-        );
-
-        let wrong = smooth(0.05);
-        let by_wrong = rms(&mut (0..times.len()).map(|i| wrong_rate(wrong.mean(i)[1], i)));
-        assert!(by_wrong < by_smoothness, "{by_wrong} {by_smoothness}");
-        assert!(wrong.densities()[0] > 100.0 * right.densities()[0]);
-        assert!(wrong.deviation(150)[1] > 2.0 * right.deviation(150)[1]);
-    }
-    // The errors of one record are those of two numbers: 24 records, 48 numbers.
-    let part = inside as f64 / (24 * times.len()) as f64;
-    assert!((0.85..=0.995).contains(&part), "{part}");
-
-    let data = vec![[Some(0.1)]; 300];
-    let unit_mass = |_: &[f64; 1]| [[1.0]];
-    let guess = [[0.0; 4]; 300];
-    let error =
-        ModelSmoother::default().smooth(&method, &equations(0.0), unit_mass, &times, &data, &guess);
-    assert!(matches!(error, Err(SmoothingError::Dimension { .. })));
 }

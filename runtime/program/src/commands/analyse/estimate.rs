@@ -105,7 +105,7 @@ impl Measured<'_> {
     fn separately(
         &self,
         draws: Draws,
-        smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion<3>, SmoothingError>,
+        smooth: impl Fn(&[f64], &[Option<f64>]) -> Result<SmoothedMotion, SmoothingError>,
     ) -> Result<Estimate, Failure> {
         let whole = |angles: &Vec<Option<f64>>| -> Vec<Option<f64>> {
             match angles.iter().copied().collect::<Option<Vec<f64>>>() {

@@ -8,6 +8,7 @@ use branched_pendulum::sectors::{Normalisation, Sectors};
 use branched_pendulum::system::{Energy, Model, Workspace};
 use branched_pendulum::transfer::{Given, NonConservative, SymmetricTree};
 use branched_pendulum_charts::verbatim;
+use branched_pendulum_measure::SmoothingError;
 use branched_pendulum_trees::PendulumTree;
 
 use crate::Failure;
@@ -330,7 +331,11 @@ impl MeasuredTree {
     ///
     /// # Errors
     /// As [`SmoothingEquations::smooth`].
-    pub fn by_model(&self, record: AngleRows<'_>, guess: &[Motion]) -> Result<Smoothed, Failure> {
+    pub fn by_model(
+        &self,
+        record: AngleRows<'_>,
+        guess: &[Motion],
+    ) -> Result<Smoothed, SmoothingError> {
         let equations = SmoothingEquations {
             system: &linearised(AbsoluteAngles(&self.tree)),
             mass_matrix: &|theta| self.tree.mass_matrix(theta),

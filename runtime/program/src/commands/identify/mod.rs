@@ -59,7 +59,7 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let reported = outcomes.iter().rfind(|outcome| outcome.result().is_ok());
     let reported = reported.unwrap_or(last);
     let energies = match &reported.one_motion {
-        Ok(fit) => study.energies(reported.law, fit)?,
+        Ok(fit) => Some(study.energies(reported.law, fit)?),
         Err(_) => None,
     };
     job.print(&report::report(

@@ -13,7 +13,6 @@ use super::study::{Energies, Found, MeasuredEnergy, Mismatch, Outcome, best};
 use super::unknowns::Unknowns;
 use crate::Failure;
 use crate::frame::Job;
-use crate::smoothed::MOST_LINKS;
 
 /// The report.
 pub fn report(
@@ -79,11 +78,6 @@ pub fn report(
     text += &parameters(unknowns, measurement, reported);
     if let Some(energies) = energies {
         let _ = write!(text, "{}", energy(energies));
-    } else if measurement.links.len() > MOST_LINKS {
-        let _ = writeln!(
-            text,
-            "The measured energy is estimated of trees of {MOST_LINKS} links at most."
-        );
     }
     text
 }

@@ -16,7 +16,7 @@ use super::arguments::{Arguments, Law, Sign};
 use super::source::Measurement;
 use super::unknowns::{Knowledge, Unknowns};
 use crate::Failure;
-use crate::smoothed::{AngleRows, MOST_LINKS, Motion, Smoothed, SmoothingEquations, one_by_one};
+use crate::smoothed::{AngleRows, Motion, Smoothed, SmoothingEquations, one_by_one};
 
 /// Length of windows, s.
 pub const WINDOW: f64 = 1.0;
@@ -188,16 +188,12 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Energies of the measured and of the fitted motion, with the fitted parameters; none of
-    /// trees of more than [`MOST_LINKS`].
+    /// Energies of the measured and of the fitted motion, with the fitted parameters.
     ///
     /// # Errors
     /// [`Failure::Identification`] or [`Failure::Smoothing`].
-    pub fn energies(&self, law: Law, fit: &Fit) -> Result<Option<Energies>, Failure> {
+    pub fn energies(&self, law: Law, fit: &Fit) -> Result<Energies, Failure> {
         let count = self.measurement.links.len();
-        if !(1..=MOST_LINKS).contains(&count) {
-            return Ok(None);
-        }
         let tree = self.unknowns.subject_as_given(fit.parameters())?.tree;
         let energy = |[theta, omega]: [&[f64]; 2]| {
             tree.kinetic_energy_of(theta, omega) + tree.potential_energy_of(theta)
@@ -243,7 +239,7 @@ impl<'a> Study<'a> {
         };
         let exact = equations.smooth(record, &smooth.mean)?;
         let fitted = identification(self.arguments, self.unknowns, law).predict(fit, times)?;
-        Ok(Some(Energies {
+        Ok(Energies {
             times: times.to_vec(),
             by_smoothness: energies(&smooth),
             by_equations: energies(&exact),
@@ -251,7 +247,7 @@ impl<'a> Study<'a> {
                 .iter()
                 .map(|state| energy(state.values.split_at(count).into()))
                 .collect(),
-        }))
+        })
     }
 }
 
@@ -323,7 +319,7 @@ mod tests {
         let rms = outcome.errors.as_ref().unwrap().rms();
         assert!((0.9e-4..1.1e-4).contains(&rms), "{rms}");
         let energies = study.energies(Law::All, outcome.result().unwrap());
-        let energies = energies.unwrap().unwrap();
+        let energies = energies.unwrap();
         let mismatch = energies.mismatch(&energies.by_smoothness);
         assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");
         let mismatch = energies.mismatch(&energies.by_equations);
@@ -371,7 +367,7 @@ mod tests {
         }
         let start = Instant::now();
         let energies = study.energies(Law::All, outcomes[2].result().unwrap());
-        let energies = energies.unwrap().unwrap();
+        let energies = energies.unwrap();
         let mismatch = energies.mismatch(&energies.by_equations);
         println!("{mismatch:?} in {:.1?}", start.elapsed());
         assert!(mismatch.largest[0] < 0.015, "{mismatch:?}");

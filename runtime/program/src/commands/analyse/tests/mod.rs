@@ -1,6 +1,7 @@
 //! Estimates from a simulated camera against the truth.
 
 mod causes;
+mod eight_links;
 
 use branched_pendulum::prelude::Ensemble;
 use branched_pendulum_data::{Table, TableOptions};
