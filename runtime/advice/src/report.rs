@@ -96,6 +96,34 @@ impl Advice {
         }
     }
 
+    /// Names and units of the columns of [`rows`](Self::rows).
+    pub const COLUMNS: [(&str, &str); 7] = [
+        ("model", ""),
+        ("method", ""),
+        ("scalar", ""),
+        ("lanes", ""),
+        ("tolerance or step", ""),
+        ("error over tolerance", ""),
+        ("time", "s"),
+    ];
+
+    /// Returns all that was measured, in the order in which it was, as rows of a table.
+    pub fn rows<'a, C: From<&'a str> + From<f64>>(&'a self) -> impl Iterator<Item = [C; 7]> {
+        self.runs.iter().filter_map(|run| {
+            let name = self.names.get(run.candidate)?;
+            let in_lanes = if name.in_lanes { "yes" } else { "no" };
+            Some([
+                name.model.as_str().into(),
+                name.method.as_str().into(),
+                name.scalar.into(),
+                in_lanes.into(),
+                run.setting.into(),
+                run.ratio().into(),
+                run.seconds.into(),
+            ])
+        })
+    }
+
     /// The run to take: the cheapest of those that are right and within the limit.
     pub fn chosen(&self) -> Option<&Measured> {
         self.run(self.choice.chosen)

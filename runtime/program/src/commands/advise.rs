@@ -122,33 +122,9 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         job.report("error over tolerance", chosen.ratio());
         job.report("seconds", chosen.seconds);
     }
-    write(job, &advice)
-}
-
-fn write(job: &Job, advice: &Advice) -> Result<(), Failure> {
-    let columns = [
-        Column::new("model", ""),
-        Column::new("method", ""),
-        Column::new("scalar", ""),
-        Column::new("lanes", ""),
-        Column::new("tolerance or step", ""),
-        Column::new("error over tolerance", ""),
-        Column::new("time", "s"),
-    ];
+    let columns = Advice::COLUMNS.map(|(name, unit)| Column::new(name, unit));
     job.csv("advice.csv", &columns, |csv| {
-        for run in &advice.runs {
-            let name = &advice.names[run.candidate];
-            csv.row([
-                Cell::from(name.model.as_str()),
-                name.method.as_str().into(),
-                name.scalar.into(),
-                if name.in_lanes { "yes" } else { "no" }.into(),
-                run.setting.into(),
-                run.ratio().into(),
-                run.seconds.into(),
-            ])?;
-        }
-        Ok(())
+        advice.rows::<Cell<'_>>().try_for_each(|row| csv.row(row))
     })
 }
 
