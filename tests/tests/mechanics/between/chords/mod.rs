@@ -38,6 +38,17 @@ fn ending(copies: usize, sector: &str) -> String {
     }
 }
 
+/// A rubber band off the children's axes.
+#[branched_pendulum(
+    gravity = 9.80665,
+    parent(mass = 0.12880, com = 0.084, inertia = 1.88e-3, joint = 0.27) [
+        child(mass = 0.10531, com = 0.043, inertia = 0.516e-3) * 2
+    ],
+    siblings(child, at = (0.06, 0.02), spring = 3),
+    emit(transfer(exact)),
+)]
+struct Banded;
+
 /// H_d = p_d²/(4 M) + (G + 2 κ r²) sin² θ_d.
 #[test]
 fn a_pair_has_the_closed_form() {
@@ -52,6 +63,11 @@ fn a_pair_has_the_closed_form() {
         let energy = compiled.evaluate("antiphase_energy", &[&q, &p])[0];
         let expected = p_d * p_d / (4.0 * inertia) + fall * f64::sin(theta_d).powi(2);
         assert!((energy - expected).abs() < 1e-13 * expected);
+        let emitted = Banded::new();
+        assert_eq!(emitted.antiphase_energy(&q, &p), energy);
+        let transfer = emitted.transfer_exact(&q, &p);
+        let own = compiled.evaluate("transfer_exact", &[&q, &p]);
+        assert_eq!([transfer.kinetic, transfer.potential], own[..]);
     }
 }
 
@@ -102,8 +118,8 @@ fn transfers_into_leaves_are_those_of_trees_at_run_time() {
                     (TransferForm::Angle(3), "transfer_angle_3"),
                     (TransferForm::Amplitude(4), "transfer_amplitude_4"),
                 ];
-                let derived = if copies < 4 { forms.len() } else { 3 };
-                for (form, stem) in forms.into_iter().take(derived) {
+                let asked = if copies < 4 { forms.len() } else { 3 };
+                for (form, stem) in forms.into_iter().take(asked) {
                     let derived = compiled.evaluate(&format!("{stem}{end}"), &inputs);
                     let own = w(&tree, form, given)[sector];
                     compared.extend([own.kinetic, own.potential].into_iter().zip(derived));
