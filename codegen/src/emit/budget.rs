@@ -118,6 +118,11 @@ impl Emission<'_> {
             lines.push(String::new());
             lines.push("What lateral offsets do to the weight, F sin θ, is counted in the sector of the means; the energies of differences are then not those of the linear modes.".into());
         }
+        let mut sectors = self.mechanics.sectors.iter();
+        if sectors.any(|sectors| !sectors.chords.is_empty()) {
+            lines.push(String::new());
+            lines.push("In the sectors of differences between the k copies under one link, straight springs κ between these, at the distance r from their pivot, add k κ r² to G.".into());
+        }
         lines.push(String::new());
         lines.push(self.sector_names());
         lines

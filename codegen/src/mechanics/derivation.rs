@@ -8,7 +8,7 @@ use super::meaning::{
 };
 use super::observables::EnergySymbols;
 use super::print::{Index, latex_name};
-use crate::scene::Scene;
+use crate::scene::{DescribedChordSpring, Scene};
 use std::collections::BTreeMap;
 
 /// Index of an [`AngleCombination`] in its table.
@@ -58,6 +58,9 @@ pub(super) struct Derivation<'s> {
     /// Differences of links that are not parent and child, pair by pair.
     pub(super) pairs: Vec<PairDifferences>,
     pub(super) lines: DerivedLines,
+    /// Straight springs between copies; none where other lines are, which have no part in
+    /// symmetric coordinates.
+    pub(super) chords: Vec<DescribedChordSpring>,
     pub(super) groups_of: BTreeMap<SymbolId, usize>,
     of_combination: Vec<(SymbolId, SymbolId)>,
     /// Functions of whole expressions, which observables alone have.
@@ -93,6 +96,7 @@ impl<'s> Derivation<'s> {
             joints: BTreeMap::new(),
             pairs: Vec::new(),
             lines: DerivedLines::default(),
+            chords: scene.chord_springs(&scene.groups).unwrap_or_default(),
             groups_of: BTreeMap::new(),
             of_combination: Vec::new(),
             composites: BTreeMap::new(),

@@ -8,6 +8,7 @@ pub mod algebra;
 mod articulation;
 mod body;
 mod bracket;
+mod chords;
 mod derivation;
 mod differences;
 mod drive;
@@ -70,7 +71,7 @@ pub use positions::{LinkPositions, RelativePosition};
 pub(crate) use print::superscript;
 pub use print::{constant_latex, constant_text, latex, text};
 pub use scales::{LinkScales, ScaleSymbols};
-pub use sectors::{OrbitConstants, OrbitCoupling, OrbitMechanics};
+pub use sectors::{OrbitChord, OrbitConstants, OrbitCoupling, OrbitMechanics};
 pub use work_limit::MOST_TERMS;
 
 use crate::functions::Counting;

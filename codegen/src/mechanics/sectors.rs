@@ -45,6 +45,17 @@ pub struct OrbitCoupling<V = Expr> {
     pub sine: V,
 }
 
+/// Straight springs between the copies of a group: Γ beside G in the sectors of their differences.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OrbitChord<V = Expr> {
+    /// Index of the group in the scene.
+    pub group: usize,
+    /// Orbit of the copies.
+    pub orbit: usize,
+    /// Γ.
+    pub weight: V,
+}
+
 /// The mechanics of a scene by orbits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrbitMechanics {
@@ -52,6 +63,8 @@ pub struct OrbitMechanics {
     pub orbits: Vec<OrbitConstants>,
     /// Couplings of orbits to those above them, none of them zero.
     pub couplings: Vec<OrbitCoupling>,
+    /// Straight springs between copies.
+    pub chords: Vec<OrbitChord>,
     /// The sectors: the in-phase one, then the differences, outer branchings
     /// first.
     pub sectors: Vec<SectorVariables>,
@@ -71,7 +84,7 @@ impl Derivation<'_> {
     /// Reads the constants of each orbit out of the Lagrangian of the absolute
     /// angles; one link stands for all of its orbit.
     pub(super) fn sectors(
-        &self,
+        &mut self,
         frame: &DerivedFrame,
         coordinates: &[Coordinate],
     ) -> OrbitMechanics {
@@ -113,6 +126,7 @@ impl Derivation<'_> {
             springs_couple: scene.coupling_spring(coordinates).is_some(),
             orbits,
             couplings,
+            chords: self.orbit_chords(),
             sectors: sectors(coordinates),
         }
     }

@@ -89,7 +89,7 @@ impl Derivation<'_> {
             .sum();
         let mut in_rates = with_constants(&rates);
         let torques = self.transformed_torques(absolute, coordinates, &mut in_rates);
-        DerivedFrame {
+        let mut frame = DerivedFrame {
             mass,
             potential: &gravity + &springs,
             springs,
@@ -99,7 +99,9 @@ impl Derivation<'_> {
             coordinates: ids,
             velocities,
             momenta,
-        }
+        };
+        frame.potential = &frame.potential + &self.chord_energy(&frame, coordinates);
+        frame
     }
 
     /// The torques, by what their arguments become: of equal copies together, whose parts

@@ -23,7 +23,8 @@ impl Derivation<'_> {
     /// potential that Parseval's identity gives it,
     /// V = G/(2n) |Σ_j w_j e^{iθ_j}|² with the weights w of the difference
     /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d. A torsion
-    /// spring in the pivots adds its own ½ κ n θ_d².
+    /// spring in the pivots adds its own ½ κ n θ_d². Straight springs between the copies add
+    /// their Γ to G.
     pub(super) fn sub_hamiltonian(
         &mut self,
         frame: &DerivedFrame,
@@ -52,7 +53,8 @@ impl Derivation<'_> {
         let modulus = &square(cosines) + &square(sines);
         let reduced = self.reduce(&modulus, frame, &expansion.differences);
         let modulus = if reduced.is_term() { reduced } else { modulus };
-        let weight = &self.gravity_of(orbit) / &Formula::integer(2 * norm);
+        let weight = &self.gravity_of(orbit) + &self.chord(&coordinates[coordinate]);
+        let weight = &weight / &Formula::integer(2 * norm);
         let gravity = &weight * &modulus;
         // Differences are orthogonal: no spring couples two of them.
         let angle = frame.coordinates[coordinate];

@@ -8,7 +8,7 @@ use super::symmetric::{
 };
 use crate::functions::{Argument, Counting, EntryState};
 use crate::mechanics::expression::Expr;
-use crate::mechanics::{Mechanics, OrbitCoupling, OrbitMechanics, PairElement};
+use crate::mechanics::{Mechanics, OrbitChord, OrbitCoupling, OrbitMechanics, PairElement};
 use crate::scene::{FrictionLaw, LinkId, Scene};
 
 /// Arithmetic on means and differences, on series up to an order or on values alone.
@@ -77,6 +77,12 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
             sine: series(&coupling.sine),
         })
         .collect();
+    let chords = sectors.chords.iter().map(|chord| OrbitChord {
+        group: chord.group,
+        orbit: chord.orbit,
+        weight: series(&chord.weight),
+    });
+    let chords = chords.collect();
     let pairs = &mechanics.articulation.pairs;
     let passive = |own: &PairElement| own.passive.map(&mut series);
     let spring_dampers = SpringDamperValues::of(
@@ -88,6 +94,7 @@ pub(super) fn values(lowering: &mut Lowering<'_>, sectors: &OrbitMechanics) -> C
     ConstantValues {
         orbits,
         couplings,
+        chords,
         spring_dampers,
     }
 }

@@ -14,7 +14,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
 
 pub use message::{
-    Lookalike, Message, OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage,
+    Lookalike, Message, NoChord, OutputMessage, Problem, SizeMessage, SyntaxMessage, TreeMessage,
     UnequalUse, ValueMessage,
 };
 pub use nearest::nearest;

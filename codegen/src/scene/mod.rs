@@ -13,6 +13,7 @@
 //! - what `requests` asks for can be derived for this tree.
 
 mod bodies;
+mod chords;
 pub mod coordinates;
 mod drive;
 mod expand;
@@ -53,6 +54,7 @@ mod tree_reader;
 mod unequal;
 mod values;
 
+pub use chords::DescribedChordSpring;
 pub use coordinates::{Coordinate, CoordinateKind};
 pub use drive::{Drive, Signal, SignalAtom, TimeFunction};
 pub use layout::Layout;

@@ -209,14 +209,22 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
     if clauses.len() != scene.translational.len() {
         return;
     }
+    let refused = refused.iter().find(|(is_wanted, _)| *is_wanted);
+    // In loops there are no groups, and lines are refused.
+    let other = match (refused, scene.in_loops()) {
+        (Some(_), false) => scene.chord_springs(&scene.groups).err(),
+        _ => None,
+    };
+    let other = other.unwrap_or_default();
     let lines = scene.lines();
     for (index, (clause, own)) in clauses.into_iter().zip(&scene.translational).enumerate() {
         let span = clause.name.span();
-        if let Some((_, request)) = refused.iter().find(|(is_wanted, _)| *is_wanted) {
+        if let (Some((_, request)), Some(&cause)) = (refused, other.get(&index)) {
             let message = OutputMessage::StraightSpring {
                 line: own.in_words(),
                 noun: own.noun(),
                 request,
+                cause,
             };
             report.error(span, message);
         }

@@ -5,13 +5,22 @@
 //! adds ½ k κ r² |[e^{iθ}]_s|² to each sector s of their differences and nothing to others
 //! (physics (19.10)). It stands beside gravity's ½ G |[1 − e^{iθ}]_s|² with k κ r² for G.
 
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::constants::rounded;
 use super::shape::{SectorColumn, SymmetricShape};
 use crate::scalar::{Double, Scalar};
-use crate::translational::{LinePotential, TranslationalSpringDamper, TranslationalSpringDampers};
+
+/// The same straight spring, without length at rest and without damper, between equal places of
+/// every two copies of a node under one link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChordSpring<T> {
+    /// All copies under the link, by their indices.
+    pub copies: Vec<usize>,
+    /// κ r² (J): the stiffness by the square of the places' distance from the pivot.
+    pub strength: T,
+}
 
 /// Springs along the chords between equal places of copies.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,48 +42,34 @@ impl<T> Default for Chords<T> {
 }
 
 impl<T: Scalar> Chords<T> {
-    /// Returns the springs by sectors.
-    ///
-    /// # Errors
-    /// The index of a line that couples sectors or has no energy of this form.
-    pub(super) fn of(
-        shape: &SymmetricShape,
-        lines: &TranslationalSpringDampers<Double>,
-    ) -> Result<Self, usize> {
-        let zero = Double::from_f64(0.0);
-        let mut pairs: BTreeMap<[usize; 2], (Double, usize)> = BTreeMap::new();
-        for (index, line) in lines.iter().enumerate() {
-            let (links, strength) = chord(line).ok_or(index)?;
-            pairs.entry(links).or_insert((zero, index)).0 += strength;
+    /// Returns the springs by sectors. None for links that are not all copies under one link.
+    pub(super) fn of(shape: &SymmetricShape, springs: &[ChordSpring<Double>]) -> Option<Self> {
+        if springs.is_empty() {
+            return Some(Self::default());
         }
-        if pairs.is_empty() {
-            return Ok(Self::default());
-        }
-        let mut by_coordinate = alloc::vec![zero; shape.links()];
-        for (&[first, second], &(strength, index)) in &pairs {
+        let mut by_coordinate = alloc::vec![Double::from_f64(0.0); shape.links()];
+        let mut pairs = Vec::new();
+        for ChordSpring { copies, strength } in springs {
+            let &first = copies.first()?;
             let columns = || own_differences(shape, first);
-            let copies: BTreeSet<usize> = columns()
+            let of_columns: BTreeSet<usize> = columns()
                 .flat_map(|(_, column)| column.weights.iter().map(|(link, _)| *link))
                 .collect();
-            let has_all = copies.contains(&second)
-                && copies.iter().all(|&a| {
-                    let others = copies.range(a + 1..);
-                    let mut pairs = others.map(|&b| pairs.get(&[a, b]));
-                    pairs.all(|own| own.is_some_and(|(own, _)| *own == strength))
-                });
-            if !has_all {
-                return Err(index);
+            let is_whole = of_columns == copies.iter().copied().collect();
+            if !is_whole || of_columns.len() != copies.len() {
+                return None;
             }
             for (coordinate, _) in columns() {
-                by_coordinate[coordinate] = Double::from_f64(copies.len() as f64) * strength;
+                by_coordinate[coordinate] += Double::from_f64(copies.len() as f64) * *strength;
+            }
+            for (place, &a) in copies.iter().enumerate() {
+                let others = copies[place + 1..].iter();
+                pairs.extend(others.map(|&b| ([a, b], rounded(*strength))));
             }
         }
-        Ok(Self {
+        Some(Self {
             by_coordinate: by_coordinate.into_iter().map(rounded).collect(),
-            pairs: pairs
-                .into_iter()
-                .map(|(links, (strength, _))| (links, rounded(strength)))
-                .collect(),
+            pairs,
         })
     }
 
@@ -114,31 +109,6 @@ impl<T: Scalar> Chords<T> {
             sum + half * strength * (x * x + y * y)
         })
     }
-}
-
-/// The two links, the first one first, and κ r² of a spring between equal places on one pivot that
-/// has neither a length at rest nor a damper.
-fn chord(line: &TranslationalSpringDamper<Double>) -> Option<([usize; 2], Double)> {
-    let zero = Double::from_f64(0.0);
-    let arms = line.arms.iter();
-    let mut arms = arms.filter(|arm| [arm.along, arm.lateral] != [zero; 2]);
-    let (Some(one), Some(other), None) = (arms.next(), arms.next(), arms.next()) else {
-        return None;
-    };
-    let [
-        LinePotential::Spring {
-            stiffness,
-            rest: None,
-        },
-    ] = line.potentials[..]
-    else {
-        return None;
-    };
-    let opposite = one.along == -other.along && one.lateral == -other.lateral;
-    let is_plain = opposite && line.offset == [zero; 2] && line.friction.is_none();
-    let square = one.along * one.along + one.lateral * one.lateral;
-    let links = [one.link.min(other.link), one.link.max(other.link)];
-    is_plain.then_some((links, stiffness * square))
 }
 
 /// The differences of a link and other copies under the same one: coordinates with their indices.

@@ -26,6 +26,7 @@ mod springs;
 mod states;
 
 pub use budget::{EnergyDefinition, SectorBudget};
+pub use chords::ChordSpring;
 pub use constants::RigidLink;
 pub use forces::NonConservative;
 pub use orders::{Order, OrderedTransfers, TransfersByForm};
@@ -42,7 +43,6 @@ use springs::SectorSprings;
 use crate::scalar::{Double, Scalar, at};
 use crate::sectors::{Sector, Sectors};
 use crate::spring_dampers::SpringDampers;
-use crate::translational::TranslationalSpringDampers;
 
 /// A tree with copies in numbers `T`, in its symmetric coordinates.
 ///
@@ -255,18 +255,14 @@ impl<T: Scalar> SymmetricTree<T> {
         Some(self)
     }
 
-    /// Returns the tree with straight springs, whose energy is a sum over sectors: the same spring,
-    /// without length at rest and without damper, between equal places of every two copies of a node
-    /// under one link.
+    /// Returns the tree with straight springs between copies, whose energy is a sum over sectors.
+    /// Other straight springs couple these in general.
     ///
-    /// # Errors
-    /// The index of a line of another kind: a length couples sectors in general.
-    pub fn with_straight_springs(
-        mut self,
-        lines: &TranslationalSpringDampers<Double>,
-    ) -> Result<Self, usize> {
-        self.chords = Chords::of(&self.shape, lines)?;
-        Ok(self)
+    /// None for links that are not all copies of a node under one link, or named twice.
+    #[must_use]
+    pub fn with_straight_springs(mut self, springs: &[ChordSpring<Double>]) -> Option<Self> {
+        self.chords = Chords::of(&self.shape, springs)?;
+        Some(self)
     }
 
     /// Returns the tree as one that stands, or not, whatever its gravity: y of the drive is

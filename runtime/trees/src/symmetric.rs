@@ -5,7 +5,7 @@ use branched_pendulum::scalar::{Double, Scalar};
 use branched_pendulum::sectors::{Normalisation, Sector, SectorCoordinate, Sectors};
 use branched_pendulum::system::functions::SymmetricAccelerations;
 use branched_pendulum::system::{At, Computes, Model, Pendulum, Workspace};
-use branched_pendulum::transfer::{RigidLink, SymmetricTree};
+use branched_pendulum::transfer::{ChordSpring, RigidLink, SymmetricTree};
 use branched_pendulum_codegen::scene::coordinates::symmetric_coordinates;
 use branched_pendulum_codegen::scene::{self, Group, Layout, Link, LinkId, Orbit, OrbitId, Scene};
 
@@ -21,7 +21,8 @@ pub(crate) struct Symmetry {
     pub(crate) sectors: Vec<Sector>,
     /// Of each node whose copies differ all links.
     unequal: Vec<Vec<usize>>,
-    has_copies: bool,
+    /// The copies under each link.
+    groups: Vec<Group>,
 }
 
 impl Symmetry {
@@ -45,7 +46,7 @@ impl Symmetry {
         Self {
             sectors: sectors.collect(),
             unequal: unequal.collect(),
-            has_copies: !scene.groups.is_empty(),
+            groups: scene.groups.clone(),
         }
     }
 }
@@ -117,21 +118,31 @@ fn symmetric<T: Scalar>(
     values: &[f64],
     symmetry: &Symmetry,
 ) -> Result<SymmetricTree<T>, TreeError> {
-    if !symmetry.has_copies {
+    if symmetry.groups.is_empty() {
         return Err(TreeError::NoCopies);
     }
     let scene = &description.scene;
     let tree = unchecked(description, values, symmetry)?;
     let parameters: Vec<Double> = values.iter().copied().map(Double::from_f64).collect();
-    let between = Between::of(scene, tree.links(), &parameters);
-    let tree = tree.with_straight_springs(&between.translational);
-    tree.map_err(|line| {
-        let own = scene.lines().get(line).map(|line| line.spring_damper);
-        let own = own.and_then(|own| scene.translational.get(own));
+    let springs = scene.chord_springs(&symmetry.groups).map_err(|other| {
+        let mut other = other.keys();
+        let first = other
+            .next()
+            .and_then(|&index| scene.translational.get(index));
         TreeError::StraightSpring {
-            line: own.map_or_else(String::new, |own| own.in_words()),
+            line: first.map_or_else(String::new, |own| own.in_words()),
         }
-    })
+    })?;
+    let springs = springs.iter().filter_map(|own| {
+        let copies = symmetry.groups.get(own.group)?.copies.iter();
+        Some(ChordSpring {
+            copies: copies.map(|&LinkId(copy)| copy).collect(),
+            strength: numbers::value(&own.strength, &parameters),
+        })
+    });
+    let springs: Vec<ChordSpring<Double>> = springs.collect();
+    tree.with_straight_springs(&springs)
+        .ok_or(TreeError::NoCopies)
 }
 
 /// The tree with the sectors that it has, be they that of the means alone, but for its straight

@@ -10,6 +10,7 @@
 //! in-phase motion to any order.
 
 mod budget;
+mod chords;
 mod direction;
 mod field;
 mod friction;

@@ -5,7 +5,7 @@ use super::direction::Direction;
 use super::field::{SymmetricField, SymmetricTree};
 use super::series::TruncatedSeries;
 use super::spring_dampers::SpringDamperValues;
-use crate::mechanics::OrbitCoupling;
+use crate::mechanics::{OrbitChord, OrbitCoupling};
 use crate::scene::PassiveTorques;
 
 /// Values of the constants of one orbit; zeros are empty series.
@@ -25,6 +25,7 @@ pub(in crate::program) struct OrbitValues {
 pub(in crate::program) struct ConstantValues {
     pub(in crate::program) orbits: Vec<OrbitValues>,
     pub(in crate::program) couplings: Vec<OrbitCoupling<TruncatedSeries>>,
+    pub(in crate::program) chords: Vec<OrbitChord<TruncatedSeries>>,
     pub(in crate::program) spring_dampers: Vec<SpringDamperValues>,
 }
 
@@ -148,6 +149,7 @@ impl SymmetricTree<'_> {
             self.accumulate(&mut gradient, &along);
             self.accumulate(&mut gradient, &across);
         }
+        self.add_chords(&mut gradient, values, pose);
         self.add_springs(&mut gradient, values, &pose.angles);
         self.all_hinted(&gradient, "potential_slope");
         gradient

@@ -48,7 +48,8 @@ impl SymmetricTree<'_> {
             let [x, y] = self.chord(pose, orbit, sector);
             let squares = [self.series.mul(&x, &x), self.series.mul(&y, &y)];
             let square = self.series.add(&squares[0], &squares[1]);
-            let weight = self.series.mul(&share, &constants.gravity);
+            let gravity = self.gravity_of(values, orbit, sector);
+            let weight = self.series.mul(&share, &gravity);
             let gravity = self.series.mul(&weight, &square);
             sum = self.series.add(&sum, &gravity);
             if !constants.passive.spring.is_zero() {
@@ -69,7 +70,7 @@ impl SymmetricTree<'_> {
         self.series.add(&sum, &between)
     }
 
-    /// dV_s/dt at these angular velocities, of gravity alone.
+    /// dV_s/dt at these angular velocities, of gravity and straight springs.
     pub(super) fn sector_weight_rate(
         &mut self,
         values: &ConstantValues,
@@ -88,7 +89,8 @@ impl SymmetricTree<'_> {
             let across = self.projected(&across, sector);
             let products = [self.series.mul(&y, &across), self.series.mul(&x, &down)];
             let rate = self.series.sub(&products[0], &products[1]);
-            let gravity = self.series.mul(&constants.gravity, &rate);
+            let gravity = self.gravity_of(values, orbit, sector);
+            let gravity = self.series.mul(&gravity, &rate);
             sum = self.series.add(&sum, &gravity);
             if sector.is_none() {
                 let lateral = self.series.mul(&constants.lateral_gravity, &across);
@@ -114,7 +116,7 @@ impl SymmetricTree<'_> {
         self.series.add(&weight, &springs)
     }
 
-    /// ∂V_s/∂q for the sector's own coordinates, of gravity alone.
+    /// ∂V_s/∂q for the sector's own coordinates, of gravity and straight springs.
     pub(super) fn sector_weight_gradient(
         &mut self,
         values: &ConstantValues,
@@ -130,7 +132,8 @@ impl SymmetricTree<'_> {
             let across = self.weighted(&direction.cos, sector);
             let products = [self.series.mul(&y, &across), self.series.mul(&x, &down)];
             let slope = self.series.sub(&products[0], &products[1]);
-            let mut total = self.series.mul(&constants.gravity, &slope);
+            let gravity = self.gravity_of(values, orbit, sector);
+            let mut total = self.series.mul(&gravity, &slope);
             if sector.is_none() {
                 let lateral = self.series.mul(&constants.lateral_gravity, &across);
                 total = self.series.add(&total, &lateral);
@@ -160,7 +163,8 @@ impl SymmetricTree<'_> {
             let across = self.mul(&part(y), &direction.cos);
             let down = self.mul(&part(x), &direction.sin);
             let torque = self.sub(&across, &down);
-            let torque = self.scale(&constants.gravity, &torque);
+            let gravity = self.gravity_of(values, orbit, sector);
+            let torque = self.scale(&gravity, &torque);
             self.accumulate(&mut gradient, &torque);
             if sector.is_none() {
                 let lateral = self.scale(&constants.lateral_gravity, &direction.cos);

@@ -60,7 +60,7 @@ mod syntax;
 mod tree;
 mod value;
 
-pub use output::{OutputMessage, UnequalUse};
+pub use output::{NoChord, OutputMessage, UnequalUse};
 pub use size::SizeMessage;
 pub use syntax::SyntaxMessage;
 pub use tree::TreeMessage;

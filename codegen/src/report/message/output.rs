@@ -46,14 +46,15 @@ messages! {
         "write `siblings(NODE, spring = ...)` for springs between all copies of a node under \
          one link, or watch an energy of your own by `observe(...)`",
     ),
-    /// An output that straight springs are not part of.
-    StraightSpring { line: String, noun: &'static str, request: &'static str } => (
+    /// An output that this straight spring is not part of.
+    StraightSpring { line: String, noun: &'static str, request: &'static str, cause: NoChord } => (
         format!("`{request}` beside the {line}"),
-        format!("not part of `{request}`"),
+        cause.label(),
         format!(
-            "leave `{request}` out, since symmetric coordinates know no lengths between points; or \
-             write a torsion spring, as in `siblings(NODE, spring = ...)` without `at`, or hand \
-             over the {noun}'s forces by `emit(positions, forces)`"
+            "of straight springs `{request}` knows those without length at rest and without \
+             friction alone, between equal places of all copies of a node under one link, as in \
+             `siblings(NODE, at = ..., spring = ...)`; leave `{request}` out, write a torsion \
+             spring without `at`, or hand over the {noun}'s forces by `emit(positions, forces)`"
         ),
     ),
     /// A straight spring in loops.
@@ -211,6 +212,39 @@ messages! {
         "has to be derived for this tree",
         "leave it out, or let the attribute `#[branched_pendulum(...)]` compile this tree",
     ),
+}
+
+/// Why sectors know nothing of a straight spring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoChord {
+    /// The line ends on the ground.
+    Guy,
+    /// Something else than a spring stores energy.
+    Repulsion,
+    /// The spring has a length at rest.
+    Rest,
+    /// There is a damper.
+    Damper,
+    /// The links are not copies under one link.
+    OtherLinks,
+    /// The points are not at the same place of both copies, or these do not hang from one pivot.
+    OtherPlaces,
+    /// Other copies under the link are not tied to each other likewise.
+    SomeCopies,
+}
+
+impl NoChord {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Guy => "ends on the ground",
+            Self::Repulsion => "repels or attracts by a power of the distance",
+            Self::Rest => "has a length at rest",
+            Self::Damper => "has a damper",
+            Self::OtherLinks => "not between copies under one link",
+            Self::OtherPlaces => "not between equal places of copies on one pivot",
+            Self::SomeCopies => "not the same between every two of the copies",
+        }
+    }
 }
 
 /// Use of a tree that copies which differ stand against.

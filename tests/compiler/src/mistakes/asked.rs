@@ -322,6 +322,23 @@ pub(super) const MISTAKES: &[Mistake] = &[
     siblings(b, at = 1, spring = 1), drive(x = t), emit(symmetric))] struct Pendulum;",
     ),
     (
+        "straight_springs_beside_transfer",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 3],
+    siblings(b, at = 1, spring = 1), siblings(b, at = 1, spring = 1, rest = l),
+    siblings(b, at = 1, friction = 1), siblings(b, at = 1, spring = 1, repulsion = 1, exponent = 3),
+    guy(b_1, at = 1, to = (3, 0), spring = 1), between(a, b_1, at = 0.5, spring = 1),
+    between(b_1, b_2, at = each(1, 0.5), spring = 1), between(b_2, b_3, at = 1, spring = 1),
+    emit(transfer(exact)))] struct Pendulum;",
+    ),
+    (
+        "straight_springs_beside_a_budget",
+        "#[branched_pendulum(gravity = 1,
+    a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) [c: rod(mass = 1, length = 1) * 2,
+        d: rod(mass = 1, length = 1, at = each(0.4, 0.5)) * 2] * 2],
+    between(c_1_1, c_2_1, at = 1, spring = 1), siblings(d, at = 1, spring = 1), emit(budget(parseval)))] struct Pendulum;",
+    ),
+    (
         "straight_springs_of_merged_links",
         "#[branched_pendulum(gravity = 1,
     a: rod(mass = 1, length = 1) [b: rod(mass = 1, length = 1) * 2],

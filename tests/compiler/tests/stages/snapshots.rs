@@ -250,6 +250,30 @@ fn repelled() {
     }
 }
 
+/// A rubber band between two copies, in the energies of their difference.
+#[test]
+fn banded() {
+    let stages = stages_of_text(
+        "#[branched_pendulum(gravity = 9.80665, \
+         parent(mass = 0.1, com = 0.08, inertia = 2e-3, joint = 0.27) [ \
+             child(mass = 0.1, com = 0.04, inertia = 5e-4) * 2 ], \
+         siblings(child, at = (0.06, 0.02), spring = kappa), \
+         emit(transfer(angle = 1, amplitude = 2, exact), budget(parseval)))] struct Banded;",
+    );
+    insta::assert_snapshot!("banded_mechanics", stages.mechanics.to_string());
+    for name in [
+        "antiphase_energy",
+        "transfer_exact",
+        "transfer_angle_1",
+        "budget_parseval",
+    ] {
+        insta::assert_snapshot!(
+            format!("banded_code_{name}"),
+            function(&stages.tokens, name)
+        );
+    }
+}
+
 /// The pendulum of one rod: one order of its Taylor coefficients.
 #[test]
 fn taylor() {

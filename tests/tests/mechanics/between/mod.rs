@@ -1,6 +1,7 @@
 //! Springs and friction between links that are not parent and child: against Cartesian bodies,
 //! trees at run time, closed forms, and the energy along emitted models' motions.
 
+mod chords;
 mod motion;
 mod sectors;
 mod straight;

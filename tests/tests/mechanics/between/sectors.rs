@@ -16,7 +16,7 @@ use branched_pendulum_trees::PendulumTree;
 use crate::support::{Compiled, Worst, compile};
 
 /// The tree at run time without what it is not asked for.
-fn at_run_time(text: &str) -> PendulumTree {
+pub(super) fn at_run_time(text: &str) -> PendulumTree {
     let (text, _) = text.rsplit_once("emit(").expect("it asks for something");
     PendulumTree::parse(text).expect("the compiler takes it")
 }
@@ -75,7 +75,7 @@ fn symmetric_coordinates_describe_the_same_motion() {
     energies.assert_below(1e-12, "energies");
 }
 
-const DEFINITIONS: [(EnergyDefinition, &str); 4] = [
+pub(super) const DEFINITIONS: [(EnergyDefinition, &str); 4] = [
     (EnergyDefinition::Rest, "budget_rest"),
     (EnergyDefinition::Canonical, "budget_canonical"),
     (EnergyDefinition::Parseval, "budget_parseval"),
@@ -98,13 +98,13 @@ fn spring_flows(tree: &PendulumTree, bodies: &Tree, [q, v]: [&[f64]; 2]) -> f64 
     joints.chain(between).sum()
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, x| size.max(x.abs()))
 }
 
 /// Deviations of compiled budgets from those of trees at run time.
 #[derive(Default)]
-struct Budgets {
+pub(super) struct Budgets {
     energies: Worst,
     transfers: Worst,
     powers: Worst,
@@ -112,7 +112,7 @@ struct Budgets {
 
 impl Budgets {
     /// Compares all definitions of the energy, and the transfer matrix.
-    fn compare(
+    pub(super) fn compare(
         &mut self,
         compiled: &Compiled,
         tree: &SymmetricTree<f64>,
@@ -155,7 +155,7 @@ impl Budgets {
         }
     }
 
-    fn assert_alike(&self) {
+    pub(super) fn assert_alike(&self) {
         self.energies.assert_below(1e-13, "energies");
         self.transfers.assert_below(1e-13, "transfers");
         self.powers.assert_below(1e-12, "powers");

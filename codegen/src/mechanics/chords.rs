@@ -1,0 +1,107 @@
+//! Straight springs between copies in symmetric coordinates (physics (19.10)).
+//!
+//! In absolute angles they are lines. In symmetric ones their energy is ½ Γ |[e^{iθ}]_s|² in each
+//! sector s of the copies' differences: Γ = k κ r² of k copies stands beside gravity's G there.
+
+use super::algebra::Formula;
+use super::derivation::Derivation;
+use super::expression::SymbolId;
+use super::frame::DerivedFrame;
+use super::letters;
+use super::sectors::OrbitChord;
+use super::symmetric::Rotation;
+use crate::scene::{Coordinate, CoordinateKind, DescribedChordSpring, LinkId};
+
+impl Derivation<'_> {
+    /// Γ of the sector of a coordinate, zero where no springs are between its links.
+    pub(super) fn chord(&mut self, coordinate: &Coordinate) -> Formula {
+        let CoordinateKind::Difference { group, .. } = coordinate.kind else {
+            return Formula::zero();
+        };
+        // Links below the copies have coordinates in the same sector.
+        let copies = &self.scene.groups[group].copies;
+        let mut links = coordinate.weights.iter();
+        if links.any(|(link, _)| !copies.contains(link)) {
+            return Formula::zero();
+        }
+        let own = self.chords.iter().find(|own| own.group == group).cloned();
+        own.map_or_else(Formula::zero, |own| self.chord_of(&own))
+    }
+
+    fn chord_of(&mut self, own: &DescribedChordSpring) -> Formula {
+        let group = &self.scene.groups[own.group];
+        let count = group.copies.len();
+        let meaning = format!(
+            "{count} times the stiffness of the straight springs between every two copies of `{}`, \
+             by the square of their distance from the pivot",
+            group.name
+        );
+        let value = &Formula::integer(count as i64) * &self.quantity(&own.strength);
+        self.lettered(letters::CHORD, &[&group.name], &meaning, value)
+    }
+
+    /// The energy of all such springs in the symmetric coordinates of a frame.
+    pub(super) fn chord_energy(
+        &mut self,
+        frame: &DerivedFrame,
+        coordinates: &[Coordinate],
+    ) -> Formula {
+        let chords = self.chords.clone();
+        let energy = chords.iter().map(|own| {
+            let squares = self.half_squares(frame, coordinates, own.group);
+            &self.chord_of(own) * &squares
+        });
+        energy.sum()
+    }
+
+    /// ½ Σ |[e^{iθ}]_s|² over the differences of a group of k copies, with the angles φ by which
+    /// these are beyond their mean: Σ vers φ − ((Σ vers φ)² + (Σ sin φ)²)/(2 k), and sin² φ of a pair.
+    /// Each term vanishes with the differences.
+    fn half_squares(
+        &mut self,
+        frame: &DerivedFrame,
+        coordinates: &[Coordinate],
+        group: usize,
+    ) -> Formula {
+        let copies = &self.scene.groups[group].copies;
+        let (mut versines, mut sines) = (Vec::new(), Vec::new());
+        for &link in copies {
+            let share = coordinates.iter().zip(&frame.coordinates);
+            let share = share.filter_map(|(coordinate, &id)| match coordinate.kind {
+                CoordinateKind::Difference { group: own, .. } if own == group => {
+                    let mut weights = coordinate.weights.iter();
+                    let (_, weight) = weights.find(|(known, _)| *known == link)?;
+                    Some((id, *weight))
+                }
+                _ => None,
+            });
+            let share: Vec<(SymbolId, i64)> = share.collect();
+            let Rotation { cos, sin } = self.share(&share);
+            versines.push(&Formula::integer(1) - &cos);
+            sines.push(sin);
+        }
+        if let [sine, _] = sines.as_slice() {
+            return sine.pow(2);
+        }
+        let twice = Formula::integer(2 * sines.len() as i64);
+        let [versine, sine] =
+            [versines, sines].map(|own| own.into_iter().sum::<Formula>().expand());
+        let squares = &versine.pow(2) + &sine.pow(2);
+        &versine - &(&squares / &twice)
+    }
+
+    /// Γ of each group as plain data.
+    pub(super) fn orbit_chords(&mut self) -> Vec<OrbitChord> {
+        let chords = self.chords.clone();
+        let plain = chords.iter().map(|own| {
+            let LinkId(first) = self.scene.groups[own.group].copies[0];
+            let weight = self.chord_of(own);
+            OrbitChord {
+                group: own.group,
+                orbit: self.scene.links[first].orbit.0,
+                weight: weight.to_expr(&self.symbols),
+            }
+        });
+        plain.collect()
+    }
+}
