@@ -219,7 +219,7 @@ EXPRESSIONS = [
      "let mut vectors: Vec<f64> = parts.collect();",
      "let mut vectors: Vec<f64> = DMatrix::identity(dimension, count).as_slice().to_vec();",
      RUNTIME, "exponents::the_paper_s_pendulum_in_phase"),
-    ("all deviations for those within a subspace", f"{R}/analysis/variational/lyapunov.rs",
+    ("all deviations for those within a subspace", f"{R}/analysis/variational/deviations.rs",
      "self.keep(vectors, n);", "();", RUNTIME,
      "exponents::the_paper_s_pendulum_in_phase"),
     ("order of exponents", f"{R}/analysis/variational/lyapunov.rs",
