@@ -51,7 +51,9 @@ fn compute(description: &TreeDescription) {
         Err(error) => return assert!(!error.to_string().is_empty()),
     };
     assert_eq!(tree.names().len(), tree.links());
-    let angles: Vec<f64> = (0..tree.links()).map(|link| 0.1 + 0.01 * link as f64).collect();
+    let angles: Vec<f64> = (0..tree.links())
+        .map(|link| 0.1 + 0.01 * link as f64)
+        .collect();
     let alpha = tree.accelerations(0.2, &angles, &angles);
     assert_eq!(alpha.len(), tree.links());
     let energy = tree.energy_of(&angles, &angles);
