@@ -26,7 +26,7 @@ pub(super) struct Disturbances {
 }
 
 impl Disturbances {
-    /// Those of a filter's steps, with the innovations by the data of each time.
+    /// The disturbances of a filter's steps, with the innovations by the data of each time.
     pub(super) fn new(
         steps: Vec<Step<Dyn>>,
         data: Vec<Vec<Innovation<Dyn>>>,
