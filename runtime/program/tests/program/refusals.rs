@@ -125,6 +125,11 @@ fn mistakes_are_named_with_their_place() {
             1,
             "there is no link `twig`",
         ),
+        (
+            &["transfer", "--start", "parent=45", "--duration", "1"],
+            1,
+            "W into `d` is zero at all times: copies that start alike stay alike",
+        ),
         (&["transfer", "--into", "e"], 1, "the tree has in_phase, d"),
         (
             &["advise", "--right", "speed:1"],

@@ -90,7 +90,8 @@ const FORMS: [(TransferForm, &str); 6] = [
 /// Computes W by all forms and writes what was found.
 ///
 /// # Errors
-/// [`Failure`]; [`Failure::Tree`] for a tree without copies.
+/// [`Failure`]; [`Failure::Tree`] for a tree without copies, [`Failure::Lacking`] for a motion
+/// along which W is zero at all times.
 pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
     let subject = arguments.tree.read()?;
     subject.record(job);
@@ -143,9 +144,22 @@ pub fn run(arguments: &Arguments, job: &Job) -> Result<(), Failure> {
         times: &samples.times,
         rows: &rows,
     };
+    if series.largest() == 0.0 {
+        return Err(nothing_transferred(names[into]));
+    }
     job.print(&series.report())?;
     series.write(job)?;
     job.chart_over_time("transfer", &series.chart())
+}
+
+/// Copies that start alike stay alike: there is no W by which its orders could be measured.
+fn nothing_transferred(sector: &str) -> Failure {
+    Failure::Lacking {
+        what: format!(
+            "W into `{sector}` is zero at all times: copies that start alike stay alike; start \
+             them apart, with `--start apart` or with angles of their own (`--start NAME=DEG,..`)"
+        ),
+    }
 }
 
 /// W along a motion, by every form.
