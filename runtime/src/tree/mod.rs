@@ -72,9 +72,9 @@ pub use scales::{MOST_GENERATIONS, ScaleEquations, ScaleTree};
 pub use shape::Shape;
 pub use small::{LinkStates, SmallTree};
 
-use crate::scalar::kind::{ByKind, compiled, compiled_once};
+use crate::scalar::kind::{compiled, compiled_once};
 use crate::scalar::{Scalar, at};
-use crate::simd::{Kernel, Simd, wide_slice};
+use crate::simd::{Part, Simd, outlined, wide_slice};
 use crate::spring_dampers::SpringDampers;
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
@@ -227,37 +227,54 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         [theta, omega, torques]: [&[T]; 3],
         alpha: &mut [T],
     ) {
+        let given = LinkStates {
+            theta,
+            omega,
+            torques: Some(torques),
+        };
+        self.evaluate_given(drive, given, alpha);
+    }
+
+    /// Writes the accelerations likewise, under torques or none, in a function of its own that all
+    /// callers share: it is long. The function is compiled for the instructions of the numbers.
+    pub fn evaluate_apart(
+        &self,
+        drive: Option<RootDrive<T>>,
+        given: LinkStates<'_, T>,
+        alpha: &mut [T],
+    ) {
+        outlined::<0, T, _, _>(self, (drive, given, alpha));
+    }
+
+    #[inline(always)]
+    fn evaluate_given(
+        &self,
+        drive: Option<RootDrive<T>>,
+        given: LinkStates<'_, T>,
+        alpha: &mut [T],
+    ) {
+        let LinkStates {
+            theta,
+            omega,
+            torques,
+        } = given;
         let links = self.skeleton.plan.links();
-        let lengths = [theta.len(), omega.len(), torques.len(), alpha.len()];
-        if !E::FORCED || lengths != [links; 4] {
+        let fit = torques.is_none_or(|torques| E::FORCED && torques.len() == links);
+        if !fit || [theta.len(), omega.len(), alpha.len()] != [links; 3] {
             alpha.fill(T::from_f64(f64::NAN));
             return;
         }
         let mut room = alloc::vec![T::from_f64(0.0); self.room()];
+        let zero = T::from_f64(0.0);
+        let torque = |link| torques.map_or(zero, |torques| at(torques, link));
         self.accelerate_states::<T>(
             drive,
             &mut room,
             |link| at(theta, link),
             |link| at(omega, link),
-            |link| [at(torques, link), T::from_f64(0.0)],
+            |link| [torque(link), zero],
             |link, value| put(alpha, link, value),
         );
-    }
-
-    /// Writes the same, in a function of its own that all callers share: it is long. The function is
-    /// compiled for the instructions of the numbers.
-    pub fn evaluate_under_apart(
-        &self,
-        drive: Option<RootDrive<T>>,
-        given: [&[T]; 3],
-        alpha: &mut [T],
-    ) {
-        T::by_kind(UnderTorquesApart {
-            tree: self,
-            drive,
-            given,
-            alpha,
-        });
     }
 
     /// Returns how many values a register of states takes in a batch.
@@ -290,37 +307,15 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     }
 }
 
-/// [`Tree::evaluate_under`] as a question to numbers.
-struct UnderTorquesApart<'a, E, T: 'static> {
-    tree: &'a Tree<E, T>,
-    drive: Option<RootDrive<T>>,
-    given: [&'a [T]; 3],
-    alpha: &'a mut [T],
-}
+/// Arguments of [`Tree::evaluate_apart`].
+type Apart<'a, T> = (Option<RootDrive<T>>, LinkStates<'a, T>, &'a mut [T]);
 
-impl<E: LinkEquations, T: Scalar> ByKind<T> for UnderTorquesApart<'_, E, T> {
-    type Output = ();
-
-    #[inline(never)]
-    fn of_any(self) {
-        self.tree.evaluate_under(self.drive, self.given, self.alpha);
-    }
-
-    #[inline(always)]
-    fn of_wide<W: Scalar>(self)
-    where
-        T: Simd<W>,
-    {
-        T::in_own_function(self);
-    }
-}
-
-impl<E: LinkEquations, W, T: Scalar> Kernel<W> for UnderTorquesApart<'_, E, T> {
+impl<E: LinkEquations, T: Scalar> Part<0, Apart<'_, T>> for Tree<E, T> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Simd<W>>(self) {
-        self.tree.evaluate_under(self.drive, self.given, self.alpha);
+    fn part(&self, (drive, given, alpha): Apart<'_, T>) {
+        self.evaluate_given(drive, given, alpha);
     }
 }
 

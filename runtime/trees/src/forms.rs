@@ -73,24 +73,8 @@ impl<T: Scalar> FormEquations<T> {
         }
     }
 
-    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
-    /// caller chooses.
-    #[inline(always)]
-    fn evaluate(
-        &self,
-        drive: Option<RootDrive<T>>,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        alpha: impl FnMut(usize, T),
-    ) {
-        match self {
-            Self::Straight(ways) => ways.evaluate(drive, theta, omega, alpha),
-            Self::General(ways) => ways.evaluate(drive, theta, omega, alpha),
-            Self::Rough(ways) => ways.evaluate(drive, theta, omega, alpha),
-        }
-    }
-
-    /// Writes accelerations under torques, likewise.
+    /// Writes accelerations in the arithmetic of `T`, compiled for the instructions that the caller
+    /// chooses.
     #[inline(always)]
     fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         match self {
@@ -210,10 +194,10 @@ impl<T: Scalar> Equations<T> {
         omega: impl Fn(usize) -> T,
         alpha: impl FnMut(usize, T),
     ) {
-        match self.between.is_empty() {
-            true => self.form.evaluate(drive, theta, omega, alpha),
-            false => self.evaluate_coupled(drive, theta, omega, alpha),
-        }
+        let torques = None;
+        through_slices(self.links, theta, omega, alpha, |given, results| {
+            self.evaluate_under(Acting { drive, torques }, given, results);
+        });
     }
 
     /// Writes accelerations under torques, likewise.
@@ -244,25 +228,27 @@ impl<T: Scalar> Equations<T> {
             }),
         }
     }
+}
 
-    /// Gives the accelerations with what acts between links.
-    #[inline(always)]
-    fn evaluate_coupled(
-        &self,
-        drive: Option<RootDrive<T>>,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        mut alpha: impl FnMut(usize, T),
-    ) {
-        let links = self.links;
-        let theta: Vec<T> = (0..links).map(theta).collect();
-        let omega: Vec<T> = (0..links).map(omega).collect();
-        let mut results = vec![T::from_f64(f64::NAN); links];
-        let torques = None;
-        self.evaluate_under(Acting { drive, torques }, [&theta, &omega], &mut results);
-        for (link, acceleration) in results.into_iter().enumerate() {
-            alpha(link, acceleration);
-        }
+/// Hands the angles and velocities of links to a function of slices, and its results on.
+#[inline(always)]
+fn through_slices<T: Scalar>(
+    links: usize,
+    theta: impl Fn(usize) -> T,
+    omega: impl Fn(usize) -> T,
+    mut alpha: impl FnMut(usize, T),
+    write: impl FnOnce([&[T]; 2], &mut [T]),
+) {
+    let mut numbers = vec![T::from_f64(f64::NAN); 3 * links];
+    let (given, results) = numbers.split_at_mut(2 * links);
+    let (angles, velocities) = given.split_at_mut(links);
+    let both = angles.iter_mut().zip(&mut *velocities);
+    for (link, (angle, velocity)) in both.enumerate() {
+        (*angle, *velocity) = (theta(link), omega(link));
+    }
+    write([angles, velocities], results);
+    for (link, acceleration) in results.iter().enumerate() {
+        alpha(link, *acceleration);
     }
 }
 
@@ -301,7 +287,11 @@ impl<E: LinkEquations, R: Scalar> InRegisters<R> for AtOneTime<E, R> {
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
     ) {
-        self.ways.evaluate(self.drive, theta, omega, alpha);
+        let (drive, torques) = (self.drive, None);
+        through_slices(self.ways.links(), theta, omega, alpha, |given, results| {
+            let acting = Acting { drive, torques };
+            self.ways.evaluate_under(acting, given, results);
+        });
     }
 }
 
@@ -319,7 +309,6 @@ impl<R: Scalar> InRegisters<R> for CoupledAtOneTime<R> {
         omega: impl Fn(usize) -> R,
         alpha: impl FnMut(usize, R),
     ) {
-        self.equations
-            .evaluate_coupled(self.drive, theta, omega, alpha);
+        self.equations.evaluate(self.drive, theta, omega, alpha);
     }
 }

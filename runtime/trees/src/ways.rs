@@ -74,31 +74,13 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         }
     }
 
-    /// Gives the accelerations in the arithmetic of `T`, compiled for the instructions that the
-    /// caller chooses.
-    #[inline(always)]
-    pub(crate) fn evaluate(
-        &self,
-        drive: Option<RootDrive<T>>,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        mut alpha: impl FnMut(usize, T),
-    ) {
-        if self.has_one_driven_link(drive) {
-            let (given, mut result) = ([[theta(0)], [omega(0)]], [T::from_f64(f64::NAN)]);
-            let acting = Acting {
-                drive,
-                torques: None,
-            };
-            let [theta, omega] = &given;
-            self.evaluate_under(acting, [theta, omega], &mut result);
-            return alpha(0, result[0]);
-        }
-        self.strips.evaluate(drive, theta, omega, alpha);
+    /// Returns the number of links.
+    pub(crate) fn links(&self) -> usize {
+        self.links
     }
 
-    /// Writes accelerations under what acts from outside, likewise, in a function that all callers
-    /// share.
+    /// Writes accelerations under what acts from outside, in the arithmetic of `T`, compiled for
+    /// the instructions that the caller chooses, in a function that all callers share.
     #[inline(always)]
     pub(crate) fn evaluate_under(
         &self,
@@ -108,8 +90,12 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     ) {
         let mut sum = [T::from_f64(0.0)];
         let torques = acting.on_links(theta.len(), &mut sum);
-        let given = [theta, omega, torques.unwrap_or_default()];
-        self.strips.evaluate_under_apart(acting.drive, given, alpha);
+        let given = LinkStates {
+            theta,
+            omega,
+            torques,
+        };
+        self.strips.evaluate_apart(acting.drive, given, alpha);
     }
 
     /// Returns how many numbers [`in_registers`](Self::in_registers) takes room for.

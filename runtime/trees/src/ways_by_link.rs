@@ -50,29 +50,12 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
             .accelerations_with(workspace, acting.drive, states, alpha);
     }
 
-    /// Gives the accelerations in the arithmetic of `T`.
-    #[inline(always)]
-    pub(crate) fn evaluate(
-        &self,
-        drive: Option<RootDrive<T>>,
-        theta: impl Fn(usize) -> T,
-        omega: impl Fn(usize) -> T,
-        mut alpha: impl FnMut(usize, T),
-    ) {
-        let links = self.links;
-        let (theta, omega): (Vec<T>, Vec<T>) = (0..links).map(|i| (theta(i), omega(i))).unzip();
-        let mut result = vec![T::from_f64(f64::NAN); links];
-        let acting = Acting {
-            drive,
-            torques: None,
-        };
-        self.evaluate_under(acting, [&theta, &omega], &mut result);
-        for (link, value) in result.into_iter().enumerate() {
-            alpha(link, value);
-        }
+    /// Returns the number of links.
+    pub(crate) fn links(&self) -> usize {
+        self.links
     }
 
-    /// Writes accelerations under what acts from outside, likewise.
+    /// Writes accelerations under what acts from outside, in the arithmetic of `T`.
     #[inline(always)]
     pub(crate) fn evaluate_under(&self, acting: Acting<'_, T>, given: [&[T]; 2], alpha: &mut [T]) {
         self.accelerate(&mut Workspace::new(), acting, given, alpha);

@@ -1,5 +1,6 @@
 //! Trees whose copies move in phase, with small differences between two of them.
 
+mod evaluation;
 mod growth;
 mod merged;
 mod sweep;
@@ -13,15 +14,12 @@ use branched_pendulum::analysis::variational::Copies;
 use branched_pendulum::scalar::{Double, Dual, Scalar};
 use branched_pendulum::sectors::Sectors;
 use branched_pendulum::system::{AbsoluteAngles, CastOde, LaneOde, Model, Ode, State, Workspace};
-use branched_pendulum::tree::LinkEquations;
 
 pub use self::growth::DifferenceGrowth;
 use self::merged::{Member, MergedLinks};
-use self::sweep::InPhaseSweep;
 use crate::between::Between;
 use crate::drive::Courses;
 use crate::equations::Form;
-use crate::equations::{GeneralEquations, RoughEquations, StraightEquations};
 use crate::error::TreeError;
 use crate::numbers::{self, LinkNumbers};
 use crate::rows;
@@ -199,107 +197,6 @@ impl<T: Scalar> InPhaseTree<T> {
             drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
             between: (self.between).cast(|own| Dual::constant(convert(own.value))),
         }
-    }
-
-    /// Returns how many numbers an evaluation needs room for.
-    fn room(&self) -> usize {
-        let of_link = match self.form {
-            Form::Straight => InPhaseSweep::<StraightEquations, T>::ROOM,
-            Form::General => InPhaseSweep::<GeneralEquations, T>::ROOM,
-            Form::Rough => InPhaseSweep::<RoughEquations, T>::ROOM,
-        };
-        of_link * self.links()
-    }
-
-    /// Writes the rates of a state, in the arithmetic of `T`.
-    #[inline(always)]
-    fn write(&self, room: &mut [T], time: T, state: &[T], rates: &mut [T]) {
-        let half = self.links() + self.differing();
-        if [state.len(), rates.len()] != [2 * half; 2] {
-            rates.fill(T::from_f64(f64::NAN));
-            return;
-        }
-        let (angles, velocities) = state.split_at(half);
-        let (angle_rates, alpha) = rates.split_at_mut(half);
-        angle_rates.copy_from_slice(velocities);
-        let given = [angles, velocities];
-        match self.form {
-            Form::Straight => self.accelerate::<StraightEquations>(room, time, given, alpha),
-            Form::General => self.accelerate::<GeneralEquations>(room, time, given, alpha),
-            Form::Rough => self.accelerate::<RoughEquations>(room, time, given, alpha),
-        }
-    }
-
-    #[inline(always)]
-    fn accelerate<E: LinkEquations>(
-        &self,
-        room: &mut [T],
-        time: T,
-        [angles, velocities]: [&[T]; 2],
-        alpha: &mut [T],
-    ) {
-        let merged = &self.structure.merged.links;
-        let torques = match self.between.is_empty() {
-            true => Vec::new(),
-            false => self.torques(angles, velocities),
-        };
-        let drive = self.drive.as_ref().map(|drive| drive.root(time));
-        let mut sweep = InPhaseSweep::<E, T>::new(merged, &self.rows, drive, room);
-        for link in 0..merged.len() {
-            let torque = torques.get(link).copied();
-            let torque = torque.unwrap_or([T::from_f64(0.0); 2]);
-            sweep.set(
-                link,
-                [self.of(angles, link), self.of(velocities, link), torque],
-            );
-        }
-        sweep.up();
-        let [x, y] = match drive {
-            Some(drive) => drive.pivot,
-            None => [T::from_f64(0.0); 2],
-        };
-        sweep.down([x, self.above + y], |link, value, change| {
-            alpha[link] = value;
-            if let Some(number) = merged[link].difference {
-                alpha[merged.len() + number] = change;
-            }
-        });
-    }
-
-    /// Returns the value of a link among those of links and differences, and its change.
-    #[inline(always)]
-    fn of(&self, values: &[T], link: usize) -> [T; 2] {
-        let MergedLinks { links, .. } = &self.structure.merged;
-        match links[link].difference {
-            Some(number) => [values[link], values[links.len() + number]],
-            None => [values[link], T::from_f64(0.0)],
-        }
-    }
-
-    /// Returns the torques on each link by what acts between links of the whole tree, and their
-    /// changes.
-    #[inline(always)]
-    fn torques(&self, angles: &[T], velocities: &[T]) -> Vec<[T; 2]> {
-        let zero = Dual::constant(T::from_f64(0.0));
-        let members = &self.structure.merged.members;
-        let mut numbers = vec![zero; 3 * members.len()];
-        let (theta, rest) = numbers.split_at_mut(members.len());
-        let (omega, on_whole) = rest.split_at_mut(members.len());
-        for (values, whole) in [(angles, &mut *theta), (velocities, &mut *omega)] {
-            for (member, number) in members.iter().zip(whole) {
-                let [value, change] = self.of(values, member.merged);
-                let tangents = [T::from_f64(member.sign) * change];
-                *number = Dual { value, tangents };
-            }
-        }
-        self.between.write_torques(None, [theta, omega], on_whole);
-        let mut torques = vec![[zero.value; 2]; self.links()];
-        for (member, Dual { value, tangents }) in members.iter().zip(on_whole) {
-            let [sum, change] = &mut torques[member.merged];
-            *sum = *sum + *value;
-            *change = *change + T::from_f64(member.share) * tangents[0];
-        }
-        torques
     }
 }
 

@@ -14,7 +14,7 @@ fn binary(generations: usize, more: &str) -> String {
     )
 }
 
-/// `cargo test --release -p branched-pendulum-trees -- --ignored --nocapture costs`
+/// `cargo test --release -p branched-pendulum-trees-tests -- --ignored --nocapture costs`
 #[test]
 #[ignore = "prints times"]
 fn costs_of_one_state() {
