@@ -63,32 +63,7 @@ impl Emission<'_> {
     }
 
     pub(super) fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
-        let (kinetic, formula, latex, closes) = match definition {
-            EnergyDefinition::Rest => (
-                "from its momenta and its block of the mass matrix at rest",
-                "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
-                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(0)^{-1} p_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-            EnergyDefinition::Canonical => (
-                "from its momenta and its block of the mass matrix at the configuration",
-                "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
-                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(\\theta)^{-1} p_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-            EnergyDefinition::Parseval => (
-                "by Parseval from the velocities of the centres of mass",
-                "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
-                "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
-                "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
-            ),
-            EnergyDefinition::Velocity => (
-                "from its velocities and its block of the mass matrix at the configuration",
-                "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
-                "E_s = \\tfrac12 \\omega_s^{\\mathsf T} B_s(\\theta)\\,\\omega_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-        };
+        let [kinetic, formula, latex, closes] = definition_in_words(definition);
         let mut lines = vec![
             format!(
                 "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of {powers} (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
@@ -189,4 +164,35 @@ fn block(text: &[&str], latex: &[&str]) -> Vec<String> {
     ]);
     let lines = lines.chain(latex).chain(&["```", "</details>"]);
     lines.map(|&line| line.to_owned()).collect()
+}
+
+/// From what the kinetic energy of a sector is taken, the energy in text and in LaTeX, and what
+/// the energies of all sectors sum to.
+fn definition_in_words(definition: EnergyDefinition) -> [&'static str; 4] {
+    match definition {
+        EnergyDefinition::Rest => [
+            "from its momenta and its block of the mass matrix at rest",
+            "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
+            "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(0)^{-1} p_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+        EnergyDefinition::Canonical => [
+            "from its momenta and its block of the mass matrix at the configuration",
+            "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
+            "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(\\theta)^{-1} p_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+        EnergyDefinition::Parseval => [
+            "by Parseval from the velocities of the centres of mass",
+            "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
+            "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
+            "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
+        ],
+        EnergyDefinition::Velocity => [
+            "from its velocities and its block of the mass matrix at the configuration",
+            "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
+            "E_s = \\tfrac12 \\omega_s^{\\mathsf T} B_s(\\theta)\\,\\omega_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+    }
 }
