@@ -48,23 +48,7 @@ impl Emission<'_> {
         let constants = self.link_constants(&outputs, locals);
         let runtime = self.runtime();
         let (links, quads) = (self.links(), self.quads());
-        let (rows, bias) = match recurrences.is_empty() {
-            true => (
-                TokenStream::new(),
-                quote! {
-                    ::core::option::Option::None::<
-                        fn(&#runtime::emitted::taylor::KnownOrder<T, #links>) -> [T; #links],
-                    >
-                },
-            ),
-            false => {
-                let (rows, closure) = (recurrences.rows(), recurrences.closure());
-                (
-                    quote!(#rows let bias = #closure;),
-                    quote!(::core::option::Option::Some(bias)),
-                )
-            }
-        };
+        let (rows, bias) = self.bias_by_order(&recurrences);
         let connectivity = self.connectivity(&outputs);
         let docs = self.taylor_docs(entry, &outputs, recurrences.count());
         let name = ident(&entry.name);
@@ -97,6 +81,28 @@ impl Emission<'_> {
                 #runtime::emitted::taylor::expand::<T, Tree, #links, #quads, _>(
                     &start, &constants, coefficients, work, #bias,
                 );
+            }
+        }
+    }
+
+    /// The rows of factors and the closure for the bias of one order, and how `expand` takes it.
+    fn bias_by_order(&self, recurrences: &Recurrences<'_>) -> (TokenStream, TokenStream) {
+        let (runtime, links) = (self.runtime(), self.links());
+        match recurrences.is_empty() {
+            true => (
+                TokenStream::new(),
+                quote! {
+                    ::core::option::Option::None::<
+                        fn(&#runtime::emitted::taylor::KnownOrder<T, #links>) -> [T; #links],
+                    >
+                },
+            ),
+            false => {
+                let (rows, closure) = (recurrences.rows(), recurrences.closure());
+                (
+                    quote!(#rows let bias = #closure;),
+                    quote!(::core::option::Option::Some(bias)),
+                )
             }
         }
     }
