@@ -2,7 +2,7 @@
 //! energies.
 
 use super::Emission;
-use crate::functions::{Counting, EnergyDefinition};
+use crate::functions::{Counting, EnergyDefinition, Purpose};
 use crate::mechanics::OrbitMechanics;
 use crate::mechanics::expression::Expr;
 use crate::scene::LinkId;
@@ -53,6 +53,22 @@ impl Emission<'_> {
         }
     }
 
+    /// Meaning of a function of all sectors.
+    pub(super) fn sectors_meaning(&self, purpose: Purpose) -> Vec<String> {
+        match purpose {
+            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::BudgetUnder(definition) => {
+                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
+            }
+            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
+            Purpose::TruncatedSectorTransfers(counting, order) => {
+                self.sector_transfers_meaning(Some((counting, order)))
+            }
+            Purpose::TransferMatrix(_) => self.matrix_meaning(),
+            _ => Vec::new(),
+        }
+    }
+
     fn sector_names(&self) -> String {
         let sectors = self.mechanics.sectors.iter();
         let names: Vec<String> = sectors
@@ -62,7 +78,7 @@ impl Emission<'_> {
         format!("Sectors, in order: {}.", names.join(", "))
     }
 
-    pub(super) fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
+    fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
         let [kinetic, formula, latex, closes] = definition_in_words(definition);
         let mut lines = vec![
             format!(
@@ -103,7 +119,7 @@ impl Emission<'_> {
         lines
     }
 
-    pub(super) fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
+    fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
         let mut lines = match order {
             None => vec![
                 "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
@@ -131,7 +147,7 @@ impl Emission<'_> {
         lines
     }
 
-    pub(super) fn matrix_meaning(&self) -> Vec<String> {
+    fn matrix_meaning(&self) -> Vec<String> {
         let mut lines = vec![
             "Transfer matrix (in W): row s, column r holds W(r→s), what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
             String::new(),

@@ -161,15 +161,11 @@ impl Emission<'_> {
 
             Purpose::Prescribed(set) => self.prescribed_meaning(set),
             Purpose::Observable(n, form) => self.observable_meaning(n, form),
-            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
-            Purpose::BudgetUnder(definition) => {
-                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
-            }
-            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
-            Purpose::TruncatedSectorTransfers(counting, order) => {
-                self.sector_transfers_meaning(Some((counting, order)))
-            }
-            Purpose::TransferMatrix(_) => self.matrix_meaning(),
+            Purpose::Budget(..)
+            | Purpose::BudgetUnder(_)
+            | Purpose::SectorTransfers(_)
+            | Purpose::TruncatedSectorTransfers(..)
+            | Purpose::TransferMatrix(_) => self.sectors_meaning(purpose),
             Purpose::Transverse(_)
             | Purpose::TransverseMotion(_)
             | Purpose::TransverseEnergy(_)

@@ -79,10 +79,6 @@ impl Emission<'_> {
     pub(super) fn transfer_meaning(&self, purpose: Purpose) -> Vec<String> {
         let difference = |number: usize| self.difference_of_transfer(number);
         match purpose {
-            Purpose::AntiphaseOutsidePower(n, _) => vec![format!(
-                "Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.",
-                difference(n)
-            )],
             Purpose::SubHamiltonian(n) => vec![format!(
                 "Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).{}",
                 difference(n),
@@ -124,6 +120,17 @@ impl Emission<'_> {
                 };
                 vec![what]
             }
+            Purpose::AntiphaseFrictionPower(..)
+            | Purpose::AntiphaseDrivePower(..)
+            | Purpose::AntiphaseOutsidePower(..) => self.antiphase_power_meaning(purpose),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Meaning of a power on H_d.
+    fn antiphase_power_meaning(&self, purpose: Purpose) -> Vec<String> {
+        let difference = |number: usize| self.difference_of_transfer(number);
+        match purpose {
             Purpose::AntiphaseFrictionPower(n, state) => vec![format!(
                 "Power (in W) of friction and drag on H_d of `{}`{}.",
                 difference(n),
@@ -135,6 +142,10 @@ impl Emission<'_> {
             )],
             Purpose::AntiphaseDrivePower(n, _) => vec![format!(
                 "Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.",
+                difference(n)
+            )],
+            Purpose::AntiphaseOutsidePower(n, _) => vec![format!(
+                "Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.",
                 difference(n)
             )],
             _ => Vec::new(),
