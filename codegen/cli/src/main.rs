@@ -73,14 +73,7 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
     let path = given.path.display().to_string();
     let source = read(&given.path)?;
     let error = |range, title: &str| diagnostics::one(&path, &source, range, title, is_styled());
-    let file = syn::parse_file(&source)
-        .map_err(|wrong| error(wrong.span().byte_range(), &wrong.to_string()))?;
-    let mut finder = Finder::default();
-    finder.visit_file(&file);
-    if finder.found.is_empty() {
-        let title = format!("{path}: no struct with #[branched_pendulum(...)]");
-        return Err(format!("error: {title}"));
-    }
+    let finder = find(&path, &source)?;
     let mut replacements = finder.edits;
     let mut shown = String::new();
     for found in finder.found {
@@ -131,6 +124,21 @@ fn text(given: &Source, stage: Option<Stage>, emit: Option<Output>) -> Result<St
         shown = replace(&source, replacements, &given.path);
     }
     Ok(shown)
+}
+
+/// The structures with the attribute, in a source of which there is one at least.
+fn find(path: &str, source: &str) -> Result<Finder, String> {
+    let file = syn::parse_file(source).map_err(|wrong| {
+        let (range, title) = (wrong.span().byte_range(), wrong.to_string());
+        diagnostics::one(path, source, range, &title, is_styled())
+    })?;
+    let mut finder = Finder::default();
+    finder.visit_file(&file);
+    if finder.found.is_empty() {
+        let title = format!("{path}: no struct with #[branched_pendulum(...)]");
+        return Err(format!("error: {title}"));
+    }
+    Ok(finder)
 }
 
 /// Colours on a terminal that shows them, to a user who wants them.

@@ -2,7 +2,7 @@
 //! energies.
 
 use super::Emission;
-use crate::functions::{Counting, EnergyDefinition};
+use crate::functions::{Counting, EnergyDefinition, Purpose};
 use crate::mechanics::OrbitMechanics;
 use crate::mechanics::expression::Expr;
 use crate::scene::LinkId;
@@ -53,6 +53,22 @@ impl Emission<'_> {
         }
     }
 
+    /// Meaning of a function of all sectors.
+    pub(super) fn sectors_meaning(&self, purpose: Purpose) -> Vec<String> {
+        match purpose {
+            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
+            Purpose::BudgetUnder(definition) => {
+                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
+            }
+            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
+            Purpose::TruncatedSectorTransfers(counting, order) => {
+                self.sector_transfers_meaning(Some((counting, order)))
+            }
+            Purpose::TransferMatrix(_) => self.matrix_meaning(),
+            _ => Vec::new(),
+        }
+    }
+
     fn sector_names(&self) -> String {
         let sectors = self.mechanics.sectors.iter();
         let names: Vec<String> = sectors
@@ -62,33 +78,8 @@ impl Emission<'_> {
         format!("Sectors, in order: {}.", names.join(", "))
     }
 
-    pub(super) fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
-        let (kinetic, formula, latex, closes) = match definition {
-            EnergyDefinition::Rest => (
-                "from its momenta and its block of the mass matrix at rest",
-                "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
-                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(0)^{-1} p_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-            EnergyDefinition::Canonical => (
-                "from its momenta and its block of the mass matrix at the configuration",
-                "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
-                "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(\\theta)^{-1} p_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-            EnergyDefinition::Parseval => (
-                "by Parseval from the velocities of the centres of mass",
-                "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
-                "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
-                "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
-            ),
-            EnergyDefinition::Velocity => (
-                "from its velocities and its block of the mass matrix at the configuration",
-                "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
-                "E_s = \\tfrac12 \\omega_s^{\\mathsf T} B_s(\\theta)\\,\\omega_s + V_s",
-                "The energies leave out an interaction energy H − Σ E_s.",
-            ),
-        };
+    fn budget_meaning(&self, definition: EnergyDefinition, powers: &str) -> Vec<String> {
+        let [kinetic, formula, latex, closes] = definition_in_words(definition);
         let mut lines = vec![
             format!(
                 "Energies E_s of all sectors (in J), the transfers W_s into them and the powers P_s of {powers} (in W), so that dE_s/dt = W_s + P_s without truncation. The kinetic energy of a sector is taken {kinetic}."
@@ -128,7 +119,7 @@ impl Emission<'_> {
         lines
     }
 
-    pub(super) fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
+    fn sector_transfers_meaning(&self, order: Option<(Counting, u32)>) -> Vec<String> {
         let mut lines = match order {
             None => vec![
                 "Energy transfer W_s = {E_s, H} (in W) into every sector without truncation, by what does it: the kinetic energy of the rest of the tree or its potential energy. E_s as in `budget_canonical`.".to_owned(),
@@ -156,7 +147,7 @@ impl Emission<'_> {
         lines
     }
 
-    pub(super) fn matrix_meaning(&self) -> Vec<String> {
+    fn matrix_meaning(&self) -> Vec<String> {
         let mut lines = vec![
             "Transfer matrix (in W): row s, column r holds W(r→s), what sector r gives sector s. Energies by Parseval, as in `budget_parseval`.".into(),
             String::new(),
@@ -189,4 +180,35 @@ fn block(text: &[&str], latex: &[&str]) -> Vec<String> {
     ]);
     let lines = lines.chain(latex).chain(&["```", "</details>"]);
     lines.map(|&line| line.to_owned()).collect()
+}
+
+/// From what the kinetic energy of a sector is taken, the energy in text and in LaTeX, and what
+/// the energies of all sectors sum to.
+fn definition_in_words(definition: EnergyDefinition) -> [&'static str; 4] {
+    match definition {
+        EnergyDefinition::Rest => [
+            "from its momenta and its block of the mass matrix at rest",
+            "E_s = ½ p_sᵀ B_s(0)⁻¹ p_s + V_s",
+            "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(0)^{-1} p_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+        EnergyDefinition::Canonical => [
+            "from its momenta and its block of the mass matrix at the configuration",
+            "E_s = ½ p_sᵀ B_s(θ)⁻¹ p_s + V_s",
+            "E_s = \\tfrac12 p_s^{\\mathsf T} B_s(\\theta)^{-1} p_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+        EnergyDefinition::Parseval => [
+            "by Parseval from the velocities of the centres of mass",
+            "E_s = Σ (m |[v]_s|² + I [ω]_s²)/2 + V_s",
+            "E_s = \\tfrac12 \\sum (m\\,|[v]_s|^2 + I\\,[\\omega]_s^2) + V_s",
+            "The energies sum to H, the transfers to zero, the powers to what friction and drive do to H.",
+        ],
+        EnergyDefinition::Velocity => [
+            "from its velocities and its block of the mass matrix at the configuration",
+            "E_s = ½ ω_sᵀ B_s(θ) ω_s + V_s",
+            "E_s = \\tfrac12 \\omega_s^{\\mathsf T} B_s(\\theta)\\,\\omega_s + V_s",
+            "The energies leave out an interaction energy H − Σ E_s.",
+        ],
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::Emission;
 use super::tokens::ident;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 /// A function of the runtime's `functions`, with the names that the code of the model calls its
@@ -28,29 +28,13 @@ impl Emission<'_> {
     ) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let other = super::other_scalar(name);
-        let [given, results] =
-            [function.given, function.results].map(|names| names.iter().map(|name| ident(name)));
-        let slices = quote! {
-            let (&[#(#given),*], [#(#results),*]) = (given, &mut *results) else {
-                return #runtime::emitted::no_answer(results);
-            };
-        };
-        let time = self.mechanics.drive.is_some();
-        let time = time.then(|| quote!(let time = at.time;));
-        let index = function.index.map(|index| {
-            let index = ident(index);
-            quote!(let #index = at.index;)
-        });
-        let at = match (&time, &index) {
-            (None, None) => ident("_at"),
-            _ => ident("at"),
-        };
+        let (at, names) = self.names_of_arguments(function);
         let arguments = quote! {
             #at: #runtime::system::At<T>,
             given: &[&[T]],
             results: &mut [&mut [T]],
         };
-        let whole = |body: &TokenStream| quote! { #slices #time #index #body };
+        let whole = |body: &TokenStream| quote! { #names #body };
         let with_workspace = with_workspace.map(|body| {
             let body = whole(body);
             quote! {
@@ -87,5 +71,29 @@ impl Emission<'_> {
                 #with_workspace
             }
         }
+    }
+
+    /// The name of the argument `at`, which begins with an underscore where nothing reads it, and
+    /// the lines that give slices, time and index their names.
+    fn names_of_arguments(&self, function: &SliceFunction<'_>) -> (Ident, TokenStream) {
+        let runtime = self.runtime();
+        let [given, results] =
+            [function.given, function.results].map(|names| names.iter().map(|name| ident(name)));
+        let slices = quote! {
+            let (&[#(#given),*], [#(#results),*]) = (given, &mut *results) else {
+                return #runtime::emitted::no_answer(results);
+            };
+        };
+        let time = self.mechanics.drive.is_some();
+        let time = time.then(|| quote!(let time = at.time;));
+        let index = function.index.map(|index| {
+            let index = ident(index);
+            quote!(let #index = at.index;)
+        });
+        let at = match (&time, &index) {
+            (None, None) => ident("_at"),
+            _ => ident("at"),
+        };
+        (at, quote! { #slices #time #index })
     }
 }

@@ -128,9 +128,9 @@ impl Emission<'_> {
 
     pub(super) fn meaning(&self, purpose: Purpose) -> Vec<String> {
         match purpose {
-            Purpose::Accelerations
-            | Purpose::AccelerationsUnder
-            | Purpose::TaylorCoefficients => self.motion_meaning(purpose),
+            Purpose::Accelerations | Purpose::AccelerationsUnder | Purpose::TaylorCoefficients => {
+                self.motion_meaning(purpose)
+            }
             Purpose::ToSymmetric
             | Purpose::FromSymmetric
             | Purpose::SymmetricAccelerations
@@ -146,58 +146,26 @@ impl Emission<'_> {
             | Purpose::AntiphaseDrivePower(..)
             | Purpose::AntiphaseOutsidePower(..) => self.transfer_meaning(purpose),
 
+            Purpose::KineticEnergy
+            | Purpose::PotentialEnergy
+            | Purpose::MassMatrix
+            | Purpose::StiffnessMatrix => self.energy_meaning(purpose),
+            Purpose::AbsoluteMomenta | Purpose::AbsoluteVelocities | Purpose::CanonicalRates => {
+                self.canonical_meaning(purpose)
+            }
+            Purpose::Drive
+            | Purpose::RootDrive
+            | Purpose::DrivePower
+            | Purpose::OutsidePower
+            | Purpose::TotalFrictionPower => self.action_meaning(purpose),
+
             Purpose::Prescribed(set) => self.prescribed_meaning(set),
-            Purpose::OutsidePower => vec![
-                "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
-            ],
-            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
-            Purpose::PotentialEnergy => {
-                let zero = self.zero_of_potential();
-                vec![format!("Potential energy U (in J) at angles `theta` (in rad), {zero}.")]
-            }
-            Purpose::AbsoluteMomenta => {
-                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]
-            }
-            Purpose::AbsoluteVelocities => {
-                vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
-            }
-            Purpose::CanonicalRates => vec![
-                format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
-                String::new(),
-                "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
-            ],
-            Purpose::MassMatrix => vec![
-                "Mass matrix M(θ) (in kg m²) by rows, at angles `theta` (in rad); [`accelerations`](Self::accelerations) shows its elements. Zero between links of different branches.".into(),
-                String::new(),
-                "With K = [`stiffness_matrix`](Self::stiffness_matrix) at an equilibrium, linear modes v of frequency f (in Hz) solve K v = (2πf)² M v.".into(),
-            ],
-            Purpose::StiffnessMatrix => {
-                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows, at angles `theta` (in rad).".into()]
-            }
             Purpose::Observable(n, form) => self.observable_meaning(n, form),
-            Purpose::Budget(definition, _) => self.budget_meaning(definition, "friction and drive"),
-            Purpose::BudgetUnder(definition) => {
-                self.budget_meaning(definition, "friction, drive and the `torques` from outside")
-            }
-            Purpose::SectorTransfers(_) => self.sector_transfers_meaning(None),
-            Purpose::TruncatedSectorTransfers(counting, order) => {
-                self.sector_transfers_meaning(Some((counting, order)))
-            }
-            Purpose::TransferMatrix(_) => self.matrix_meaning(),
-            Purpose::Drive => vec![
-                "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.".into(),
-            ],
-            Purpose::DrivePower => vec![
-                "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
-            ],
-            Purpose::TotalFrictionPower => {
-                let power = match self.has_nonlinear_friction() {
-                    true => "−2 R − Σ D w",
-                    false => "−2 R",
-                };
-                let others = self.other_powers();
-                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
-            }
+            Purpose::Budget(..)
+            | Purpose::BudgetUnder(_)
+            | Purpose::SectorTransfers(_)
+            | Purpose::TruncatedSectorTransfers(..)
+            | Purpose::TransferMatrix(_) => self.sectors_meaning(purpose),
             Purpose::Transverse(_)
             | Purpose::TransverseMotion(_)
             | Purpose::TransverseEnergy(_)
@@ -214,10 +182,72 @@ impl Emission<'_> {
             Purpose::Scale(function) => vec![function.meaning().into()],
             Purpose::Body(function) => vec![function.meaning().into()],
             Purpose::RootGravity => vec!["Apparent gravity at the root's pivot over l.".into()],
+        }
+    }
+
+    /// Meaning of an energy, or of its matrix of second derivatives.
+    fn energy_meaning(&self, purpose: Purpose) -> Vec<String> {
+        match purpose {
+            Purpose::KineticEnergy => vec![format!("Kinetic energy K = ½ ωᵀ M(θ) ω (in J) at angles `theta` (in rad) and angular velocities `omega` (in rad/s).{}", self.frame_note())],
+            Purpose::PotentialEnergy => {
+                let zero = self.zero_of_potential();
+                vec![format!("Potential energy U (in J) at angles `theta` (in rad), {zero}.")]
+            }
+            Purpose::MassMatrix => vec![
+                "Mass matrix M(θ) (in kg m²) by rows, at angles `theta` (in rad); [`accelerations`](Self::accelerations) shows its elements. Zero between links of different branches.".into(),
+                String::new(),
+                "With K = [`stiffness_matrix`](Self::stiffness_matrix) at an equilibrium, linear modes v of frequency f (in Hz) solve K v = (2πf)² M v.".into(),
+            ],
+            Purpose::StiffnessMatrix => {
+                vec!["Stiffness matrix ∂²U/∂θ∂θ (in J) by rows, at angles `theta` (in rad).".into()]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Meaning of a function of canonical variables, in absolute angles.
+    fn canonical_meaning(&self, purpose: Purpose) -> Vec<String> {
+        match purpose {
+            Purpose::AbsoluteMomenta => {
+                vec!["Generalized momenta p = M(θ) ω (in kg m²/s) of the absolute angles `theta` (in rad), at angular velocities `omega` (in rad/s).".into()]
+            }
+            Purpose::AbsoluteVelocities => {
+                vec!["Angular velocities ω (in rad/s) at angles `theta` (in rad) and `momenta` p (in kg m²/s): solves M(θ) ω = p with M of [`accelerations`](Self::accelerations).".into()]
+            }
+            Purpose::CanonicalRates => vec![
+                format!("Hamilton's equations: velocities ω = ∂H/∂p (in rad/s), and rates of the momenta {} (in N m), at {}angles `theta` (in rad) and `momenta` (in kg m²/s).", self.momentum_rates_in_words(), self.at_time()),
+                String::new(),
+                "For methods in canonical variables, as `integrate::Gauss` with `system::CanonicalVariables`.".into(),
+            ],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Meaning of what acts on the whole tree, or of its power.
+    fn action_meaning(&self, purpose: Purpose) -> Vec<String> {
+        match purpose {
+            Purpose::Drive => vec![
+                "The drive at `time` (in s): acceleration a_x, a_y (in m/s²) of the root's pivot, torque τ (in N m) on the root.".into(),
+            ],
+            Purpose::DrivePower => vec![
+                "Power Σ Q_i ω_i (in W) of the drive on the whole tree at `time` (in s): dE/dt of E = K + U without friction.".into(),
+            ],
+            Purpose::TotalFrictionPower => {
+                let power = match self.has_nonlinear_friction() {
+                    true => "−2 R − Σ D w",
+                    false => "−2 R",
+                };
+                let others = self.other_powers();
+                vec![format!("Power {power} (in W) of friction and drag on the whole tree, never positive: dE/dt of E = K + U is this and {others}.")]
+            }
             Purpose::RootDrive => {
                 let sign = if self.scene.stands() { "" } else { "−" };
                 vec![format!("What the drive adds to the apparent gravity at the root's pivot at `time` (in s), −a_x/l and {sign}a_y/l, and its torque τ/(m l²) on the root.")]
             }
+            Purpose::OutsidePower => vec![
+                "Power Q·ω (in W) of `torques` Q (in N m) from outside at angular velocities `omega` (in rad/s): dE/dt of E = K + U is this with the powers of friction and drive.".into(),
+            ],
+            _ => Vec::new(),
         }
     }
 }

@@ -77,33 +77,98 @@ impl Emission<'_> {
 
     /// Meaning of a function of H_d or W, or of a power on H_d.
     pub(super) fn transfer_meaning(&self, purpose: Purpose) -> Vec<String> {
-        let difference = |number: usize| {
-            let coordinate = self.mechanics.transfers[number].coordinate;
-            self.mechanics.coordinates[coordinate].name.clone()
-        };
+        let difference = |number: usize| self.difference_of_transfer(number);
         match purpose {
-            Purpose::AntiphaseOutsidePower(n, _) => vec![
-                format!("Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.", difference(n)),
-            ],
-            Purpose::SubHamiltonian(n) => vec![
-                format!("Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).{}", difference(n), match self.mechanics.mean_tree {
+            Purpose::SubHamiltonian(n) => vec![format!(
+                "Energy H_d (in J) of the antiphase coordinate `{}` by itself: the sub-Hamiltonian whose growth W explains (Toda and Ooshida, Eq. 12; for more than two copies, Parseval's share of the potential energy).{}",
+                difference(n),
+                match self.mechanics.mean_tree {
                     Some(_) => " Its constants are the means of those of the copies.",
                     None => "",
-                }),
+                }
+            )],
+            Purpose::TruncatedTransfer(n, counting, order) => {
+                self.truncation_meaning(n, counting, order)
+            }
+            Purpose::QuadraticForm(n) => vec![
+                format!(
+                    "Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.",
+                    difference(n)
+                ),
+                String::new(),
+                IN_PHASE.into(),
             ],
-            Purpose::TruncatedTransfer(n, Counting::Angle, 1) => vec![
-                format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (Toda and Ooshida, Eqs. 16b and 16c).", difference(n)),
+            Purpose::ExactTransfer(n, EntryState::Momenta(_)) => vec![format!(
+                "Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.",
+                difference(n),
+                self.on_top()
+            )],
+            Purpose::ExactTransfer(n, _) => vec![format!(
+                "Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.",
+                difference(n),
+                self.on_top()
+            )],
+            Purpose::SplitTransfer(n, cause, _) => {
+                let name = difference(n);
+                let what = match cause {
+                    Cause::MeanTree => format!(
+                        "Growth: the part of the energy transfer W (in W) into `{name}` that equal copies with the mean constants would have at the same coordinates and momenta, {{H_d, H₀}}. Quadratic in the differences at leading order."
+                    ),
+                    Cause::Mismatch => format!(
+                        "Forcing: the part of the energy transfer W (in W) into `{name}` that the mismatch of the copies adds, {{H_d, H − H₀}} with the Hamiltonian H₀ of equal copies that have the mean constants. Linear in the differences and in the mismatch at leading order; growth and forcing sum to W. In the formulas u are the velocities (in rad/s) that the mismatch adds, M̃₀ u = −(M̃ − M̃₀) q̇ with the mass matrices of H and H₀."
+                    ),
+                };
+                vec![what]
+            }
+            Purpose::AntiphaseFrictionPower(..)
+            | Purpose::AntiphaseDrivePower(..)
+            | Purpose::AntiphaseOutsidePower(..) => self.antiphase_power_meaning(purpose),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Meaning of a power on H_d.
+    fn antiphase_power_meaning(&self, purpose: Purpose) -> Vec<String> {
+        let difference = |number: usize| self.difference_of_transfer(number);
+        match purpose {
+            Purpose::AntiphaseFrictionPower(n, state) => vec![format!(
+                "Power (in W) of friction and drag on H_d of `{}`{}.",
+                difference(n),
+                match state {
+                    EntryState::Momenta(_) =>
+                        ", from coordinates and momenta: the velocities are solved for",
+                    EntryState::Absolute | EntryState::Rates => "",
+                }
+            )],
+            Purpose::AntiphaseDrivePower(n, _) => vec![format!(
+                "Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.",
+                difference(n)
+            )],
+            Purpose::AntiphaseOutsidePower(n, _) => vec![format!(
+                "Power Σ ∂H_d/∂p Q (in W) of `torques` Q (in N m) from outside, on each link, on H_d of `{}`.",
+                difference(n)
+            )],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Meaning of a truncated W.
+    fn truncation_meaning(&self, n: usize, counting: Counting, order: u32) -> Vec<String> {
+        let difference = self.difference_of_transfer(n);
+        match (counting, order) {
+            (Counting::Angle, 1) => vec![
+                format!("Energy transfer W (in W) into `{}` to first order in the difference angles, momenta untouched: W_K and W_P as published (Toda and Ooshida, Eqs. 16b and 16c).", difference),
                 String::new(),
                 "Of first order in the angles only: for an oscillation, where momenta are as small as angles, two of four terms of the leading order are missing; `transfer_amplitude_2` has all four. Remainder O(θ_d) in W_K, O(θ_d³) in W_P.".into(),
                 String::new(),
                 IN_PHASE.into(),
             ],
-            Purpose::TruncatedTransfer(n, Counting::Amplitude, 2) => vec![
-                format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference(n), self.remainder(n)),
+            (Counting::Amplitude, 2) => vec![
+                format!("Energy transfer W (in W) into `{}` to second order in the amplitude of the differences: the complete quadratic form in them and their momenta. {}", difference, self.remainder(n)),
                 String::new(),
                 format!("ε scales the differences and their momenta. {IN_PHASE}"),
             ],
-            Purpose::TruncatedTransfer(n, counting, order) => {
+            _ => {
                 let (what, remainder) = match counting {
                     Counting::Angle => (
                         "the difference angles, momenta untouched",
@@ -116,41 +181,18 @@ impl Emission<'_> {
                     ),
                 };
                 vec![
-                    format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference(n)),
+                    format!("Energy transfer W (in W) into `{}` through order {order} in {what}. {remainder}", difference),
                     String::new(),
                     "`cargo branched-pendulum stage mechanics` shows the formulas.".into(),
                 ]
             }
-            Purpose::QuadraticForm(n) => vec![
-                format!("Coefficients a_pp, a_pq, a_qq of the quadratic form W ≈ a_pp p² + a_pq p θ + a_qq θ² for `{}`, at the in-phase state given; the difference's own coordinate and momentum are not read.", difference(n)),
-                String::new(),
-                IN_PHASE.into(),
-            ],
-            Purpose::ExactTransfer(n, EntryState::Momenta(_)) => vec![
-                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and momenta: the velocities are solved for, no inverse is expanded. Conservative part; {}.", difference(n), self.on_top()),
-            ],
-            Purpose::ExactTransfer(n, _) => vec![
-                format!("Energy transfer W = dH_d/dt (in W) into `{}` without truncation, from coordinates and their velocities, as an experiment measures them. Conservative part; {}.", difference(n), self.on_top()),
-            ],
-            Purpose::SplitTransfer(n, cause, _) => {
-                let name = difference(n);
-                let what = match cause {
-                    Cause::MeanTree => format!("Growth: the part of the energy transfer W (in W) into `{name}` that equal copies with the mean constants would have at the same coordinates and momenta, {{H_d, H₀}}. Quadratic in the differences at leading order."),
-                    Cause::Mismatch => format!("Forcing: the part of the energy transfer W (in W) into `{name}` that the mismatch of the copies adds, {{H_d, H − H₀}} with the Hamiltonian H₀ of equal copies that have the mean constants. Linear in the differences and in the mismatch at leading order; growth and forcing sum to W. In the formulas u are the velocities (in rad/s) that the mismatch adds, M̃₀ u = −(M̃ − M̃₀) q̇ with the mass matrices of H and H₀."),
-                };
-                vec![what]
-            }
-            Purpose::AntiphaseFrictionPower(n, state) => vec![
-                format!("Power (in W) of friction and drag on H_d of `{}`{}.", difference(n), match state {
-                    EntryState::Momenta(_) => ", from coordinates and momenta: the velocities are solved for",
-                    EntryState::Absolute | EntryState::Rates => "",
-                }),
-            ],
-            Purpose::AntiphaseDrivePower(n, _) => vec![
-                format!("Power Σ ∂H_d/∂p Q (in W) of the drive on H_d of `{}` at `time` (in s), by the inertial forces of the moving pivot; a torque on the root has none.", difference(n)),
-            ],
-            _ => Vec::new(),
         }
+    }
+
+    /// The name of the difference that a transfer goes into.
+    fn difference_of_transfer(&self, number: usize) -> &str {
+        let coordinate = self.mechanics.transfers[number].coordinate;
+        &self.mechanics.coordinates[coordinate].name
     }
 
     /// Exchanging two copies turns the sign of their difference, which leaves no

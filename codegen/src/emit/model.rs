@@ -123,48 +123,20 @@ impl Emission<'_> {
     }
 
     fn parameter_constructor(&self) -> TokenStream {
-        let (vis, name, runtime) = (&self.item.vis, &self.item.ident, self.runtime());
+        let (name, runtime) = (&self.item.ident, self.runtime());
         let parameters = format_ident!("{}Parameters", name);
-        let fields = self.scene.parameters.iter().map(|parameter| {
-            let field = format_ident!("{}", parameter.name);
-            let docs = doc_lines(&[format!("{}.", parameter.doc)]);
-            quote! {
-                #docs
-                #vis #field: T
-            }
-        });
         let doubles = self.scene.parameters.iter().map(|parameter| {
             let field = format_ident!("{}", parameter.name);
             quote!(#field: #runtime::scalar::Real::to_f64(given.#field))
         });
-        let docs = format!(" Parameters of [`{name}`]. SI units.");
-        let required = |index: usize| {
-            let own = Quantity::parameter(ParameterId(index));
-            let mut requirements = self.scene.requirements.iter();
-            requirements.any(|requirement| requirement.quantity == own)
-        };
-        let finite = self
-            .scene
-            .parameters
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| !required(*index))
-            .map(|(_, parameter)| {
-                let field = format_ident!("{}", parameter.name);
-                let what = format!("parameter `{}`", parameter.name);
-                quote!(#runtime::emitted::require_finite(#what, parameters.#field)?;)
-            });
+        let finite = self.finite_parameters();
         let requirements = self.scene.requirements.iter();
         let requirements = requirements.map(|requirement| self.requirement(requirement));
         let regular = self.regularity();
         let parametric = self.parametric();
-        let setter = self.setter();
+        let (given, setter) = (self.parameters(), self.setter());
         quote! {
-            #[doc = #docs]
-            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
-            #vis struct #parameters<T = f64> {
-                #(#fields),*
-            }
+            #given
 
             #setter
 
@@ -195,6 +167,48 @@ impl Emission<'_> {
 
             #parametric
         }
+    }
+
+    /// The structure that holds the parameters.
+    fn parameters(&self) -> TokenStream {
+        let (vis, name) = (&self.item.vis, &self.item.ident);
+        let parameters = format_ident!("{}Parameters", name);
+        let fields = self.scene.parameters.iter().map(|parameter| {
+            let field = format_ident!("{}", parameter.name);
+            let docs = doc_lines(&[format!("{}.", parameter.doc)]);
+            quote! {
+                #docs
+                #vis #field: T
+            }
+        });
+        let docs = format!(" Parameters of [`{name}`]. SI units.");
+        quote! {
+            #[doc = #docs]
+            #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
+            #vis struct #parameters<T = f64> {
+                #(#fields),*
+            }
+        }
+    }
+
+    /// Checks that parameters are finite, of which nothing more is required.
+    fn finite_parameters(&self) -> impl Iterator<Item = TokenStream> {
+        let runtime = self.runtime();
+        let required = |index: usize| {
+            let own = Quantity::parameter(ParameterId(index));
+            let mut requirements = self.scene.requirements.iter();
+            requirements.any(|requirement| requirement.quantity == own)
+        };
+        self.scene
+            .parameters
+            .iter()
+            .enumerate()
+            .filter(move |(index, _)| !required(*index))
+            .map(move |(_, parameter)| {
+                let field = format_ident!("{}", parameter.name);
+                let what = format!("parameter `{}`", parameter.name);
+                quote!(#runtime::emitted::require_finite(#what, parameters.#field)?;)
+            })
     }
 
     /// Parameters by their names, as a file or a command line has them.

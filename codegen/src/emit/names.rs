@@ -33,21 +33,7 @@ impl Emission<'_> {
     pub(super) fn locals(&self, entry: &Entry, needed: &[ValueId]) -> Locals {
         let fused = self.program.fused(entry);
         let products: BTreeSet<ValueId> = fused.values().map(|sum| sum.product).collect();
-        let mut uses = vec![0_u32; self.program.definitions.len()];
-        for &id in needed.iter().filter(|id| !products.contains(id)) {
-            for operand in self.op(id).operands() {
-                if !products.contains(&operand) {
-                    uses[operand.0 as usize] += 1;
-                    continue;
-                }
-                for factor in self.op(operand).operands() {
-                    uses[factor.0 as usize] += 1;
-                }
-            }
-        }
-        for &output in &entry.outputs {
-            uses[output.0 as usize] += 1;
-        }
+        let uses = self.uses(entry, needed, &products);
         let mut locals = Locals {
             names: BTreeMap::new(),
             fused,
@@ -99,6 +85,26 @@ impl Emission<'_> {
             locals.claim(id, wanted);
         }
         locals
+    }
+
+    /// How often each value is used, those in the place of fused products for these.
+    fn uses(&self, entry: &Entry, needed: &[ValueId], products: &BTreeSet<ValueId>) -> Vec<u32> {
+        let mut uses = vec![0_u32; self.program.definitions.len()];
+        for &id in needed.iter().filter(|id| !products.contains(id)) {
+            for operand in self.op(id).operands() {
+                if !products.contains(&operand) {
+                    uses[operand.0 as usize] += 1;
+                    continue;
+                }
+                for factor in self.op(operand).operands() {
+                    uses[factor.0 as usize] += 1;
+                }
+            }
+        }
+        for &output in &entry.outputs {
+            uses[output.0 as usize] += 1;
+        }
+        uses
     }
 
     /// `theta_parent`, `omega_m`, `p_d`.

@@ -8,6 +8,14 @@ use crate::scene::PrescribedSet;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+/// The function of the runtime's trait.
+const ACCELERATIONS: SliceFunction<'_> = SliceFunction {
+    name: "AccelerationsOfHeldLinks",
+    given: &["theta", "omega", "torques", "prescribed"],
+    results: &["alpha", "reactions"],
+    index: Some("set"),
+};
+
 impl Emission<'_> {
     pub(super) fn prescribed_meaning(&self, set: usize) -> Vec<String> {
         let members = self.scene.prescribed[set].members.iter();
@@ -43,57 +51,14 @@ impl Emission<'_> {
 
     /// `impl Prescribed`; NaN for slices of a wrong length.
     pub(super) fn prescribed_trait(&self) -> Option<TokenStream> {
-        let sets = &self.scene.prescribed;
-        if sets.is_empty() {
+        if self.scene.prescribed.is_empty() {
             return None;
         }
         let (name, runtime) = (&self.item.ident, self.runtime());
         let links = self.prescribed_sets();
-        let function = SliceFunction {
-            name: "AccelerationsOfHeldLinks",
-            given: &["theta", "omega", "torques", "prescribed"],
-            results: &["alpha", "reactions"],
-            index: Some("set"),
-        };
         let accelerations = match self.scene.in_loops() {
-            true => {
-                let drive = self.drive_at_time();
-                let motion = quote! {
-                    let links = #runtime::Prescribed::prescribed_links(self, set);
-                    let motion =
-                        #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
-                };
-                self.computes(
-                    &function,
-                    &quote! {
-                        #motion
-                        self.tree.evaluate_prescribed(#drive, links, motion, [alpha, reactions]);
-                    },
-                    Some(&quote! {
-                        #motion
-                        self.tree.accelerations_prescribed_with(
-                            workspace, #drive, links, motion, [alpha, reactions],
-                        );
-                    }),
-                )
-            }
-            false => {
-                let outputs = ["alpha", "reactions"];
-                let arms = (0..sets.len()).map(|number| {
-                    let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
-                    let written = self.fill_both(outputs, &pattern, purpose);
-                    let number = Literal::usize_unsuffixed(number);
-                    quote!(#number => #written,)
-                });
-                let unknown = self.unknown(&outputs);
-                let body = quote! {
-                    match set {
-                        #(#arms)*
-                        _ => #unknown
-                    }
-                };
-                self.computes(&function, &body, None)
-            }
+            true => self.prescribed_in_loops(),
+            false => self.prescribed_written_out(),
         };
         Some(quote! {
             #accelerations
@@ -102,5 +67,47 @@ impl Emission<'_> {
                 #links
             }
         })
+    }
+
+    /// The accelerations of held links, by the tree's sweep.
+    fn prescribed_in_loops(&self) -> TokenStream {
+        let (runtime, drive) = (self.runtime(), self.drive_at_time());
+        let motion = quote! {
+            let links = #runtime::Prescribed::prescribed_links(self, set);
+            let motion =
+                #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
+        };
+        self.computes(
+            &ACCELERATIONS,
+            &quote! {
+                #motion
+                self.tree.evaluate_prescribed(#drive, links, motion, [alpha, reactions]);
+            },
+            Some(&quote! {
+                #motion
+                self.tree.accelerations_prescribed_with(
+                    workspace, #drive, links, motion, [alpha, reactions],
+                );
+            }),
+        )
+    }
+
+    /// The accelerations of held links, by a function for each set.
+    fn prescribed_written_out(&self) -> TokenStream {
+        let outputs = ["alpha", "reactions"];
+        let arms = (0..self.scene.prescribed.len()).map(|number| {
+            let (purpose, pattern) = (Purpose::Prescribed(number), quote!((first, second)));
+            let written = self.fill_both(outputs, &pattern, purpose);
+            let number = Literal::usize_unsuffixed(number);
+            quote!(#number => #written,)
+        });
+        let unknown = self.unknown(&outputs);
+        let body = quote! {
+            match set {
+                #(#arms)*
+                _ => #unknown
+            }
+        };
+        self.computes(&ACCELERATIONS, &body, None)
     }
 }

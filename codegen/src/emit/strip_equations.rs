@@ -23,30 +23,8 @@ impl Emission<'_> {
             Argument::Carried,
         ]
         .map(length);
-        let (mut copies, mut names) = (Vec::new(), Vec::new());
-        if let Layout::Generations { branching, .. } = self.scene.layout {
-            for (generation, link) in self.scene.links.iter().enumerate() {
-                let number = if generation == 0 { 1 } else { branching };
-                copies.push(Literal::usize_unsuffixed(number));
-                names.push(&link.name);
-            }
-        }
-        let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
-        let forced = strips.has_outside_torques.then(|| {
-            quote!(
-                const FORCED: bool = true;
-            )
-        });
-        let held = strips.has_held_links.then(|| {
-            quote!(
-                const HELD: bool = true;
-            )
-        });
-        let coupled = (!strips.spring_dampers.is_empty()).then(|| {
-            quote!(
-                const COUPLED: bool = true;
-            )
-        });
+        let generations = self.generations();
+        let parts = link_parts(strips);
         let functions = LinkFunction::ALL.into_iter();
         let functions = functions.filter_map(|function| self.link_function(function));
         quote! {
@@ -68,16 +46,27 @@ impl Emission<'_> {
                 type Elimination<T: #runtime::Scalar> = [T; #elimination];
                 type Carried<T: #runtime::Scalar> = [T; #carried];
 
-                const COPIES: &'static [usize] = &[#(#copies),*];
-                const NAMES: &'static [&'static str] = &[#(#names),*];
-                const JOINTS: bool = #joints;
-                const TORQUE: bool = #torque;
-                #forced
-                #coupled
-                #held
+                #generations
+                #parts
 
                 #(#functions)*
             }
+        }
+    }
+
+    /// Copies and names of the generations of a tree that is told by a rule.
+    fn generations(&self) -> TokenStream {
+        let (mut copies, mut names) = (Vec::new(), Vec::new());
+        if let Layout::Generations { branching, .. } = self.scene.layout {
+            for (generation, link) in self.scene.links.iter().enumerate() {
+                let number = if generation == 0 { 1 } else { branching };
+                copies.push(Literal::usize_unsuffixed(number));
+                names.push(&link.name);
+            }
+        }
+        quote! {
+            const COPIES: &'static [usize] = &[#(#copies),*];
+            const NAMES: &'static [&'static str] = &[#(#names),*];
         }
     }
 
@@ -143,5 +132,33 @@ impl Emission<'_> {
             .map(|argument| format_ident!("{}", argument.name()));
         let last = format_ident!("{}", last.name());
         same.then(|| quote!(#(let _ = #names;)* #last))
+    }
+}
+
+/// What the equations of one link have beside the tree's: torques in joints, the drive's on the
+/// root, from outside and between links, and links that are held.
+fn link_parts(strips: &LoopTree) -> TokenStream {
+    let (joints, torque) = (strips.has_joint_torques, strips.has_drive_torque);
+    let forced = strips.has_outside_torques.then(|| {
+        quote!(
+            const FORCED: bool = true;
+        )
+    });
+    let held = strips.has_held_links.then(|| {
+        quote!(
+            const HELD: bool = true;
+        )
+    });
+    let coupled = (!strips.spring_dampers.is_empty()).then(|| {
+        quote!(
+            const COUPLED: bool = true;
+        )
+    });
+    quote! {
+        const JOINTS: bool = #joints;
+        const TORQUE: bool = #torque;
+        #forced
+        #coupled
+        #held
     }
 }

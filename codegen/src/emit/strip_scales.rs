@@ -57,14 +57,8 @@ impl Emission<'_> {
     fn scales_of_model(&self) -> Option<TokenStream> {
         let copies = self.scale_copies()?.into_iter();
         let copies = copies.map(Literal::usize_unsuffixed);
-        let (runtime, name, time) = (self.runtime(), &self.item.ident, self.time_name());
-        let drive = match self.mechanics.drive {
-            Some(_) => {
-                let drive = self.inner_drive();
-                quote!(::core::option::Option::Some(#drive))
-            }
-            None => quote!(::core::option::Option::None),
-        };
+        let (runtime, name) = (self.runtime(), &self.item.ident);
+        let budgets = self.budgets_by_scale();
         Some(quote! {
             impl<T: #runtime::Scalar> #runtime::Scales<T> for #name<T> {
                 const COPIES: &'static [usize] = &[#(#copies),*];
@@ -89,32 +83,48 @@ impl Emission<'_> {
                     self.tree.energies_by_sector(workspace, theta, omega, energies);
                 }
 
-                fn budget_by_scale(
-                    &self,
-                    workspace: &mut #runtime::system::Workspace<T>,
-                    #time: T,
-                    theta: &[T],
-                    omega: &[T],
-                    budget: &mut #runtime::ScaleBudget<T>,
-                ) {
-                    let given = [theta, omega, &[]];
-                    self.tree.budget_by_scale(workspace, #drive, given, budget);
-                }
-
-                fn budget_by_scale_under(
-                    &self,
-                    workspace: &mut #runtime::system::Workspace<T>,
-                    #time: T,
-                    theta: &[T],
-                    omega: &[T],
-                    torques: &[T],
-                    budget: &mut #runtime::ScaleBudget<T>,
-                ) {
-                    let given = [theta, omega, torques];
-                    self.tree.budget_by_scale_under(workspace, #drive, given, budget);
-                }
+                #budgets
             }
         })
+    }
+
+    /// The functions of the energies by scale with what changes them, without torques from
+    /// outside and under them.
+    fn budgets_by_scale(&self) -> TokenStream {
+        let (runtime, time) = (self.runtime(), self.time_name());
+        let drive = match self.mechanics.drive {
+            Some(_) => {
+                let drive = self.inner_drive();
+                quote!(::core::option::Option::Some(#drive))
+            }
+            None => quote!(::core::option::Option::None),
+        };
+        quote! {
+            fn budget_by_scale(
+                &self,
+                workspace: &mut #runtime::system::Workspace<T>,
+                #time: T,
+                theta: &[T],
+                omega: &[T],
+                budget: &mut #runtime::ScaleBudget<T>,
+            ) {
+                let given = [theta, omega, &[]];
+                self.tree.budget_by_scale(workspace, #drive, given, budget);
+            }
+
+            fn budget_by_scale_under(
+                &self,
+                workspace: &mut #runtime::system::Workspace<T>,
+                #time: T,
+                theta: &[T],
+                omega: &[T],
+                torques: &[T],
+                budget: &mut #runtime::ScaleBudget<T>,
+            ) {
+                let given = [theta, omega, torques];
+                self.tree.budget_by_scale_under(workspace, #drive, given, budget);
+            }
+        }
     }
 
     /// The derived formulas behind a function of a link.

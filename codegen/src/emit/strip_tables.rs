@@ -20,65 +20,17 @@ impl Emission<'_> {
         let columns = named(&strips.columns);
         let [table, rows] = self.table("strips", "the equations", &columns, rows.collect(), &known);
         let gravity = self.root_gravity(&known);
-        let (shape, parents, tree) = match self.scene.layout {
-            Layout::Generations { .. } => {
-                let equations = format_ident!("{}Equations", self.item.ident);
-                let copies = quote!(<#equations as #runtime::tree::LinkEquations>::COPIES);
-                (
-                    quote!(Generations(#copies)),
-                    None,
-                    quote!(new(#rows, #gravity)),
-                )
-            }
+        let (parents, tree) = match self.scene.layout {
+            Layout::Generations { .. } => (None, quote!(new(#rows, #gravity))),
             _ => (
-                quote!(Parents(&PARENTS)),
                 Some(self.parents()),
                 quote!(with_parents(&PARENTS, &#rows, #gravity)),
             ),
         };
         let between = self.spring_dampers(strips, &known);
-        let all = strips.strips.iter();
-        let bodies = self.scene.requests.energies.then(|| {
-            let rows = all.clone().map(|strip| strip.body.as_slice());
-            let columns = named(&strips.body_columns);
-            self.table(
-                "bodies",
-                "energies and powers",
-                &columns,
-                rows.collect(),
-                &known,
-            )
-        });
-        let properties = self.scene.requests.positions.then(|| {
-            let rows = all.filter_map(|strip| strip.properties.as_ref());
-            let rows = rows.map(|row| row.as_slice()).collect();
-            let columns = LINK_PROPERTIES.map(str::to_owned);
-            self.table("properties", "positions", &columns, rows, &known)
-        });
-        let standing = self.scene.stands().then(|| quote!(.standing(true)));
-        let shape = quote!(#runtime::tree::Shape::#shape);
-        let body_field = bodies
-            .as_ref()
-            .map(|[_, rows]| quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows)));
-        let property_field = properties
-            .as_ref()
-            .map(|[_, rows]| {
-                quote!(properties: #runtime::tree::PropertyTable::new(#shape, #rows) #standing)
-            });
-        let tables = [&bodies, &properties].into_iter().flatten();
-        let tables = tables.map(|[table, _]| table);
-        let stored = self.stored_constants();
-        let stored = stored.iter().map(|&id| {
-            let field = self.field(id);
-            match known.get(&id) {
-                Some(value) if *value == field => quote!(#field),
-                _ => {
-                    let value = self.known_value(id, &known);
-                    quote!(#field: #value)
-                }
-            }
-        });
-        let fields = body_field.into_iter().chain(property_field).chain(stored);
+        let with_fields = [self.bodies(strips, &known), self.properties(strips, &known)];
+        let (tables, fields): (Vec<_>, Vec<_>) = with_fields.into_iter().flatten().unzip();
+        let fields = fields.into_iter().chain(self.stored_values(&known));
         quote! {
             #parents
             #table
@@ -89,6 +41,72 @@ impl Emission<'_> {
                 #(#fields),*
             }
         }
+    }
+
+    /// The shape of the tree, as further tables ask for it.
+    fn shape(&self) -> TokenStream {
+        let runtime = self.runtime();
+        let shape = match self.scene.layout {
+            Layout::Generations { .. } => {
+                let equations = format_ident!("{}Equations", self.item.ident);
+                quote!(Generations(<#equations as #runtime::tree::LinkEquations>::COPIES))
+            }
+            _ => quote!(Parents(&PARENTS)),
+        };
+        quote!(#runtime::tree::Shape::#shape)
+    }
+
+    /// The table that energies and powers read, with its field.
+    fn bodies(
+        &self,
+        strips: &LoopTree,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> Option<(TokenStream, TokenStream)> {
+        self.scene.requests.energies.then(|| {
+            let (runtime, shape) = (self.runtime(), self.shape());
+            let rows = strips.strips.iter().map(|strip| strip.body.as_slice());
+            let (rows, columns) = (rows.collect(), named(&strips.body_columns));
+            let [table, rows] = self.table("bodies", "energies and powers", &columns, rows, known);
+            let field = quote!(bodies: #runtime::tree::Bodies::new(#shape, #rows));
+            (table, field)
+        })
+    }
+
+    /// The table that positions read, with its field.
+    fn properties(
+        &self,
+        strips: &LoopTree,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> Option<(TokenStream, TokenStream)> {
+        self.scene.requests.positions.then(|| {
+            let (runtime, shape) = (self.runtime(), self.shape());
+            let rows = strips.strips.iter();
+            let rows = rows.filter_map(|strip| strip.properties.as_ref());
+            let rows = rows.map(|row| row.as_slice()).collect();
+            let columns = LINK_PROPERTIES.map(str::to_owned);
+            let [table, rows] = self.table("properties", "positions", &columns, rows, known);
+            let standing = self.scene.stands().then(|| quote!(.standing(true)));
+            let field = quote! {
+                properties: #runtime::tree::PropertyTable::new(#shape, #rows) #standing
+            };
+            (table, field)
+        })
+    }
+
+    /// The fields of the constants that the model stores besides.
+    fn stored_values(&self, known: &BTreeMap<ConstantId, Ident>) -> Vec<TokenStream> {
+        let stored = self.stored_constants();
+        let stored = stored.iter().map(|&id| {
+            let field = self.field(id);
+            match known.get(&id) {
+                Some(value) if *value == field => quote!(#field),
+                _ => {
+                    let value = self.known_value(id, known);
+                    quote!(#field: #value)
+                }
+            }
+        });
+        stored.collect()
     }
 
     /// `let` lines for all constants that parameters are involved in, of the strips and

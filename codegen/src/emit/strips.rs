@@ -126,30 +126,17 @@ impl Emission<'_> {
     fn array_function(&self, purpose: Purpose) -> TokenStream {
         let (runtime, links, drive) = (self.runtime(), self.links(), self.drive_at_time());
         let time = self.mechanics.drive.is_some().then(|| quote!(time: T,));
-        let workspace = quote!(let mut workspace = #runtime::system::Workspace::new(););
         let alone = quote!([T; #links]);
         let (name, docs, given, result, body) = match purpose {
             Purpose::Prescribed(number) => {
                 let set = &self.scene.prescribed[number];
                 let held = Literal::usize_unsuffixed(set.links.len());
-                let number = Literal::usize_unsuffixed(number);
-                let body = quote! {
-                    let mut reactions = [T::from_f64(0.0); #held];
-                    #workspace
-                    let held = #runtime::Prescribed::prescribed_links(self, #number);
-                    let motion =
-                        #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
-                    self.tree.accelerations_prescribed_with(
-                        &mut workspace, #drive, held, motion, [&mut alpha, &mut reactions],
-                    );
-                    (alpha, reactions)
-                };
                 (
                     format_ident!("accelerations_prescribed_{}", set.name),
                     self.meaning(purpose),
                     quote!(torques: &[T; #links], prescribed: &[T; #held],),
                     quote!(([T; #links], [T; #held])),
-                    body,
+                    self.prescribed_body(number),
                 )
             }
             Purpose::AccelerationsUnder => (
@@ -158,7 +145,7 @@ impl Emission<'_> {
                 quote!(torques: &[T; #links],),
                 alone,
                 quote! {
-                    #workspace
+                    let mut workspace = #runtime::system::Workspace::new();
                     let given: [&[T]; 3] = [theta, omega, torques];
                     self.tree.accelerations_under_with(&mut workspace, #drive, given, &mut alpha);
                     alpha
@@ -195,18 +182,28 @@ impl Emission<'_> {
         }
     }
 
+    /// What `accelerations_prescribed` of a set does with its arrays.
+    fn prescribed_body(&self, number: usize) -> TokenStream {
+        let (runtime, drive) = (self.runtime(), self.drive_at_time());
+        let held = Literal::usize_unsuffixed(self.scene.prescribed[number].links.len());
+        let number = Literal::usize_unsuffixed(number);
+        quote! {
+            let mut reactions = [T::from_f64(0.0); #held];
+            let mut workspace = #runtime::system::Workspace::new();
+            let held = #runtime::Prescribed::prescribed_links(self, #number);
+            let motion =
+                #runtime::system::PrescribedMotion { theta, omega, torques, prescribed };
+            self.tree.accelerations_prescribed_with(
+                &mut workspace, #drive, held, motion, [&mut alpha, &mut reactions],
+            );
+            (alpha, reactions)
+        }
+    }
+
     fn strip_pendulum(&self) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
         let (time, drive) = (self.time_name(), self.drive_at_time());
-        let (fields, other) = (self.cast_fields(), super::other_scalar(name));
-        let model = self.model_trait(&quote! {
-            fn cast<#other: #runtime::Scalar>(
-                &self,
-                convert: impl ::core::ops::Fn(T) -> #other,
-            ) -> #name<#other> {
-                #name { #(#fields),* }
-            }
-        });
+        let model = self.model_of_tables();
         quote! {
             #model
 
@@ -257,6 +254,20 @@ impl Emission<'_> {
                 }
             }
         }
+    }
+
+    /// `impl Model`, with a cast of the tree, of all tables and of each constant that is stored.
+    fn model_of_tables(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let (fields, other) = (self.cast_fields(), super::other_scalar(name));
+        self.model_trait(&quote! {
+            fn cast<#other: #runtime::Scalar>(
+                &self,
+                convert: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> {
+                #name { #(#fields),* }
+            }
+        })
     }
 
     /// The fields on another scalar.

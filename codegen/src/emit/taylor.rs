@@ -24,54 +24,25 @@ impl Emission<'_> {
         let gathered = self.gathered(&start, &needed);
         let whole = gathered.whole;
         let read = self.read(&start, &needed, whole.is_some().then_some(&gathered.inputs));
-        // Angles and velocities are handed on besides.
-        let inputs = entry
-            .arguments
-            .iter()
-            .filter(|argument| **argument == Argument::Time || self.reads(**argument, &read))
-            .map(|&argument| self.take_apart(argument, &read, locals));
+        let inputs = self.inputs_at_start(entry, &read, locals);
         let lines = self.lines(&gathered, &needed, locals);
-        let sines_alone = whole == Some(Argument::Theta) && lines.len() == 1;
-        let (lines, sines) = match sines_alone {
-            true => (
-                quote!(let (sines, cosines) = T::sin_cos_each(theta);),
-                quote!(sines, cosines),
-            ),
+        let (lines, sines) = match whole == Some(Argument::Theta) && lines.len() == 1 {
+            true => sines_alone(),
             false => {
                 let lines = lines.into_iter().map(|line| line.tokens);
-                let [sines, cosines] = [&outputs.sines, &outputs.cosines]
-                    .map(|values| self.taylor_numbers(values, locals));
-                (lines.collect(), quote!(sines: #sines, cosines: #cosines))
+                (lines.collect(), self.sines_at_start(&outputs, locals))
             }
         };
         let bias_0 = self.taylor_numbers(&outputs.bias, locals);
         let constants = self.link_constants(&outputs, locals);
         let runtime = self.runtime();
         let (links, quads) = (self.links(), self.quads());
-        let (rows, bias) = match recurrences.is_empty() {
-            true => (
-                TokenStream::new(),
-                quote! {
-                    ::core::option::Option::None::<
-                        fn(&#runtime::emitted::taylor::KnownOrder<T, #links>) -> [T; #links],
-                    >
-                },
-            ),
-            false => {
-                let (rows, closure) = (recurrences.rows(), recurrences.closure());
-                (
-                    quote!(#rows let bias = #closure;),
-                    quote!(::core::option::Option::Some(bias)),
-                )
-            }
-        };
+        let (rows, bias) = self.bias_by_order(&recurrences);
         let connectivity = self.connectivity(&outputs);
         let docs = self.taylor_docs(entry, &outputs, recurrences.count());
         let name = ident(&entry.name);
-        let time = entry
-            .arguments
-            .contains(&Argument::Time)
-            .then(|| quote!(time: T,));
+        let is_driven = entry.arguments.contains(&Argument::Time);
+        let time = is_driven.then(|| quote!(time: T,));
         quote! {
             #docs
             #[inline(always)]
@@ -97,6 +68,50 @@ impl Emission<'_> {
                 #runtime::emitted::taylor::expand::<T, Tree, #links, #quads, _>(
                     &start, &constants, coefficients, work, #bias,
                 );
+            }
+        }
+    }
+
+    /// The arguments of which numbers are read, taken apart.
+    fn inputs_at_start(
+        &self,
+        entry: &Entry,
+        read: &[ValueId],
+        locals: &Locals,
+    ) -> Vec<TokenStream> {
+        // Angles and velocities are handed on besides.
+        let arguments = entry.arguments.iter();
+        arguments
+            .filter(|argument| **argument == Argument::Time || self.reads(**argument, read))
+            .map(|&argument| self.take_apart(argument, read, locals))
+            .collect()
+    }
+
+    /// The sines and cosines at the start, of which other lines form the arrays.
+    fn sines_at_start(&self, outputs: &TaylorOutputs, locals: &Locals) -> TokenStream {
+        let [sines, cosines] =
+            [&outputs.sines, &outputs.cosines].map(|values| self.taylor_numbers(values, locals));
+        quote!(sines: #sines, cosines: #cosines)
+    }
+
+    /// The rows of factors and the closure for the bias of one order, and how `expand` takes it.
+    fn bias_by_order(&self, recurrences: &Recurrences<'_>) -> (TokenStream, TokenStream) {
+        let (runtime, links) = (self.runtime(), self.links());
+        match recurrences.is_empty() {
+            true => (
+                TokenStream::new(),
+                quote! {
+                    ::core::option::Option::None::<
+                        fn(&#runtime::emitted::taylor::KnownOrder<T, #links>) -> [T; #links],
+                    >
+                },
+            ),
+            false => {
+                let (rows, closure) = (recurrences.rows(), recurrences.closure());
+                (
+                    quote!(#rows let bias = #closure;),
+                    quote!(::core::option::Option::Some(bias)),
+                )
             }
         }
     }
@@ -226,4 +241,13 @@ impl Emission<'_> {
             }
         }
     }
+}
+
+/// The line that forms all sines and cosines, where nothing else is formed at the start, and the
+/// arrays of it.
+fn sines_alone() -> (TokenStream, TokenStream) {
+    (
+        quote!(let (sines, cosines) = T::sin_cos_each(theta);),
+        quote!(sines, cosines),
+    )
 }

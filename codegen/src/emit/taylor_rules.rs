@@ -46,22 +46,7 @@ impl Recurrences<'_> {
                 let moving = at(moving, Binding::Prefix);
                 (quote!(#constant * #moving), Binding::Product)
             }
-            Op::Div(a, b) if varies(&b) => {
-                // u = v w, solved for w[k].
-                let (sum, w_0) = (self.sum(op), zeroth(id));
-                let v = at(b, Binding::Prefix);
-                let rest = quote!(#sum + #v * #w_0);
-                if *self.emission.op(a) == Op::Number(Rational::from(1)) {
-                    return (quote!(-(#rest) * #w_0), Binding::Product);
-                }
-                let v_0 = zeroth(b);
-                if varies(&a) {
-                    let u = at(a, Binding::Sum);
-                    (quote!((#u - (#rest)) / #v_0), Binding::Product)
-                } else {
-                    (quote!(-(#rest) / #v_0), Binding::Product)
-                }
-            }
+            Op::Div(a, b) if varies(&b) => self.quotient(id, [a, b]),
             Op::Div(a, b) => {
                 let (u, v_0) = (at(a, Binding::Product), zeroth(b));
                 (quote!(#u / #v_0), Binding::Product)
@@ -72,24 +57,49 @@ impl Recurrences<'_> {
                 let u = at(a, Binding::Sum);
                 (quote!((#u - #sum) / (#w_0 + #w_0)), Binding::Product)
             }
-            Op::Sin(angle) | Op::Cos(angle) => {
-                // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
-                let (sum, inverse) = (self.sum(op), &self.inverse_order);
-                let angle_k = at(angle, Binding::Product);
-                if matches!(op, Op::Sin(_)) {
-                    let cos = zeroth(self.id(&Op::Cos(angle)));
-                    (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
-                } else {
-                    let sin = zeroth(self.id(&Op::Sin(angle)));
-                    (
-                        quote!(-(#sum * #inverse + #angle_k * #sin)),
-                        Binding::Prefix,
-                    )
-                }
-            }
+            Op::Sin(angle) | Op::Cos(angle) => self.turn(op, angle),
             Op::Input(..) | Op::Constant(_) | Op::Number(_) => {
                 unreachable!("inputs have names, constants no coefficient of order k")
             }
+        }
+    }
+
+    /// The recurrence of a quotient whose divisor varies.
+    fn quotient(&self, id: ValueId, [a, b]: [ValueId; 2]) -> (TokenStream, Binding) {
+        // u = v w, solved for w[k].
+        let (sum, w_0) = (
+            self.sum(self.emission.op(id)),
+            self.zeroth(id, Binding::Atom),
+        );
+        let v = self.bound(b, Binding::Prefix);
+        let rest = quote!(#sum + #v * #w_0);
+        if *self.emission.op(a) == Op::Number(Rational::from(1)) {
+            return (quote!(-(#rest) * #w_0), Binding::Product);
+        }
+        let v_0 = self.zeroth(b, Binding::Atom);
+        if self.varies[&a] {
+            let u = self.bound(a, Binding::Sum);
+            (quote!((#u - (#rest)) / #v_0), Binding::Product)
+        } else {
+            (quote!(-(#rest) / #v_0), Binding::Product)
+        }
+    }
+
+    /// The recurrence of the sine or cosine of an angle.
+    fn turn(&self, op: &Op, angle: ValueId) -> (TokenStream, Binding) {
+        // k s[k] = Σ j a[j] c[k−j], k c[k] = −Σ j a[j] s[k−j]
+        let (sum, inverse) = (self.sum(op), &self.inverse_order);
+        let angle_k = self.bound(angle, Binding::Product);
+        let zeroth = |of: Op| self.zeroth(self.id(&of), Binding::Atom);
+        if matches!(op, Op::Sin(_)) {
+            let cos = zeroth(Op::Cos(angle));
+            (quote!(#sum * #inverse + #angle_k * #cos), Binding::Sum)
+        } else {
+            let sin = zeroth(Op::Sin(angle));
+            (
+                quote!(-(#sum * #inverse + #angle_k * #sin)),
+                Binding::Prefix,
+            )
         }
     }
 }

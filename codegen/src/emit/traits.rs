@@ -80,25 +80,7 @@ impl Emission<'_> {
                 }
             }
         });
-        let fields: Vec<Ident> = self
-            .stored_constants()
-            .into_iter()
-            .map(|id| self.field(id))
-            .collect();
-        let convert = match fields.is_empty() {
-            true => quote!(_convert),
-            false => quote!(convert),
-        };
-        let other = super::other_scalar(name);
-        let model = self.model_trait(&quote! {
-            #[inline(always)]
-            fn cast<#other: #runtime::Scalar>(
-                &self,
-                #convert: impl ::core::ops::Fn(T) -> #other,
-            ) -> #name<#other> {
-                #name { #(#fields: convert(self.#fields)),* }
-            }
-        });
+        let model = self.model_of_constants();
         quote! {
             #model
 
@@ -116,6 +98,30 @@ impl Emission<'_> {
                 }
             }
         }
+    }
+
+    /// `impl Model`, with a cast of each constant that is stored.
+    fn model_of_constants(&self) -> TokenStream {
+        let (name, runtime) = (&self.item.ident, self.runtime());
+        let fields: Vec<Ident> = self
+            .stored_constants()
+            .into_iter()
+            .map(|id| self.field(id))
+            .collect();
+        let convert = match fields.is_empty() {
+            true => quote!(_convert),
+            false => quote!(convert),
+        };
+        let other = super::other_scalar(name);
+        self.model_trait(&quote! {
+            #[inline(always)]
+            fn cast<#other: #runtime::Scalar>(
+                &self,
+                #convert: impl ::core::ops::Fn(T) -> #other,
+            ) -> #name<#other> {
+                #name { #(#fields: convert(self.#fields)),* }
+            }
+        })
     }
 
     /// The accelerations under torques; NaN for slices of a wrong length.

@@ -17,6 +17,23 @@ enum ListedForm {
     Exact,
 }
 
+impl ListedForm {
+    /// The form as the runtime names it.
+    fn name(self, runtime: &TokenStream) -> TokenStream {
+        match self {
+            Self::Angle(order) => {
+                let order = Literal::u32_unsuffixed(order);
+                quote!(#runtime::TransferForm::Angle(#order))
+            }
+            Self::Amplitude(order) => {
+                let order = Literal::u32_unsuffixed(order);
+                quote!(#runtime::TransferForm::Amplitude(#order))
+            }
+            Self::Exact => quote!(#runtime::TransferForm::Exact),
+        }
+    }
+}
+
 /// The forms in their order, each as an array of transfers.
 type Calls = Vec<(ListedForm, TokenStream)>;
 
@@ -99,17 +116,7 @@ impl Emission<'_> {
         small: &[SectorVariables],
     ) -> TokenStream {
         let (name, runtime) = (&self.item.ident, self.runtime());
-        let names = forms.iter().map(|&(form, _)| match form {
-            ListedForm::Angle(order) => {
-                let order = Literal::u32_unsuffixed(order);
-                quote!(#runtime::TransferForm::Angle(#order))
-            }
-            ListedForm::Amplitude(order) => {
-                let order = Literal::u32_unsuffixed(order);
-                quote!(#runtime::TransferForm::Amplitude(#order))
-            }
-            ListedForm::Exact => quote!(#runtime::TransferForm::Exact),
-        });
+        let names = forms.iter().map(|&(form, _)| form.name(&runtime));
         let small = small.iter().map(|sector| {
             let name = &sector.name;
             let indices = sector.coordinates.iter();
@@ -119,21 +126,7 @@ impl Emission<'_> {
                 coordinates: &[#(#indices),*],
             })
         });
-        let arms = forms.iter().enumerate().map(|(number, (_, call))| {
-            let number = Literal::usize_unsuffixed(number);
-            quote!(#number => #runtime::emitted::write(transfers, &#call))
-        });
-        let unknown = self.unknown(&["transfers"]);
-        let transfers = self.with_arrays(
-            &[vec!["coordinates", "momenta"]],
-            quote! {
-                match form {
-                    #(#arms,)*
-                    _ => #unknown
-                }
-            },
-            unknown.clone(),
-        );
+        let transfers = self.transfers_by_form(forms);
         let momenta = self.fill("momenta", Purpose::SymmetricMomenta);
         quote! {
             // As for the functions above.
@@ -166,6 +159,26 @@ impl Emission<'_> {
                 }
             }
         }
+    }
+
+    /// What `transfers_into` does with the number of a form.
+    fn transfers_by_form(&self, forms: &[(ListedForm, TokenStream)]) -> TokenStream {
+        let runtime = self.runtime();
+        let arms = forms.iter().enumerate().map(|(number, (_, call))| {
+            let number = Literal::usize_unsuffixed(number);
+            quote!(#number => #runtime::emitted::write(transfers, &#call))
+        });
+        let unknown = self.unknown(&["transfers"]);
+        self.with_arrays(
+            &[vec!["coordinates", "momenta"]],
+            quote! {
+                match form {
+                    #(#arms,)*
+                    _ => #unknown
+                }
+            },
+            unknown.clone(),
+        )
     }
 }
 

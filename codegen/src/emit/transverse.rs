@@ -103,21 +103,11 @@ impl Emission<'_> {
         let sectors = transverse.sectors.iter();
         let sectors = sectors.map(|formulas| self.sector_constant(&formulas.sector));
         let time = self.time_name();
-        let energy = self.match_sector(&nan(), |number, _| {
-            self.value_at_slices(Purpose::TransverseEnergy(number))
-        });
-        let transfer = self.match_sector(&nan(), |number, _| {
-            self.value_at_slices(Purpose::TransverseTransfer(number))
-        });
         let unknown = self.unknown(&["accelerations"]);
         let accelerations = self.match_sector(&unknown, |number, _| {
             self.fill("accelerations", Purpose::Transverse(number))
         });
-        let power = self.friction_by_sector();
-        let along = self.braked_power();
-        let motion = quote! {
-            let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
-        };
+        let energies = self.transverse_energies();
         let both = self.motion_with_differences();
         Some(quote! {
             #both
@@ -136,47 +126,62 @@ impl Emission<'_> {
                     difference_rate: &[T],
                     accelerations: &mut [T],
                 ) {
-                    #motion
+                    let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
                     #accelerations
                 }
 
-
-                #[inline]
-                fn transverse_energy_of(
-                    &self,
-                    sector: usize,
-                    theta: &[T],
-                    difference: &[T],
-                    difference_rate: &[T],
-                ) -> T {
-                    #energy
-                }
-
-                #[inline]
-                fn transverse_transfer_of(
-                    &self,
-                    sector: usize,
-                    #time: T,
-                    motion: #runtime::system::InPhaseMotion<'_, T>,
-                    difference: &[T],
-                    difference_rate: &[T],
-                ) -> T {
-                    #motion
-                    #transfer
-                }
-
-                #[inline]
-                fn transverse_friction_power_of(
-                    &self,
-                    sector: usize,
-                    difference_rate: &[T],
-                ) -> T {
-                    #power
-                }
-
-                #along
+                #energies
             }
         })
+    }
+
+    /// The functions of the energy of small differences, and of what changes it.
+    fn transverse_energies(&self) -> TokenStream {
+        let (runtime, time) = (self.runtime(), self.time_name());
+        let energy = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseEnergy(number))
+        });
+        let transfer = self.match_sector(&nan(), |number, _| {
+            self.value_at_slices(Purpose::TransverseTransfer(number))
+        });
+        let power = self.friction_by_sector();
+        let along = self.braked_power();
+        quote! {
+            #[inline]
+            fn transverse_energy_of(
+                &self,
+                sector: usize,
+                theta: &[T],
+                difference: &[T],
+                difference_rate: &[T],
+            ) -> T {
+                #energy
+            }
+
+            #[inline]
+            fn transverse_transfer_of(
+                &self,
+                sector: usize,
+                #time: T,
+                motion: #runtime::system::InPhaseMotion<'_, T>,
+                difference: &[T],
+                difference_rate: &[T],
+            ) -> T {
+                let #runtime::system::InPhaseMotion { theta, omega, alpha } = motion;
+                #transfer
+            }
+
+            #[inline]
+            fn transverse_friction_power_of(
+                &self,
+                sector: usize,
+                difference_rate: &[T],
+            ) -> T {
+                #power
+            }
+
+            #along
+        }
     }
 
     /// Accelerations of the in-phase motion and of small differences, as one function.

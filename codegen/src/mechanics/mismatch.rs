@@ -42,6 +42,16 @@ pub(super) struct CopyConstants {
     mismatches: Vec<SymbolId>,
 }
 
+impl CopyConstants {
+    /// Replaces a constant, once: links of one orbit have the same.
+    fn replace(&mut self, symbol: SymbolId, value: Formula) {
+        let mut known = self.replacements.iter();
+        if known.all(|(known, _)| *known != symbol) {
+            self.replacements.push((symbol, value));
+        }
+    }
+}
+
 /// A tree whose copies differ beside its mean tree.
 pub(super) struct Mismatch<'f> {
     /// The tree.
@@ -138,16 +148,7 @@ impl Derivation<'_> {
         let scene = self.scene;
         let orbit = |link: LinkId| &scene.orbits[scene.links[link.0].orbit.0];
         let coupled = node.links != others;
-        let symbols: Vec<Option<SymbolId>> = (node.links.iter().zip(others))
-            .map(|(&link, &other)| {
-                let other = match coupled {
-                    true => format!(",{}", orbit(other).name),
-                    false => String::new(),
-                };
-                let name = format!("{}_{}{other}", letter.text, orbit(link).name);
-                self.symbols.find(&name)
-            })
-            .collect();
+        let symbols = self.copy_symbols(node, letter, others);
         let Some(known) = symbols.iter().flatten().next() else {
             return;
         };
@@ -182,17 +183,32 @@ impl Derivation<'_> {
                 sums[place] = &sums[place] + &(&Formula::integer(weight) * &constant);
             }
         }
-        // Links of one orbit have one constant.
         for (symbol, sum) in symbols.into_iter().zip(sums) {
-            if let Some(symbol) = symbol
-                && constants
-                    .replacements
-                    .iter()
-                    .all(|(known, _)| *known != symbol)
-            {
-                constants.replacements.push((symbol, sum));
+            if let Some(symbol) = symbol {
+                constants.replace(symbol, sum);
             }
         }
+    }
+
+    /// The symbols of one letter of a node's links, of those that have it.
+    fn copy_symbols(
+        &self,
+        node: &UnequalNode,
+        letter: Letter,
+        others: &[LinkId],
+    ) -> Vec<Option<SymbolId>> {
+        let scene = self.scene;
+        let orbit = |link: LinkId| &scene.orbits[scene.links[link.0].orbit.0].name;
+        let links = node.links.iter().zip(others);
+        let symbols = links.map(|(&link, &other)| {
+            let other = match node.links != others {
+                true => format!(",{}", orbit(other)),
+                false => String::new(),
+            };
+            let name = format!("{}_{}{other}", letter.text, orbit(link));
+            self.symbols.find(&name)
+        });
+        symbols.collect()
     }
 
     /// The Lagrangian of the mean tree.

@@ -184,6 +184,26 @@ impl Derivation<'_> {
         }
     }
 
+    /// Symbols of which the program forms the values, as far as observables use them.
+    fn nested_symbols(
+        &self,
+        symbols: &RateSymbols,
+        uses: impl Fn(&[SymbolId]) -> bool,
+    ) -> NestedSymbols {
+        let formed = |symbols: &[SymbolId]| match uses(symbols) {
+            true => symbols.to_vec(),
+            false => Vec::new(),
+        };
+        NestedSymbols {
+            forces: formed(&symbols.forces),
+            torques: formed(&symbols.torques),
+            friction_accelerations: formed(&symbols.friction_accelerations),
+            slopes: formed(&symbols.slopes),
+            changes: formed(&symbols.changes),
+            energies: self.energies.clone(),
+        }
+    }
+
     /// Symbols and definitions that the observables of a frame refer to.
     fn observable_frame(
         &self,
@@ -198,20 +218,9 @@ impl Derivation<'_> {
             false => Vec::new(),
         };
         if frame.has_symbols_alone() {
-            let formed = |symbols: &[SymbolId]| match uses(symbols) {
-                true => symbols.to_vec(),
-                false => Vec::new(),
-            };
             return ObservableFrame {
                 accelerations,
-                nested: NestedSymbols {
-                    forces: formed(&symbols.forces),
-                    torques: formed(&symbols.torques),
-                    friction_accelerations: formed(&symbols.friction_accelerations),
-                    slopes: formed(&symbols.slopes),
-                    changes: formed(&symbols.changes),
-                    energies: self.energies.clone(),
-                },
+                nested: self.nested_symbols(symbols, uses),
                 ..ObservableFrame::default()
             };
         }

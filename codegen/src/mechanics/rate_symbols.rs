@@ -71,23 +71,6 @@ impl Derivation<'_> {
         frame: &DerivedFrame,
         coordinates: Option<&[Coordinate]>,
     ) -> RateSymbols {
-        let resisted = |frame: &DerivedFrame, index: usize| {
-            let velocity = frame.velocities[index];
-            !self
-                .partial(&frame.dissipation, velocity)
-                .expand()
-                .is_zero()
-        };
-        let has_torque = match coordinates {
-            Some(coordinates) if frame.has_symbols_alone() => {
-                let of_link = |&(LinkId(link), _): &_| resisted(absolute, link);
-                let of_coordinate = |c: &Coordinate| c.weights.iter().any(of_link);
-                coordinates.iter().map(of_coordinate).collect()
-            }
-            _ => (0..frame.velocities.len())
-                .map(|index| resisted(frame, index))
-                .collect(),
-        };
         let indexed = |derivation: &mut Self, role, code: &str, text: &str, latex: &str| {
             let (before, after) = text.split_once('#').unwrap_or((text, ""));
             let (latex_before, latex_after) = latex.split_once('#').unwrap_or((latex, ""));
@@ -131,7 +114,33 @@ impl Derivation<'_> {
                 "(Ṁ ω)_#",
                 "(\\dot M\\omega)_{#}",
             ),
-            has_torque,
+            has_torque: self.has_torque(absolute, frame, coordinates),
+        }
+    }
+
+    /// Returns true for coordinates with friction.
+    fn has_torque(
+        &self,
+        absolute: &DerivedFrame,
+        frame: &DerivedFrame,
+        coordinates: Option<&[Coordinate]>,
+    ) -> Vec<bool> {
+        let resisted = |frame: &DerivedFrame, index: usize| {
+            let velocity = frame.velocities[index];
+            !self
+                .partial(&frame.dissipation, velocity)
+                .expand()
+                .is_zero()
+        };
+        match coordinates {
+            Some(coordinates) if frame.has_symbols_alone() => {
+                let of_link = |&(LinkId(link), _): &_| resisted(absolute, link);
+                let of_coordinate = |c: &Coordinate| c.weights.iter().any(of_link);
+                coordinates.iter().map(of_coordinate).collect()
+            }
+            _ => (0..frame.velocities.len())
+                .map(|index| resisted(frame, index))
+                .collect(),
         }
     }
 

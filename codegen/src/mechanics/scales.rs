@@ -149,7 +149,6 @@ impl Derivation<'_> {
         let s = ScaleSymbols::new(&mut self.symbols);
         let symbol = Formula::symbol;
         let pair = |ids: [SymbolId; 2]| ids.map(symbol);
-        let [mass, inertia] = pair(link.body);
         let omega = symbol(link.omega);
         let [com, place] =
             [link.com, link.place].map(|ids| self.link_lever(link, self.place_on_link(ids)));
@@ -159,16 +158,7 @@ impl Derivation<'_> {
         let bends = [&com, &place].map(|lever| times(&(&flow * &omega), &self.turned(link, lever)));
         let shift = bends.map(|bend| plus(&pair(s.pivot_shift), &bend));
 
-        // Energy of parts; what lateral offsets weigh is that of the means.
-        let [v_x, v_y, rate, rise, side, strain] = s.parts.map(symbol);
-        let moved = kinetic([&mass, &inertia], &[v_x, v_y], &rate);
-        let gravity = symbol(body.gravity);
-        let [along, across] = self.place_on_link(body.carried_moment);
-        let squares = &rise.pow(2) + &side.pow(2);
-        let weight = &(&(&gravity * &along) * &squares) / &Formula::integer(2);
-        let lateral = &(&(&gravity * &across) * &symbol(s.means)) * &side;
-        let strained = stored(&symbol(forces.symbols.constants[0]), &strain);
-        let energy: Formula = [moved, weight, lateral, strained].into_iter().sum();
+        let energy = self.energy_of_parts(&s, link, forces, body);
 
         // Momenta of parts, as sums over what a link moves: B is the moment of this
         // momentum, of which constants alone make the part in a scale.
@@ -208,5 +198,26 @@ impl Derivation<'_> {
             angle_slope: expr(&angle_slope),
             symbols: s,
         }
+    }
+
+    /// Energy of the parts of a link in a scale; what lateral offsets weigh is that of the means.
+    fn energy_of_parts(
+        &self,
+        s: &ScaleSymbols,
+        link: &LinkSymbols,
+        forces: &DerivedForces,
+        body: &BodySymbols,
+    ) -> Formula {
+        let symbol = Formula::symbol;
+        let [mass, inertia] = link.body.map(symbol);
+        let [v_x, v_y, rate, rise, side, strain] = s.parts.map(symbol);
+        let moved = kinetic([&mass, &inertia], &[v_x, v_y], &rate);
+        let gravity = symbol(body.gravity);
+        let [along, across] = self.place_on_link(body.carried_moment);
+        let squares = &rise.pow(2) + &side.pow(2);
+        let weight = &(&(&gravity * &along) * &squares) / &Formula::integer(2);
+        let lateral = &(&(&gravity * &across) * &symbol(s.means)) * &side;
+        let strained = stored(&symbol(forces.symbols.constants[0]), &strain);
+        [moved, weight, lateral, strained].into_iter().sum()
     }
 }

@@ -34,34 +34,7 @@ impl Derivation<'_> {
                     (scene.words_of(index), &scene.spring_dampers[index].torques);
                 let count = i64::try_from(sector.copies).unwrap_or(i64::MAX);
                 let squared = Formula::integer(count).pow(2);
-                let differences = [
-                    (
-                        "copies",
-                        "χ",
-                        "\\chi",
-                        frame.coordinates[link],
-                        small.difference(link),
-                    ),
-                    (
-                        "copies_rate",
-                        "χ̇",
-                        "\\dot\\chi",
-                        frame.velocities[link],
-                        small.rate(link),
-                    ),
-                ];
-                // Of several springs between the same copies each has a number.
-                let numbers = words.constants.iter().skip(2);
-                let names: Vec<&String> = std::iter::once(&scene.links[link].name)
-                    .chain(numbers)
-                    .collect();
-                let [angle, rate] = differences.map(|(code, text, latex, own, change)| {
-                    let symbol = self.indexed_by(Role::Joint, [code, text, latex], &names);
-                    let difference = JointDifference::of_links(own, None, Formula::zero());
-                    self.joints.insert(symbol, difference);
-                    small.copies.insert(symbol, (link, change));
-                    Formula::symbol(symbol)
-                });
+                let [angle, rate] = self.differences_in_phase(frame, link, &words, small);
                 if !passive.spring.is_zero() {
                     let meaning = format!("stiffness of the torsion spring {}", words.place);
                     let value = self.quantity(&passive.spring);
@@ -88,6 +61,40 @@ impl Derivation<'_> {
             torques: frame.torques.clone(),
             drive: frame.drive.clone(),
         }
+    }
+
+    /// The difference between the copies that a link stands for, and its rate.
+    fn differences_in_phase(
+        &mut self,
+        frame: &DerivedFrame,
+        link: usize,
+        words: &ElementWords,
+        small: &mut SmallMotion,
+    ) -> [Formula; 2] {
+        let differences = [
+            (
+                ["copies", "χ", "\\chi"],
+                frame.coordinates[link],
+                small.difference(link),
+            ),
+            (
+                ["copies_rate", "χ̇", "\\dot\\chi"],
+                frame.velocities[link],
+                small.rate(link),
+            ),
+        ];
+        // Of several springs between the same copies each has a number.
+        let numbers = words.constants.iter().skip(2);
+        let names: Vec<&String> = std::iter::once(&self.scene.links[link].name)
+            .chain(numbers)
+            .collect();
+        differences.map(|(letters, own, change)| {
+            let symbol = self.indexed_by(Role::Joint, letters, &names);
+            let difference = JointDifference::of_links(own, None, Formula::zero());
+            self.joints.insert(symbol, difference);
+            small.copies.insert(symbol, (link, change));
+            Formula::symbol(symbol)
+        })
     }
 
     /// Slope c + C/ε + q ε of the torque of friction where nothing turns.

@@ -150,33 +150,10 @@ impl Lowering<'_> {
         let frame = environment.frame;
         let names = self.coordinate_names(frame);
         let mass = self.mass_matrix(environment);
-        let mut right = Vec::new();
-        for (bias, name) in frame.bias.iter().zip(&names) {
-            let value = self.expr(environment, bias);
-            self.builder.name(value, &format!("bias_{name}"));
-            let torque = self.builder.neg(value);
-            self.builder.name(torque, &format!("minus_bias_{name}"));
-            right.push(match environment.torques {
-                Some(argument) => {
-                    let outside = self.builder.input(argument, right.len());
-                    let torque = self.builder.add(outside, torque);
-                    self.builder.name(torque, &format!("torque_{name}"))
-                }
-                None => torque,
-            });
-        }
+        let mut right = self.right_sides(environment, &names);
         let builder = &mut self.builder;
         let free: Vec<usize> = (0..right.len()).filter(|i| !held.contains_key(i)).collect();
-        let (mut reduced, mut across) = (Matrix::new(), Vec::new());
-        for (&(row, column), &value) in &mass {
-            let place = |link: usize| free.binary_search(&link).ok();
-            match (place(row), place(column)) {
-                (Some(i), Some(j)) => {
-                    reduced.insert((i, j), value);
-                }
-                _ => across.push((row, column, value)),
-            }
-        }
+        let (reduced, across) = without_held(&mass, &free);
         let mut take = |right: &mut [ValueId], link: usize, value: ValueId, alpha: ValueId| {
             let part = builder.mul(value, alpha);
             right[link] = builder.sub(right[link], part);
@@ -221,4 +198,39 @@ impl Lowering<'_> {
             reactions,
         }
     }
+
+    /// Q − bias of all coordinates.
+    fn right_sides(&mut self, environment: &mut Environment<'_>, names: &[String]) -> Vec<ValueId> {
+        let mut right = Vec::new();
+        for (bias, name) in environment.frame.bias.iter().zip(names) {
+            let value = self.expr(environment, bias);
+            self.builder.name(value, &format!("bias_{name}"));
+            let torque = self.builder.neg(value);
+            self.builder.name(torque, &format!("minus_bias_{name}"));
+            right.push(match environment.torques {
+                Some(argument) => {
+                    let outside = self.builder.input(argument, right.len());
+                    let torque = self.builder.add(outside, torque);
+                    self.builder.name(torque, &format!("torque_{name}"))
+                }
+                None => torque,
+            });
+        }
+        right
+    }
+}
+
+/// The matrix of the links that are not held, and the entries of all others.
+fn without_held(mass: &Matrix, free: &[usize]) -> (Matrix, Vec<(usize, usize, ValueId)>) {
+    let (mut reduced, mut across) = (Matrix::new(), Vec::new());
+    for (&(row, column), &value) in mass {
+        let place = |link: usize| free.binary_search(&link).ok();
+        match (place(row), place(column)) {
+            (Some(i), Some(j)) => {
+                reduced.insert((i, j), value);
+            }
+            _ => across.push((row, column, value)),
+        }
+    }
+    (reduced, across)
 }

@@ -118,45 +118,10 @@ pub(super) fn motion(
     values: &ConstantValues,
     state: EntryState,
 ) -> SymmetricMotion {
-    let received = |tree: &mut SymmetricTree<'_>, argument| -> Fields {
-        let whole = argument == Argument::Momenta && state == EntryState::Momenta(Counting::Angle);
-        let budget = scene.requests.budget.as_ref();
-        let chosen = budget.map_or(&[][..], |budget| budget.small.as_slice());
-        let is_small = |id: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(id));
-        match state {
-            EntryState::Absolute => scene
-                .orbits
-                .iter()
-                .enumerate()
-                .map(|(orbit, links)| {
-                    let links: Vec<ValueId> = links
-                        .links
-                        .iter()
-                        .map(|&LinkId(link)| tree.series.builder.input(argument, link))
-                        .collect();
-                    tree.analysed(orbit, &links, argument.name())
-                })
-                .collect(),
-            EntryState::Rates | EntryState::Momenta(_) => {
-                let mut fields = tree.zeros();
-                for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
-                    let value = tree.series.builder.input(argument, index);
-                    let (orbit, sector) = coordinate.kind.orbit_and_difference();
-                    let field = &mut fields[orbit];
-                    let value = match sector {
-                        Some(id) if is_small(&id) => tree.series.small(value),
-                        _ => tree.series.value(value),
-                    };
-                    field.set(sector, value);
-                }
-                fields
-            }
-        }
-    };
     let [positions, motions] = state.arguments();
-    let angles = received(tree, positions);
+    let angles = received(tree, scene, mechanics, state, positions);
     let pose: Pose = tree.pose(values, angles);
-    let received = received(tree, motions);
+    let received = received(tree, scene, mechanics, state, motions);
     let (rates, momenta) = if let EntryState::Momenta(_) = state {
         let momenta = tree.per_link(&received);
         let factors = tree.factors(values, &pose);
@@ -175,5 +140,48 @@ pub(super) fn motion(
         rates,
         momenta,
         forces,
+    }
+}
+
+/// An argument of an entry point as means and differences.
+fn received(
+    tree: &mut SymmetricTree<'_>,
+    scene: &Scene,
+    mechanics: &Mechanics,
+    state: EntryState,
+    argument: Argument,
+) -> Fields {
+    let whole = argument == Argument::Momenta && state == EntryState::Momenta(Counting::Angle);
+    let budget = scene.requests.budget.as_ref();
+    let chosen = budget.map_or(&[][..], |budget| budget.small.as_slice());
+    let is_small = |id: &(usize, usize)| !whole && (chosen.is_empty() || chosen.contains(id));
+    match state {
+        EntryState::Absolute => scene
+            .orbits
+            .iter()
+            .enumerate()
+            .map(|(orbit, links)| {
+                let links: Vec<ValueId> = links
+                    .links
+                    .iter()
+                    .map(|&LinkId(link)| tree.series.builder.input(argument, link))
+                    .collect();
+                tree.analysed(orbit, &links, argument.name())
+            })
+            .collect(),
+        EntryState::Rates | EntryState::Momenta(_) => {
+            let mut fields = tree.zeros();
+            for (index, coordinate) in mechanics.coordinates.iter().enumerate() {
+                let value = tree.series.builder.input(argument, index);
+                let (orbit, sector) = coordinate.kind.orbit_and_difference();
+                let field = &mut fields[orbit];
+                let value = match sector {
+                    Some(id) if is_small(&id) => tree.series.small(value),
+                    _ => tree.series.value(value),
+                };
+                field.set(sector, value);
+            }
+            fields
+        }
     }
 }

@@ -124,19 +124,7 @@ impl<'a> Lowering<'a> {
                 }
             }
             Role::Joint => {
-                let JointDifference { terms, rest } = &self.mechanics.joints[&symbol];
-                let mut value = self.builder.integer(0);
-                for &(symbol, weight) in terms {
-                    let term = self.symbol(environment, symbol);
-                    let size = self.builder.integer(weight.abs());
-                    let term = self.builder.mul(size, term);
-                    value = match weight < 0 {
-                        true => self.builder.sub(value, term),
-                        false => self.builder.add(value, term),
-                    };
-                }
-                let rest = self.expr(environment, rest);
-                let value = self.builder.sub(value, rest);
+                let value = self.joint_difference(environment, symbol);
                 self.builder.name(value, &entry.code)
             }
             Role::Line => {
@@ -149,21 +137,7 @@ impl<'a> Lowering<'a> {
                 };
                 self.builder.name(value, &entry.code)
             }
-            Role::Momentum => {
-                let index = position(&environment.frame.momenta, symbol);
-                match environment.momenta {
-                    Some(argument) => self.builder.input(argument, index),
-                    None => {
-                        let observed = environment.observed.map(|observed| &observed.momentum);
-                        let Some(momentum) = environment.frame.momentum.as_ref().or(observed)
-                        else {
-                            unreachable!("{} is formed where momenta are asked for", entry.code)
-                        };
-                        let value = self.expr(environment, &momentum[index]);
-                        self.builder.name(value, &entry.code)
-                    }
-                }
-            }
+            Role::Momentum => self.momentum(environment, symbol),
             Role::Derived => match self.observed(environment, symbol) {
                 Some(value) => self.builder.name(value, &entry.code),
                 None => self.derived(environment, symbol),
@@ -174,6 +148,38 @@ impl<'a> Lowering<'a> {
         };
         environment.values.insert(symbol, value);
         value
+    }
+
+    /// Σ w θ of the angles, or of the angular velocities, at the ends of a spring, from rest.
+    fn joint_difference(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
+        let JointDifference { terms, rest } = &self.mechanics.joints[&symbol];
+        let mut value = self.builder.integer(0);
+        for &(symbol, weight) in terms {
+            let term = self.symbol(environment, symbol);
+            let size = self.builder.integer(weight.abs());
+            let term = self.builder.mul(size, term);
+            value = match weight < 0 {
+                true => self.builder.sub(value, term),
+                false => self.builder.add(value, term),
+            };
+        }
+        let rest = self.expr(environment, rest);
+        self.builder.sub(value, rest)
+    }
+
+    /// A momentum, from the caller or from angles and velocities.
+    fn momentum(&mut self, environment: &mut Environment<'_>, symbol: SymbolId) -> ValueId {
+        let index = position(&environment.frame.momenta, symbol);
+        if let Some(argument) = environment.momenta {
+            return self.builder.input(argument, index);
+        }
+        let code = &self.mechanics.symbols.get(symbol).code;
+        let observed = environment.observed.map(|observed| &observed.momentum);
+        let Some(momentum) = environment.frame.momentum.as_ref().or(observed) else {
+            unreachable!("{code} is formed where momenta are asked for")
+        };
+        let value = self.expr(environment, &momentum[index]);
+        self.builder.name(value, code)
     }
 
     /// q̇ with M q̇ = p.

@@ -111,37 +111,12 @@ impl EntryList<'_, '_> {
             true => Purpose::BudgetUnder(definition),
             false => Purpose::Budget(definition, state),
         };
-        let mut found: Vec<(Purpose, Vec<ValueId>)> = Vec::new();
-        for (wanted, definition) in [
-            (request.rest, EnergyDefinition::Rest),
-            (request.canonical, EnergyDefinition::Canonical),
-        ] {
-            if wanted {
-                let at_rest = definition == EnergyDefinition::Rest;
-                let shares = ids.iter();
-                let shares: Vec<Share> = shares
-                    .map(|&sector| tree.canonical_share(&values, &motion, sector, at_rest))
-                    .collect();
-                found.push((budget(definition), flattened(&mut tree, &shares)));
-            }
-        }
-        if request.velocity || request.parseval {
-            let [conservative, other] = tree.accelerations(&values, &motion);
-            let accelerations = [&conservative, &other];
-            if request.velocity {
-                let shares = ids.iter();
-                let shares: Vec<Share> = shares
-                    .map(|&sector| tree.velocity_share(&values, &motion, sector, accelerations))
-                    .collect();
-                let outputs = flattened(&mut tree, &shares);
-                found.push((budget(EnergyDefinition::Velocity), outputs));
-            }
-            if request.parseval {
-                let shares = tree.parseval_shares(&values, &motion, &ids, accelerations);
-                let outputs = flattened(&mut tree, &shares);
-                found.push((budget(EnergyDefinition::Parseval), outputs));
-            }
-        }
+        let mut shares = momentum_shares(&mut tree, request, &values, &motion, &ids);
+        shares.extend(velocity_shares(&mut tree, request, &values, &motion, &ids));
+        let found = shares.into_iter();
+        let mut found: Vec<(Purpose, Vec<ValueId>)> = found
+            .map(|(definition, outputs)| (budget(definition), outputs))
+            .collect();
         if request.canonical && !under {
             let outputs = transfers(&mut tree, &values, &motion, &ids, |_| false);
             found.push((Purpose::SectorTransfers(state), outputs));
@@ -237,4 +212,59 @@ fn transfers(
         outputs.push(tree.series.total(&parts.potential));
     }
     outputs
+}
+
+/// Shares of the sectors in the energies that are taken from momenta, as far as they are asked
+/// for.
+fn momentum_shares(
+    tree: &mut SymmetricTree<'_>,
+    request: &BudgetRequest,
+    values: &ConstantValues,
+    motion: &SymmetricMotion,
+    ids: &[SectorId],
+) -> Vec<(EnergyDefinition, Vec<ValueId>)> {
+    let mut found = Vec::new();
+    for (wanted, definition) in [
+        (request.rest, EnergyDefinition::Rest),
+        (request.canonical, EnergyDefinition::Canonical),
+    ] {
+        if wanted {
+            let at_rest = definition == EnergyDefinition::Rest;
+            let shares: Vec<Share> = ids
+                .iter()
+                .map(|&sector| tree.canonical_share(values, motion, sector, at_rest))
+                .collect();
+            found.push((definition, flattened(tree, &shares)));
+        }
+    }
+    found
+}
+
+/// Shares of the sectors in the energies that are taken from velocities, as far as they are
+/// asked for.
+fn velocity_shares(
+    tree: &mut SymmetricTree<'_>,
+    request: &BudgetRequest,
+    values: &ConstantValues,
+    motion: &SymmetricMotion,
+    ids: &[SectorId],
+) -> Vec<(EnergyDefinition, Vec<ValueId>)> {
+    let mut found = Vec::new();
+    if !request.velocity && !request.parseval {
+        return found;
+    }
+    let [conservative, other] = tree.accelerations(values, motion);
+    let accelerations = [&conservative, &other];
+    if request.velocity {
+        let shares: Vec<Share> = ids
+            .iter()
+            .map(|&sector| tree.velocity_share(values, motion, sector, accelerations))
+            .collect();
+        found.push((EnergyDefinition::Velocity, flattened(tree, &shares)));
+    }
+    if request.parseval {
+        let shares = tree.parseval_shares(values, motion, ids, accelerations);
+        found.push((EnergyDefinition::Parseval, flattened(tree, &shares)));
+    }
+    found
 }

@@ -1,9 +1,11 @@
 //! Entry points of small differences that act back on the motion that they are beside.
 
+use super::ValueId;
+use super::builder::Builder;
 use super::entry_list::EntryList;
 use super::lower::Environment;
 use crate::functions::{Argument, Purpose};
-use crate::mechanics::{Mechanics, SmallMechanics, TransverseMechanics};
+use crate::mechanics::{Mechanics, SmallMechanics, TransverseFormulas, TransverseMechanics};
 use crate::scene::Scene;
 
 impl EntryList<'_, '_> {
@@ -16,11 +18,10 @@ impl EntryList<'_, '_> {
         transverse: &TransverseMechanics,
         small: &SmallMechanics,
     ) {
-        use Argument::{Omega, SmallDifferences, SmallRates, SmallTorques, Theta, Torques};
         let frame = &mechanics.absolute;
         let links = frame.coordinates.len();
         let names = self.lowering.coordinate_names(frame);
-        let mut motion = Environment::new(frame, Theta, Some(Omega), None);
+        let mut motion = Environment::new(frame, Argument::Theta, Some(Argument::Omega), None);
         let mut matrix = self.lowering.mass_matrix(&mut motion);
         let mut residual = self.exprs(&mut motion, &frame.bias);
         let mut energy = self.lowering.expr(&mut motion, &small.energy);
@@ -28,16 +29,7 @@ impl EntryList<'_, '_> {
         for (formulas, offset) in small.sectors.iter().zip(small.offsets(transverse)) {
             let of_sector = &transverse.sectors[formulas.sector];
             let sector = &of_sector.sector;
-            let mut environment = motion.clone();
-            for (symbols, argument) in [
-                (&of_sector.differences, SmallDifferences),
-                (&of_sector.rates, SmallRates),
-            ] {
-                for (index, &symbol) in symbols.iter().enumerate() {
-                    let value = self.lowering.builder.input(argument, offset + index);
-                    environment.supply(symbol, value);
-                }
-            }
+            let mut environment = self.with_differences(&motion, of_sector, offset);
             for (place, added) in self.lowering.matrix(&mut environment, &formulas.mass) {
                 let sum = match matrix.get(&place) {
                     Some(&mass) => self.lowering.builder.add(mass, added),
@@ -72,17 +64,43 @@ impl EntryList<'_, '_> {
         self.push(Purpose::SmallAccelerations, outputs);
         if let Some(matrix) = pushed {
             let builder = &mut self.lowering.builder;
-            let right = residual.iter().enumerate().map(|(index, &value)| {
-                let torque = match index.checked_sub(links) {
-                    None => builder.input(Torques, index),
-                    Some(difference) => builder.input(SmallTorques, difference),
-                };
-                builder.sub(torque, value)
-            });
-            let right = right.collect();
+            let right = under_torques(builder, &residual, links);
             let outputs = builder.solve(matrix, right, &unknowns);
             self.push(Purpose::SmallAccelerationsUnder, outputs);
         }
         self.push(Purpose::SmallEnergy, vec![energy]);
     }
+
+    /// The environment of the motion, with the small differences of a sector, which stand from
+    /// `offset` on among those of all.
+    fn with_differences<'e>(
+        &mut self,
+        motion: &Environment<'e>,
+        of_sector: &TransverseFormulas,
+        offset: usize,
+    ) -> Environment<'e> {
+        let mut environment = motion.clone();
+        for (symbols, argument) in [
+            (&of_sector.differences, Argument::SmallDifferences),
+            (&of_sector.rates, Argument::SmallRates),
+        ] {
+            for (index, &symbol) in symbols.iter().enumerate() {
+                let value = self.lowering.builder.input(argument, offset + index);
+                environment.supply(symbol, value);
+            }
+        }
+        environment
+    }
+}
+
+/// Torques from outside on links and differences, less what acts otherwise.
+fn under_torques(builder: &mut Builder, residual: &[ValueId], links: usize) -> Vec<ValueId> {
+    let right = residual.iter().enumerate().map(|(index, &value)| {
+        let torque = match index.checked_sub(links) {
+            None => builder.input(Argument::Torques, index),
+            Some(difference) => builder.input(Argument::SmallTorques, difference),
+        };
+        builder.sub(torque, value)
+    });
+    right.collect()
 }

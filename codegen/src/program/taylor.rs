@@ -92,17 +92,7 @@ impl EntryList<'_, '_> {
             weights: [zeros(), zeros()],
             bias: Vec::new(),
         };
-        for (link, name) in self.lowering.coordinate_names(frame).iter().enumerate() {
-            let builder = &mut self.lowering.builder;
-            let angle = builder.input(Argument::Theta, link);
-            let (sine, cosine) = (builder.sin(angle), builder.cos(angle));
-            outputs
-                .sines
-                .push(builder.name(sine, &format!("sin_{name}")));
-            outputs
-                .cosines
-                .push(builder.name(cosine, &format!("cos_{name}")));
-        }
+        (outputs.sines, outputs.cosines) = self.sines_and_cosines(frame);
         for (link, bias) in frame.bias.iter().enumerate() {
             let joint = &mechanics.articulation.joints[scene.links[link].orbit.0];
             let inertia = self.lowering.expr(&mut environment, &joint.inertia);
@@ -142,6 +132,21 @@ impl EntryList<'_, '_> {
             list.extend(builder.partner(id));
         }
         self.push(Purpose::TaylorCoefficients, list);
+    }
+
+    /// The sines and cosines of all angles, with their names.
+    fn sines_and_cosines(&mut self, frame: &Frame) -> (Vec<ValueId>, Vec<ValueId>) {
+        let names = self.lowering.coordinate_names(frame);
+        let builder = &mut self.lowering.builder;
+        let named = names.iter().enumerate().map(|(link, name)| {
+            let angle = builder.input(Argument::Theta, link);
+            let (sine, cosine) = (builder.sin(angle), builder.cos(angle));
+            (
+                builder.name(sine, &format!("sin_{name}")),
+                builder.name(cosine, &format!("cos_{name}")),
+            )
+        });
+        named.unzip()
     }
 
     /// Chooses units of length and of mass, which change nothing but rounding: one

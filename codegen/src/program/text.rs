@@ -2,12 +2,64 @@
 
 use crate::functions::Argument;
 
-use super::{ConstantId, ConstantOp, Op, Program, ValueId};
+use super::{ConstantId, ConstantOp, LoopTree, Op, Program, ValueId};
 use crate::scene::PairRun;
 use std::fmt::{self, Write};
 
 impl fmt::Display for Program {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_constants(f)?;
+        if let Some(strips) = &self.strips {
+            write_tables(f, strips)?;
+            write_spring_dampers(f, strips)?;
+        }
+        self.write_entries(f)
+    }
+}
+
+fn value(id: ValueId) -> String {
+    format!("v{}", id.0)
+}
+
+/// The constants of the strips, table by table.
+fn write_tables(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
+    let tables = [
+        ("strips", &strips.columns),
+        ("bodies", &strips.body_columns),
+    ];
+    for (number, (table, columns)) in tables.into_iter().enumerate() {
+        if number > 0 && columns.is_empty() {
+            continue;
+        }
+        writeln!(f, "{table}")?;
+        for strip in &strips.strips {
+            let constants = [&strip.constants, &strip.body][number];
+            let columns = columns.iter().zip(constants);
+            let columns: Vec<String> = columns
+                .map(|(column, id)| format!("{} k{}", column.name(), id.0))
+                .collect();
+            writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
+        }
+    }
+    Ok(())
+}
+
+/// The constants of what acts between links, with the pairs of these.
+fn write_spring_dampers(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::Result {
+    for own in &strips.spring_dampers {
+        let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
+        let constants: Vec<String> = constants.collect();
+        writeln!(f, "{}: {}", own.what, constants.join(", "))?;
+        for PairRun { first, count } in &own.pairs {
+            let [a, b] = first;
+            writeln!(f, "  {count} from {a}, {b}")?;
+        }
+    }
+    Ok(())
+}
+
+impl Program {
+    fn write_constants(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "constants")?;
         for (index, definition) in self.setup.definitions.iter().enumerate() {
             let at = |id: ConstantId| format!("k{}", id.0);
@@ -31,35 +83,10 @@ impl fmt::Display for Program {
                 None => writeln!(f, "    # {}", definition.name)?,
             }
         }
-        if let Some(strips) = &self.strips {
-            let tables = [
-                ("strips", &strips.columns),
-                ("bodies", &strips.body_columns),
-            ];
-            for (number, (table, columns)) in tables.into_iter().enumerate() {
-                if number > 0 && columns.is_empty() {
-                    continue;
-                }
-                writeln!(f, "{table}")?;
-                for strip in &strips.strips {
-                    let constants = [&strip.constants, &strip.body][number];
-                    let columns = columns.iter().zip(constants);
-                    let columns: Vec<String> = columns
-                        .map(|(column, id)| format!("{} k{}", column.name(), id.0))
-                        .collect();
-                    writeln!(f, "  {}: {}", strip.name, columns.join(", "))?;
-                }
-            }
-        }
-        for own in self.strips.iter().flat_map(|strips| &strips.spring_dampers) {
-            let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
-            let constants: Vec<String> = constants.collect();
-            writeln!(f, "{}: {}", own.what, constants.join(", "))?;
-            for PairRun { first, count } in &own.pairs {
-                let [a, b] = first;
-                writeln!(f, "  {count} from {a}, {b}")?;
-            }
-        }
+        Ok(())
+    }
+
+    fn write_entries(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for entry in &self.entries {
             let arguments: Vec<&str> = entry.arguments.iter().map(|a| a.name()).collect();
             let operations = self.operations(&entry.outputs);
@@ -77,13 +104,7 @@ impl fmt::Display for Program {
         }
         Ok(())
     }
-}
 
-fn value(id: ValueId) -> String {
-    format!("v{}", id.0)
-}
-
-impl Program {
     fn line(&self, id: ValueId) -> String {
         let definition = self.definition(id);
         let mut line = format!("{} = ", value(id));

@@ -30,13 +30,7 @@ struct Pending {
 /// Writes out all copies, parent before child, depth first. The templates must
 /// be few enough in copies, see [`check_size`].
 pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
-    let mut children = vec![Vec::new(); templates.len()];
-    for (index, template) in templates.iter().enumerate().rev() {
-        // Backwards, because the stack gives back the last first.
-        if let Some(siblings) = template.parent.and_then(|parent| children.get_mut(parent)) {
-            siblings.push(index);
-        }
-    }
+    let children = children_of(templates);
     let mut expansion = ExpandedTree {
         links: Vec::new(),
         orbits: orbits(templates),
@@ -80,27 +74,41 @@ pub(super) fn expand(templates: &[Template]) -> ExpandedTree {
             }
         }
         for &child in children.get(pending.template).into_iter().flatten() {
-            let Some(below) = templates.get(child) else {
-                continue;
-            };
-            let numbers = match below.number {
-                Some(number) => number..=number,
-                None => 1..=below.copies,
-            };
-            for copy in numbers.rev() {
-                let mut suffix = pending.suffix.clone();
-                if below.copies > 1 || below.number.is_some() {
-                    suffix.push_str(&format!("_{copy}"));
-                }
-                stack.push(Pending {
+            if let Some(below) = templates.get(child) {
+                let suffixes = suffixes(below, &pending.suffix);
+                stack.extend(suffixes.map(|suffix| Pending {
                     template: child,
                     parent: Some(id),
                     suffix,
-                });
+                }));
             }
         }
     }
     expansion
+}
+
+/// The templates that hang from each, last first: the stack gives back the last first.
+fn children_of(templates: &[Template]) -> Vec<Vec<usize>> {
+    let mut children = vec![Vec::new(); templates.len()];
+    for (index, template) in templates.iter().enumerate().rev() {
+        if let Some(siblings) = template.parent.and_then(|parent| children.get_mut(parent)) {
+            siblings.push(index);
+        }
+    }
+    children
+}
+
+/// The numbers of a template's copies behind those that they hang in, last first.
+fn suffixes(template: &Template, above: &str) -> impl Iterator<Item = String> {
+    let numbers = match template.number {
+        Some(number) => number..=number,
+        None => 1..=template.copies,
+    };
+    let is_numbered = template.copies > 1 || template.number.is_some();
+    numbers.rev().map(move |copy| match is_numbered {
+        true => format!("{above}_{copy}"),
+        false => above.to_owned(),
+    })
 }
 
 /// One copy of a template.

@@ -198,13 +198,14 @@ fn whole_links(templates: &[Template], report: &mut Faults) -> Option<usize> {
     Some(links)
 }
 
-/// Motion of each orbit of the whole tree in terms of the reduced one's links, which
-/// stand depth first.
-fn whole_orbits(
+/// Nearest link above that is not locked, and the number of a link's copies that move by
+/// themselves there.
+fn holder(
     templates: &[Template],
     locks: &[Option<Rational>],
     alike: &[bool],
-) -> Vec<WholeNode> {
+    index: usize,
+) -> (Option<usize>, usize) {
     let apart = |index: usize| {
         if alike[index] {
             1
@@ -212,16 +213,22 @@ fn whole_orbits(
             templates[index].copies
         }
     };
-    // Nearest link above that is not locked, and the number of this link's copies that
-    // move by themselves there.
-    let holder = |index: usize| {
-        let (mut above, mut copies) = (templates[index].parent, apart(index));
-        while let Some(parent) = above.filter(|&parent| locks[parent].is_some()) {
-            copies *= apart(parent);
-            above = templates[parent].parent;
-        }
-        (above, copies)
-    };
+    let (mut above, mut copies) = (templates[index].parent, apart(index));
+    while let Some(parent) = above.filter(|&parent| locks[parent].is_some()) {
+        copies *= apart(parent);
+        above = templates[parent].parent;
+    }
+    (above, copies)
+}
+
+/// Motion of each orbit of the whole tree in terms of the reduced one's links, which
+/// stand depth first.
+fn whole_orbits(
+    templates: &[Template],
+    locks: &[Option<Rational>],
+    alike: &[bool],
+) -> Vec<WholeNode> {
+    let holder = |index: usize| holder(templates, locks, alike, index);
     // Links of the reduced subtree of one copy; where the whole subtree ends.
     let mut sizes = vec![1; templates.len()];
     let mut ends: Vec<usize> = (1..=templates.len()).collect();

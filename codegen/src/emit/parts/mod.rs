@@ -131,7 +131,54 @@ impl Emission<'_> {
                 quote!(self.#name(#(#arguments,)* &mut #shared);)
             }
         });
-        let values = entry.outputs.iter().map(|&id| match *self.op(id) {
+        let values = entry.outputs.iter();
+        let values = values.map(|&id| self.output_of_parts(id, &parts, locals));
+        let outputs = self.shaped(entry, values.collect());
+        let body = quote! {
+            #(let _ = #unused;)*
+            let mut #shared = [T::from_f64(0.0); #size];
+            #(#calls)*
+            #outputs
+        };
+        if entry.purpose == Purpose::Accelerations {
+            return (body, TokenStream::new());
+        }
+        (body, self.functions_of_parts(entry, &parts, lines, locals))
+    }
+
+    /// The functions that the parts are.
+    fn functions_of_parts(
+        &self,
+        entry: &Entry,
+        parts: &FunctionParts,
+        lines: &[Line],
+        locals: &Locals,
+    ) -> TokenStream {
+        let (shared, size) = (ident(SHARED), Literal::usize_unsuffixed(parts.size));
+        let inline = is_whole(lines).then(|| quote!(#[inline(always)]));
+        let functions = parts.parts.iter().map(|part| {
+            let name = part.name(entry);
+            let docs = format!(
+                " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
+                part.number, entry.name
+            );
+            let parameters = part.arguments.iter();
+            let parameters = parameters.map(|&argument| self.parameter(argument));
+            let body = self.part_body(part, parts, locals);
+            quote! {
+                #[doc = #docs]
+                #inline
+                fn #name(&self, #(#parameters,)* #shared: &mut [T; #size]) {
+                    #body
+                }
+            }
+        });
+        functions.collect()
+    }
+
+    /// An output of a long function, from its arguments or from the values that its parts share.
+    fn output_of_parts(&self, id: ValueId, parts: &FunctionParts, locals: &Locals) -> TokenStream {
+        match *self.op(id) {
             Op::Input(Argument::Time, _) => self.bound(id, locals, Binding::Sum),
             Op::Input(argument, index) => {
                 let name = ident(argument.name());
@@ -150,36 +197,7 @@ impl Emission<'_> {
             Op::Number(ref number) => number_tokens(number),
             Op::Constant(_) => self.bound(id, locals, Binding::Sum),
             _ => parts.slot(id),
-        });
-        let outputs = self.shaped(entry, values.collect());
-        let body = quote! {
-            #(let _ = #unused;)*
-            let mut #shared = [T::from_f64(0.0); #size];
-            #(#calls)*
-            #outputs
-        };
-        if entry.purpose == Purpose::Accelerations {
-            return (body, TokenStream::new());
         }
-        let inline = is_whole(lines).then(|| quote!(#[inline(always)]));
-        let functions = parts.parts.iter().map(|part| {
-            let name = part.name(entry);
-            let docs = format!(
-                " Part {} of [`{1}`](Self::{1}), on the values that its parts share.",
-                part.number, entry.name
-            );
-            let parameters = part.arguments.iter();
-            let parameters = parameters.map(|&argument| self.parameter(argument));
-            let body = self.part_body(part, &parts, locals);
-            quote! {
-                #[doc = #docs]
-                #inline
-                fn #name(&self, #(#parameters,)* #shared: &mut [T; #size]) {
-                    #body
-                }
-            }
-        });
-        (body, functions.collect())
     }
 
     /// The parts of the accelerations, if these are long. As implementations of

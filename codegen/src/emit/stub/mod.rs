@@ -292,23 +292,7 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
     let mut names = description.parameter_names();
     names.retain(|name| is_plain(&name.to_string()));
     if names.is_empty() {
-        // One that is derived is refused, and there all the same.
-        let default = description.item.derived("Default").is_none().then(|| {
-            quote! {
-                #[allow(missing_docs, clippy::all)]
-                impl<T> ::core::default::Default for #name<T> {
-                    fn default() -> Self { ::core::unimplemented!() }
-                }
-            }
-        });
-        return quote! {
-            #[allow(missing_docs, clippy::all)]
-            impl #name<f64> {
-                pub fn new() -> Self { ::core::unimplemented!() }
-            }
-
-            #default
-        };
+        return constructor_of_numbers(description);
     }
     let parameters = format_ident!("{name}Parameters");
     let other = super::other_scalar(name);
@@ -355,5 +339,27 @@ fn constructors(description: &Description, runtime: &TokenStream) -> TokenStream
                 ::core::unimplemented!()
             }
         }
+    }
+}
+
+/// As a model without parameters would have them.
+fn constructor_of_numbers(description: &Description) -> TokenStream {
+    let name = &description.item.ident;
+    // One that is derived is refused, and there all the same.
+    let default = description.item.derived("Default").is_none().then(|| {
+        quote! {
+            #[allow(missing_docs, clippy::all)]
+            impl<T> ::core::default::Default for #name<T> {
+                fn default() -> Self { ::core::unimplemented!() }
+            }
+        }
+    });
+    quote! {
+        #[allow(missing_docs, clippy::all)]
+        impl #name<f64> {
+            pub fn new() -> Self { ::core::unimplemented!() }
+        }
+
+        #default
     }
 }

@@ -11,7 +11,38 @@ impl Recurrences<'_> {
     /// The coefficient of order k of the bias, of what is known of that order.
     pub(in crate::emit) fn closure(&self) -> TokenStream {
         let (runtime, links) = (self.emission.runtime(), self.emission.links());
-        let (k, known) = (&self.order, &self.known);
+        let known = &self.known;
+        let numbers = self.numbers_of_order();
+        let inputs = self.inputs();
+        let lines = self.needed.iter().filter_map(|&id| {
+            let given = self.is_given(self.emission.op(id));
+            let name = self.names.get(&id).filter(|_| !given)?;
+            let (value, _) = self.definition(id);
+            Some(quote!(let #name = #value;))
+        });
+        let has_sums = !self.sums.is_empty();
+        let sums = has_sums.then(|| self.sums_of_products());
+        let factors = has_sums.then(|| self.factors());
+        let bias = self.bias.iter().map(|&id| match self.varies[&id] {
+            true => self.bound(id, Binding::Sum),
+            false => quote!(T::from_f64(0.0)),
+        });
+        quote! {
+            |#known: &#runtime::emitted::taylor::KnownOrder<T, #links>| {
+                #numbers
+                #inputs
+                #sums
+                #(#lines)*
+                #factors
+                [#(#bias),*]
+            }
+        }
+    }
+
+    /// The order as an index, as a number with its inverse, and the coefficient of the time, as
+    /// far as anything reads them.
+    fn numbers_of_order(&self) -> TokenStream {
+        let (runtime, k, known) = (self.emission.runtime(), &self.order, &self.known);
         let (order, inverse) = (&self.order_number, &self.inverse_order);
         let turned = self
             .sums
@@ -29,58 +60,42 @@ impl Recurrences<'_> {
             .time
             .as_ref()
             .map(|time| quote!(let #time = T::from_f64(if #k == 1 { 1.0 } else { 0.0 });));
-        let inputs = self.inputs();
-        let lines = self.needed.iter().filter_map(|&id| {
-            let given = self.is_given(self.emission.op(id));
-            let name = self.names.get(&id).filter(|_| !given)?;
-            let (value, _) = self.definition(id);
-            Some(quote!(let #name = #value;))
-        });
-        let sums = (!self.sums.is_empty()).then(|| {
-            let quads = self.sums.chunks(4).enumerate().map(|(quad, sums)| {
-                let quad = Literal::usize_unsuffixed(quad);
-                let names = sums.iter().map(|sum| {
-                    let name = &sum.name;
-                    quote!(#name)
-                });
-                let names = names.chain(std::iter::repeat_n(quote!(_), 4 - sums.len()));
-                quote!(let [#(#names),*] = products[#quad].0;)
+        quote!(#counter #numbers #time)
+    }
+
+    /// Takes the sums of products Σ u[j] v[k−j] over the orders between.
+    fn sums_of_products(&self) -> TokenStream {
+        let (runtime, k) = (self.emission.runtime(), &self.order);
+        let quads = self.sums.chunks(4).enumerate().map(|(quad, sums)| {
+            let quad = Literal::usize_unsuffixed(quad);
+            let names = sums.iter().map(|sum| {
+                let name = &sum.name;
+                quote!(#name)
             });
-            quote! {
-                let products = #runtime::emitted::taylor::sums(#k, factors);
-                #(#quads)*
-            }
-        });
-        let factors = (!self.sums.is_empty()).then(|| {
-            let side = |side: usize| {
-                let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
-                    Factor::Value(id) => self.bound(id, Binding::Sum),
-                    Factor::Rate(id) => {
-                        let angle = self.bound(id, Binding::Prefix);
-                        quote!(#order * #angle)
-                    }
-                });
-                self.in_quads(factors)
-            };
-            let (left, right) = (side(0), side(1));
-            quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
-        });
-        let bias = self.bias.iter().map(|&id| match self.varies[&id] {
-            true => self.bound(id, Binding::Sum),
-            false => quote!(T::from_f64(0.0)),
+            let names = names.chain(std::iter::repeat_n(quote!(_), 4 - sums.len()));
+            quote!(let [#(#names),*] = products[#quad].0;)
         });
         quote! {
-            |#known: &#runtime::emitted::taylor::KnownOrder<T, #links>| {
-                #counter
-                #numbers
-                #time
-                #inputs
-                #sums
-                #(#lines)*
-                #factors
-                [#(#bias),*]
-            }
+            let products = #runtime::emitted::taylor::sums(#k, factors);
+            #(#quads)*
         }
+    }
+
+    /// Keeps the coefficients of order k of the factors for the sums of higher orders.
+    fn factors(&self) -> TokenStream {
+        let (k, order) = (&self.order, &self.order_number);
+        let side = |side: usize| {
+            let factors = self.sums.iter().map(move |sum| match sum.factors[side] {
+                Factor::Value(id) => self.bound(id, Binding::Sum),
+                Factor::Rate(id) => {
+                    let angle = self.bound(id, Binding::Prefix);
+                    quote!(#order * #angle)
+                }
+            });
+            self.in_quads(factors)
+        };
+        let (left, right) = (side(0), side(1));
+        quote!(factors[#k - 1] = [[#(#left),*], [#(#right),*]];)
     }
 
     /// `Quad([a, b, c, d]), …`, filled up to whole quads by zeros.

@@ -10,7 +10,7 @@ use crate::mechanics::{BodySymbols, LinkBalance, LinkBody};
 use crate::program::ValueId;
 use crate::program::entry_list::EntryList;
 use crate::program::lower::Lowering;
-use crate::scene::{FrictionPlace, Layout, Scene};
+use crate::scene::{FrictionPlace, Scene};
 
 impl EntryList<'_, '_> {
     /// The entry points of energies, powers and positions.
@@ -78,11 +78,7 @@ impl Lowering<'_> {
         rows: &mut [[ValueId; Column::ALL.len()]],
     ) {
         let children = super::children(scene);
-        let copies = match scene.layout {
-            Layout::Generations { branching, .. } => branching as i64,
-            _ => 1,
-        };
-        let copies = self.builder.integer(copies);
+        let copies = self.builder.integer(super::copies(scene));
         let zero = self.builder.integer(0);
         let gravity = self.value_of(&scene.gravity);
         let mut masses = vec![zero; scene.orbits.len()];
@@ -90,28 +86,19 @@ impl Lowering<'_> {
         for (number, orbit) in scene.orbits.iter().enumerate().rev() {
             let index = orbit.links[0].0;
             let link = &scene.links[index];
-            let hanging: Vec<([ValueId; 2], ValueId)> = children[index]
-                .iter()
-                .map(|&child| {
-                    let child = &scene.links[child];
-                    let place = self.values_of(&child.pivot);
-                    (place, self.builder.mul(copies, masses[child.orbit.0]))
-                })
-                .collect();
+            let hanging = children[index].iter().map(|&child| {
+                let child = &scene.links[child];
+                let place = self.values_of(&child.pivot);
+                (place, self.builder.mul(copies, masses[child.orbit.0]))
+            });
+            let hanging: Vec<([ValueId; 2], ValueId)> = hanging.collect();
             let carried = self.composite(scene, index, balance, &hanging);
             masses[number] = carried[3];
             let first = hanging.first();
             let place = first.map_or([zero; 2], |&(place, _)| place);
             let com = self.values_of(&link.com);
             let pivot = self.values_of(&link.pivot);
-            let symbols = &body.symbols;
-            let known = [
-                (symbols.gravity, gravity),
-                (symbols.carried_moment[0], carried[1]),
-                (symbols.carried_moment[1], carried[2]),
-            ];
-            let weight = body.weight_moment.each_ref();
-            let weight = weight.map(|moment| self.at_values(moment, &known));
+            let weight = self.weight_moment(body, gravity, [carried[1], carried[2]]);
             let passive = &units.links[number].passive;
             let [joint, ground] = FrictionPlace::ALL.map(|place| passive.law(place));
             let values = [
@@ -139,5 +126,22 @@ impl Lowering<'_> {
                 rows[number][column as usize] = value;
             }
         }
+    }
+
+    /// The moment of the weight of all that a link carries, along and across.
+    fn weight_moment(
+        &mut self,
+        body: &LinkBody,
+        gravity: ValueId,
+        carried: [ValueId; 2],
+    ) -> [ValueId; 2] {
+        let symbols = &body.symbols;
+        let known = [
+            (symbols.gravity, gravity),
+            (symbols.carried_moment[0], carried[0]),
+            (symbols.carried_moment[1], carried[1]),
+        ];
+        let weight = body.weight_moment.each_ref();
+        weight.map(|moment| self.at_values(moment, &known))
     }
 }

@@ -28,7 +28,7 @@ mod tree;
 pub use columns::Column;
 pub use loop_tree::{LINK_MOTION, LoopTree, SpringDamperConstants, StripConstants};
 
-use crate::scene::{LinkId, Scene};
+use crate::scene::{Layout, LinkId, Scene};
 
 /// Returns true if torques act on links that are not of their joints.
 fn has_outside_torques(scene: &Scene) -> bool {
@@ -44,6 +44,14 @@ fn children(scene: &Scene) -> Vec<Vec<usize>> {
         }
     }
     children
+}
+
+/// How many links each link of the scene that hangs from another stands for there.
+fn copies(scene: &Scene) -> i64 {
+    match scene.layout {
+        Layout::Generations { branching, .. } => branching as i64,
+        _ => 1,
+    }
 }
 
 /// `name`, `name_2`, … for the pivots on one link.

@@ -10,7 +10,7 @@ use crate::mechanics::{Joint, LinkBalance};
 use crate::program::builder::Builder;
 use crate::program::lower::Lowering;
 use crate::program::{ConstantId, ValueId};
-use crate::scene::{Layout, LinkId, Scene};
+use crate::scene::{Link, LinkId, PassiveTorques, Scene};
 
 /// All columns of all orbits, before equations are formed of them.
 pub(super) struct Table {
@@ -76,12 +76,8 @@ impl Lowering<'_> {
 
     fn orbit_constants(&mut self, scene: &Scene, balance: &LinkBalance) -> Table {
         let children = super::children(scene);
-        let copies = match scene.layout {
-            Layout::Generations { branching, .. } => branching as i64,
-            _ => 1,
-        };
         let zero = self.builder.integer(0);
-        let copies = self.builder.integer(copies);
+        let copies = self.builder.integer(super::copies(scene));
         let (mut given, mut masses) = (Vec::new(), Vec::new());
         let mut has_several_places = false;
         // Parents come before their children, and orbits with their first link.
@@ -90,21 +86,16 @@ impl Lowering<'_> {
             let link = &scene.links[index];
             let places = self.places_below(scene, &children, index, copies);
             has_several_places |= places.len() > 1;
-            let composite = self.composite(scene, index, balance, &places);
-            // Widths of laws that a link does not have are numbers, no constants.
-            let passive = link.passive.map(|quantity| match quantity.exact() {
-                Some(number) if number.is_one() => self.builder.integer(1),
-                _ => self.value_of(quantity),
-            });
+            let [inertia, along, across, mass] = self.composite(scene, index, balance, &places);
             given.push(Joint {
-                inertia: composite[0],
-                moment: [composite[1], composite[2]],
+                inertia,
+                moment: [along, across],
+                passive: self.passive_values(link),
                 pivot: self.values_of(&link.pivot),
-                passive,
             });
             masses.push(match children[index].is_empty() {
                 true => zero,
-                false => composite[3],
+                false => mass,
             });
         }
         let gravity = self.value_of(&scene.gravity);
@@ -121,15 +112,8 @@ impl Lowering<'_> {
                 (false, Some(&child)) => units.links[scene.links[child].orbit.0].place,
                 (false, None) => [zero; 2],
             };
-            let unit = &units.links[number];
-            row(
-                builder,
-                &units,
-                unit,
-                masses[number],
-                is_leaf[number],
-                place,
-            )
+            let body = (masses[number], is_leaf[number]);
+            row(builder, &units, &units.links[number], body, place)
         });
         let mut rows: Vec<[ValueId; Column::ALL.len()]> = rows.collect();
         let root_gravity = builder.neg(units.gravity);
@@ -143,6 +127,15 @@ impl Lowering<'_> {
             is_leaf,
             has_several_places,
         }
+    }
+
+    /// Springs and friction of a link.
+    fn passive_values(&mut self, link: &Link) -> PassiveTorques<ValueId> {
+        // Widths of laws that a link does not have are numbers, no constants.
+        link.passive.map(|quantity| match quantity.exact() {
+            Some(number) if number.is_one() => self.builder.integer(1),
+            _ => self.value_of(quantity),
+        })
     }
 
     /// The places where links hang on this one, with the masses that count there.
@@ -297,8 +290,7 @@ fn row(
     builder: &mut Builder,
     units: &Units,
     unit: &Unit,
-    mass: ValueId,
-    is_leaf: bool,
+    (mass, is_leaf): (ValueId, bool),
     [along, across]: [ValueId; 2],
 ) -> [ValueId; Column::ALL.len()] {
     let [tree_mass, tree_length] = units.tree;
@@ -320,15 +312,7 @@ fn row(
         coulomb,
         quadratic_friction,
         quadratic_drag,
-    ] = [
-        unit.passive.friction,
-        unit.passive.drag,
-        unit.passive.spring,
-        joint.coulomb,
-        joint.quadratic,
-        ground.quadratic,
-    ]
-    .map(|force| builder.div(force, torque));
+    ] = torques(&unit.passive).map(|force| builder.div(force, torque));
     Column::ALL.map(|column| match column {
         Column::Inertia => unit.inertia,
         Column::Moment => unit.moment[0],
@@ -354,4 +338,18 @@ fn row(
         Column::TorqueUnit => torque,
         _ => zero,
     })
+}
+
+/// The constants of springs and friction that are proportional to the torque: of springs, of
+/// viscous friction and of other laws.
+fn torques(passive: &PassiveTorques<ValueId>) -> [ValueId; 6] {
+    let [joint, ground] = &passive.laws;
+    [
+        passive.friction,
+        passive.drag,
+        passive.spring,
+        joint.coulomb,
+        joint.quadratic,
+        ground.quadratic,
+    ]
 }
