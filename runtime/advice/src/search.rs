@@ -49,10 +49,7 @@ pub(crate) fn bracket(
                 if coarse - fine <= range.resolution() {
                     return;
                 }
-                // Between, where the error would be a little below the one allowed.
-                let share = (0.8_f64.ln() - low.ln()) / (high.ln() - low.ln());
-                let share = if share.is_finite() { share } else { 0.5 };
-                fine + share.clamp(0.2, 0.8) * (coarse - fine)
+                between((fine, low), (coarse, high))
             }
             (Some((fine, _)), None) if fine >= coarsest => return,
             (Some((fine, low)), None) => {
@@ -61,18 +58,30 @@ pub(crate) fn bracket(
             (None, Some((coarse, _))) if coarse <= finest => return,
             (None, Some((coarse, high))) => {
                 let further = distance(high).max(4.0 * range.resolution());
-                // A step half as long costs twice as much.
-                let dearer = match range {
-                    SettingRange::Step { .. } => 10.0_f64.powf(0.5 * further),
-                    SettingRange::Tolerance { .. } | SettingRange::Fixed => 1.0,
-                };
-                if seconds * dearer > 2.0 * allowed {
+                if seconds * cost_ratio(range, further) > 2.0 * allowed {
                     return;
                 }
                 (coarse - further).max(finest)
             }
             (None, None) => return,
         };
+    }
+}
+
+/// The setting between two with their errors at which the error would be a little below the one
+/// allowed.
+fn between((fine, low): (f64, f64), (coarse, high): (f64, f64)) -> f64 {
+    let share = (0.8_f64.ln() - low.ln()) / (high.ln() - low.ln());
+    let share = if share.is_finite() { share } else { 0.5 };
+    fine + share.clamp(0.2, 0.8) * (coarse - fine)
+}
+
+/// How many times as dear a setting is that is finer by so many decades, at least: a step half as
+/// long costs twice as much.
+fn cost_ratio(range: SettingRange, further: f64) -> f64 {
+    match range {
+        SettingRange::Step { .. } => 10.0_f64.powf(0.5 * further),
+        SettingRange::Tolerance { .. } | SettingRange::Fixed => 1.0,
     }
 }
 

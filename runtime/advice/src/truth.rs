@@ -135,6 +135,37 @@ pub(crate) struct Digits {
 /// The part of a tolerance that the reference may be off by.
 const SHARE: f64 = 0.01;
 
+/// Follows all starts, each moved by roundings of the paths that it goes `along`, if there are any.
+fn follow_all(
+    exact: &dyn Exact,
+    by: Precise,
+    starts: &[State<f64>],
+    along: Option<&Paths>,
+    times: &[f64],
+) -> Result<Paths, Box<dyn Error + Send + Sync>> {
+    let mut paths = Paths::new(exact.dimension(), starts.len(), times.len());
+    for (index, start) in starts.iter().enumerate() {
+        let moves = along.map(|along| along.roundings(index, start));
+        exact.follow(by, start, moves.as_deref(), times, &mut |time, state| {
+            paths.set(index, time, state);
+        })?;
+    }
+    Ok(paths)
+}
+
+/// For each output: the number of times up to which two runs agree to the part of the tolerance.
+fn known_until(
+    outputs: &[OutputValues],
+    checks: &[OutputValues],
+    wanted: &[Wanted<'_>],
+) -> Vec<usize> {
+    wanted
+        .iter()
+        .zip(outputs.iter().zip(checks))
+        .map(|(wanted, (own, check))| parting(own, check, SHARE * wanted.tolerance))
+        .collect()
+}
+
 /// The first time at which two runs differ by more than `most`.
 fn parting(a: &OutputValues, b: &OutputValues, most: f64) -> usize {
     let apart = |&time: &usize| a.difference(b, time) > most;
@@ -150,16 +181,7 @@ impl Truth {
         times: &[f64],
         wanted: &[Wanted<'_>],
     ) -> Result<Self, Box<dyn Error + Send + Sync>> {
-        let follow = |by, along: Option<&Paths>| {
-            let mut paths = Paths::new(exact.dimension(), starts.len(), times.len());
-            for (index, start) in starts.iter().enumerate() {
-                let moves = along.map(|along| along.roundings(index, start));
-                exact.follow(by, start, moves.as_deref(), times, &mut |time, state| {
-                    paths.set(index, time, state);
-                })?;
-            }
-            Ok::<_, Box<dyn Error + Send + Sync>>(paths)
-        };
+        let follow = |by, along: Option<&Paths>| follow_all(exact, by, starts, along, times);
         let all = |paths: &Paths| -> Vec<OutputValues> {
             let outputs = wanted.iter().map(|wanted| paths.outputs(wanted, times));
             outputs.collect()
@@ -182,21 +204,10 @@ impl Truth {
                 let growth = rate_of_growth(&best, &moved, starts.len(), times);
                 digits = Some(Digits::of(&outputs, &all(&moved), wanted, growth));
             }
-            let known: Vec<usize> = wanted
-                .iter()
-                .zip(outputs.iter().zip(&checks))
-                .map(|(wanted, (own, check))| parting(own, check, SHARE * wanted.tolerance))
-                .collect();
-            let digits = digits.clone().unwrap_or(Digits {
-                limits: vec![times.len(); wanted.len()],
-                are_too_few: false,
-                growth: None,
-            });
-            let needed = |output: usize| match digits.are_too_few {
-                true => digits.limits[output],
-                false => times.len(),
-            };
-            let enough = (0..wanted.len()).all(|output| known[output] >= needed(output));
+            let known = known_until(&outputs, &checks, wanted);
+            let last = || Digits::that_last(wanted.len(), times.len());
+            let digits = digits.clone().unwrap_or_else(last);
+            let enough = digits.suffice(&known, times.len());
             let errors = outputs.iter().zip(&checks).map(|(own, check)| {
                 let errors = (0..times.len()).map(|time| own.difference(check, time));
                 errors.collect()
@@ -237,6 +248,22 @@ impl Truth {
 }
 
 impl Digits {
+    /// Digits that last to the end, as far as was looked.
+    fn that_last(outputs: usize, times: usize) -> Self {
+        Self {
+            limits: vec![times; outputs],
+            are_too_few: false,
+            growth: None,
+        }
+    }
+
+    /// Returns whether outputs that are `known` for as many times are so to the end, or as long
+    /// as the digits last.
+    fn suffice(&self, known: &[usize], times: usize) -> bool {
+        let mut both = known.iter().zip(&self.limits);
+        both.all(|(&known, &limit)| known >= if self.are_too_few { limit } else { times })
+    }
+
     /// By what became of a start that was moved by some roundings.
     fn of(
         own: &[OutputValues],

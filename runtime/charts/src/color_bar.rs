@@ -70,41 +70,42 @@ impl ColorBar {
 
     /// The bar beside panels that end at `frame`'s right edge, as high as it.
     pub(crate) fn draw(&self, frame: &Rect, marks: &mut Vec<Mark>) {
-        let (left, right) = (frame.right + GAP, frame.right + GAP + WIDTH);
-        let up = |place: f64| frame.bottom - place * frame.height();
-        for (index, color) in ramp(COLORS).into_iter().enumerate() {
-            let at = |index: usize| up(index as f64 / COLORS as f64);
-            let cell = Rect {
-                left,
-                right,
-                top: at(index + 1),
-                bottom: at(index),
-            };
-            marks.push(Mark::Areas {
-                polygons: vec![cell.corners()],
-                color,
-                fill: Fill::Crisp,
-            });
-        }
+        let left = frame.right + GAP;
+        let bar = Rect {
+            left,
+            right: left + WIDTH,
+            ..*frame
+        };
+        draw_colors(&bar, marks);
+        marks.push(self.frame_and_ticks(&bar));
+        self.draw_texts(&bar, marks);
+    }
+
+    /// The frame of the bar, and its ticks.
+    fn frame_and_ticks(&self, bar: &Rect) -> Mark {
         let mut lines = vec![vec![
-            (left, frame.top),
-            (right, frame.top),
-            (right, frame.bottom),
-            (left, frame.bottom),
-            (left, frame.top),
+            (bar.left, bar.top),
+            (bar.right, bar.top),
+            (bar.right, bar.bottom),
+            (bar.left, bar.bottom),
+            (bar.left, bar.top),
         ]];
         let major = self.ticks.major.iter().map(|tick| (tick.at, TICK));
         let minor = self.ticks.minor.iter().map(|at| (*at, 0.5 * TICK));
         for (at, length) in major.chain(minor) {
-            let y = up(self.scale.place(at));
-            lines.push(vec![(right, y), (right + length, y)]);
+            let y = height_at(bar, self.scale.place(at));
+            lines.push(vec![(bar.right, y), (bar.right + length, y)]);
         }
-        marks.push(Mark::Lines {
+        Mark::Lines {
             lines,
             color: FRAME,
             width: 1.1,
             dash: crate::style::Dash::Solid,
-        });
+        }
+    }
+
+    /// The labels of the ticks, what they have in common, and the label of the bar.
+    fn draw_texts(&self, bar: &Rect, marks: &mut Vec<Mark>) {
         let text = |label: &Label, at, size, upwards| {
             Mark::Text(Text {
                 label: label.clone(),
@@ -118,19 +119,41 @@ impl ColorBar {
                 upwards,
             })
         };
-        let x = right + TICK + TICK_GAP;
+        let x = bar.right + TICK + TICK_GAP;
         for (tick, label) in self.ticks.major.iter().zip(tick_labels(&self.ticks)) {
-            let y = up(self.scale.place(tick.at)) + 0.5 * Font::CAP * TICK_SIZE;
+            let y = height_at(bar, self.scale.place(tick.at)) + 0.5 * Font::CAP * TICK_SIZE;
             marks.push(text(&label, (x, y), TICK_SIZE, false));
         }
         if let Some(common) = &self.ticks.common {
-            let at = (left, frame.top - 8.0);
+            let at = (bar.left, bar.top - 8.0);
             marks.push(text(&Label::parse(common), at, TICK_SIZE, false));
         }
-        let middle = (frame.top + frame.bottom) / 2.0;
+        let middle = (bar.top + bar.bottom) / 2.0;
         for (index, line) in self.label.iter().enumerate() {
             let baseline = x + self.widest + LABEL_GAP + (index as f64 + 0.75) * LABEL_LINE;
             marks.push(text(line, (baseline, middle), LABEL_SIZE, true));
         }
+    }
+}
+
+/// Height of a place between the bottom of a bar, 0, and its top, 1.
+fn height_at(bar: &Rect, place: f64) -> f64 {
+    bar.bottom - place * bar.height()
+}
+
+fn draw_colors(bar: &Rect, marks: &mut Vec<Mark>) {
+    for (index, color) in ramp(COLORS).into_iter().enumerate() {
+        let at = |index: usize| height_at(bar, index as f64 / COLORS as f64);
+        let cell = Rect {
+            left: bar.left,
+            right: bar.right,
+            top: at(index + 1),
+            bottom: at(index),
+        };
+        marks.push(Mark::Areas {
+            polygons: vec![cell.corners()],
+            color,
+            fill: Fill::Crisp,
+        });
     }
 }

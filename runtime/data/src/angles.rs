@@ -156,6 +156,23 @@ impl AngleColumns {
                 },
             );
         }
+        self.refuse_points(table, &columns)?;
+        let names = |columns: &[usize]| {
+            let names: Vec<&str> = columns.iter().map(|&c| all[c].name.as_str()).collect();
+            quoted(&names)
+        };
+        if !aside.is_empty() {
+            let text = format!("no angles, by units or as text: {}", names(&aside));
+            findings.push(Finding::new(Basis::Detected, text));
+        }
+        let text = format!("angles of the links, in this order: {}", names(&columns));
+        findings.push(Finding::new(Basis::Assumed, text));
+        Ok(columns)
+    }
+
+    /// Refuses columns that lie on a circle in pairs, as coordinates of points do.
+    fn refuse_points(&self, table: &Table, columns: &[usize]) -> Result<(), ReadError> {
+        let all = table.columns();
         let is_unsaid = |column: &usize| {
             self.unit.is_none() && Meaning::of(&all[*column], all) == Meaning::Unsaid
         };
@@ -171,17 +188,7 @@ impl AngleColumns {
                 return Err(table.refused(ReadErrorKind::Option { what }));
             }
         }
-        let names = |columns: &[usize]| {
-            let names: Vec<&str> = columns.iter().map(|&c| all[c].name.as_str()).collect();
-            quoted(&names)
-        };
-        if !aside.is_empty() {
-            let text = format!("no angles, by units or as text: {}", names(&aside));
-            findings.push(Finding::new(Basis::Detected, text));
-        }
-        let text = format!("angles of the links, in this order: {}", names(&columns));
-        findings.push(Finding::new(Basis::Assumed, text));
-        Ok(columns)
+        Ok(())
     }
 
     fn named_columns(&self, table: &Table, time: Option<usize>) -> Result<Vec<usize>, ReadError> {

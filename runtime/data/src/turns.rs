@@ -288,10 +288,15 @@ fn cheapest_path(times: &[f64], values: &[f64], interval: f64) -> Vec<usize> {
             }
         }
     }
-    let mut path = Vec::with_capacity(count);
-    let Some((_, mut index, mut back)) = best else {
-        return path;
-    };
+    match best {
+        Some((_, index, back)) => path_to(index, back, &sources),
+        None => Vec::new(),
+    }
+}
+
+/// The path that ends with a sample and the one `back` + 1 before it, of the sources of all pairs.
+fn path_to(mut index: usize, mut back: usize, sources: &[[u8; REACH]]) -> Vec<usize> {
+    let mut path = Vec::with_capacity(sources.len());
     loop {
         path.push(index);
         let source = usize::from(sources[index][back]);

@@ -172,32 +172,12 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
         if order >= N || lengths != [links, links, sectors] {
             return;
         }
-        let zero = T::from_f64(0.0);
-        let places = self.coordinates.iter_mut().zip(&mut self.momenta);
-        let values = coordinates.iter().zip(momenta);
-        for ((small, (q, p)), (&angle, &momentum)) in self.small.iter().zip(places).zip(values) {
-            let series = |value: T, is_small: bool| match is_small {
-                true => PowerSeries::linear(zero, value),
-                false => PowerSeries::constant(value),
-            };
-            *q = series(angle, *small);
-            *p = series(momentum, *small && counted == Order::Amplitude);
-        }
+        self.set_state(counted, [coordinates, momenta]);
         let given = Given::Momenta {
             coordinates: &self.coordinates,
             momenta: &self.momenta,
         };
-        let quadratic = counted == Order::Amplitude
-            && !self.tree.has_unequal_copies()
-            && self.tree.shape.blocks.iter().all(|block| {
-                let own = block.first..block.first + block.columns.len();
-                block.is_mean
-                    || self
-                        .small
-                        .get(own)
-                        .is_some_and(|own| own.iter().all(|s| *s))
-            });
-        let first = if quadratic { 2 } else { 0 };
+        let first = if self.is_quadratic(counted) { 2 } else { 0 };
         let blocks = &self.tree.shape.blocks;
         let small = &self.small;
         let tree = &self.tree;
@@ -211,7 +191,7 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
             // K is meant through the order and differentiated then: its slope in the
             // differences has one order less.
             let slope = match (counted, is_small) {
-                (Order::Angle, true) if order == 0 => zero,
+                (Order::Angle, true) if order == 0 => T::from_f64(0.0),
                 (Order::Angle, true) => driven.sum(first..=order - 1),
                 _ => driven.sum(first..=order),
             };
@@ -220,5 +200,34 @@ impl<T: Scalar, const N: usize> OrderedTransfers<T, N> {
                 potential: potential.sum(first..=order),
             };
         });
+    }
+
+    /// Takes the state as series: what counts as small is linear.
+    fn set_state(&mut self, counted: Order, [coordinates, momenta]: [&[T]; 2]) {
+        let zero = T::from_f64(0.0);
+        let places = self.coordinates.iter_mut().zip(&mut self.momenta);
+        let values = coordinates.iter().zip(momenta);
+        for ((small, (q, p)), (&angle, &momentum)) in self.small.iter().zip(places).zip(values) {
+            let series = |value: T, is_small: bool| match is_small {
+                true => PowerSeries::linear(zero, value),
+                false => PowerSeries::constant(value),
+            };
+            *q = series(angle, *small);
+            *p = series(momentum, *small && counted == Order::Amplitude);
+        }
+    }
+
+    /// Returns true if the first two orders vanish.
+    fn is_quadratic(&self, counted: Order) -> bool {
+        let is_small = |own| {
+            let small = self.small.get::<core::ops::Range<usize>>(own);
+            small.is_some_and(|own| own.iter().all(|small| *small))
+        };
+        let mut blocks = self.tree.shape.blocks.iter();
+        counted == Order::Amplitude
+            && !self.tree.has_unequal_copies()
+            && blocks.all(|block| {
+                block.is_mean || is_small(block.first..block.first + block.columns.len())
+            })
     }
 }

@@ -91,6 +91,19 @@ impl Heights {
         }
     }
 
+    /// Where the sums of each link stand: those of some subtrees where those of others did, behind
+    /// those of the links above.
+    pub(super) fn slots(&self) -> Vec<usize> {
+        let mut slots: Vec<usize> = (0..self.parents.len()).collect();
+        let subtrees = self.subtrees.iter();
+        for some in subtrees.filter(|some| some.links.start >= self.above) {
+            for (slot, own) in (self.above..).zip(&mut slots[some.links.clone()]) {
+                *own = slot;
+            }
+        }
+        slots
+    }
+
     /// Returns the same links in subtrees of at most so many, one behind the other and each
     /// by height, behind the links above them: what is handed on in a subtree is found
     /// nearby. The children of a link go up in the same order as by height alone, so that

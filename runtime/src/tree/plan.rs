@@ -28,16 +28,9 @@ impl Plan {
     /// For a tree with so many copies of each generation under each link of the
     /// one before.
     pub(super) fn new(copies: &[usize], policy: Policy) -> Self {
-        let (mut counts, mut starts) = (Vec::new(), Vec::new());
-        let (mut count, mut start) = (1, 0);
-        for &copies in copies {
-            count *= copies;
-            counts.push(count);
-            starts.push(start);
-            start += count;
-        }
+        let (counts, starts, links) = numbers_of_links(copies);
         let mut partitions = Vec::new();
-        let (mut end, mut above, mut fitting) = (copies.len(), start, policy.whole);
+        let (mut end, mut above, mut fitting) = (copies.len(), links, policy.whole);
         while above > policy.whole {
             let has_leaves = end == copies.len();
             // The longest subtrees that fit with their neighbours.
@@ -129,6 +122,19 @@ impl Plan {
             strips: &self.strips,
         }
     }
+}
+
+/// The number of links in each generation, that before it, and that of all.
+fn numbers_of_links(copies: &[usize]) -> (Vec<usize>, Vec<usize>, usize) {
+    let (mut counts, mut starts) = (Vec::new(), Vec::new());
+    let (mut count, mut start) = (1, 0);
+    for &copies in copies {
+        count *= copies;
+        counts.push(count);
+        starts.push(start);
+        start += count;
+    }
+    (counts, starts, start)
 }
 
 /// How many generations above the partitions have children.

@@ -44,6 +44,35 @@ impl Strip {
     }
 }
 
+impl Strip {
+    /// Links of one height in a tree of any shape, with those attachments.
+    fn of_height(
+        links: Range<usize>,
+        slot: usize,
+        has_child: bool,
+        attachments: (usize, usize),
+    ) -> Self {
+        let place = Position {
+            own: links.start,
+            slot,
+            whole: links.start,
+        };
+        Self {
+            generation: 0,
+            length: links.len(),
+            first: place,
+            child: place,
+            copies: usize::from(has_child),
+            apart: 0,
+            whole_apart: 0,
+            step: 1,
+            leaves: false,
+            lanes: usize::MAX,
+            attachments,
+        }
+    }
+}
+
 /// Neighbours whose parents are neighbours in the same order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Attachment {
@@ -56,6 +85,13 @@ pub(super) struct Attachment {
     pub(super) length: usize,
     /// No child of these parents has been attached before.
     pub(super) first: bool,
+}
+
+impl Attachment {
+    /// Returns true if a child of this parent follows the ones here.
+    fn goes_on(&self, parent: usize, first: bool) -> bool {
+        self.first == first && parent == self.parent + self.length
+    }
 }
 
 /// The links with children of a block, strip by strip from its first generation on.
@@ -154,17 +190,10 @@ impl Strips {
             parents,
             strips,
             subtrees,
-            above,
             ..
         } = heights;
         let links = parents.len();
-        // Sums of some subtrees stand where those of others did, behind those of the links above.
-        let mut slots: Vec<usize> = (0..links).collect();
-        for some in subtrees.iter().filter(|some| some.links.start >= *above) {
-            for (slot, own) in (*above..).zip(&mut slots[some.links.clone()]) {
-                *own = slot;
-            }
-        }
+        let slots = heights.slots();
         let mut list = Vec::with_capacity(strips.len());
         let mut attachments: Vec<Attachment> = Vec::new();
         let mut has_child = alloc::vec![false; links];
@@ -176,13 +205,9 @@ impl Strips {
             for (child, &parent) in children.zip(own) {
                 let parent = parent as usize;
                 let first = !has_child[parent];
-                match attachments
-                    .get_mut(from..)
-                    .and_then(<[Attachment]>::last_mut)
-                {
-                    Some(last) if last.first == first && parent == last.parent + last.length => {
-                        last.length += 1;
-                    }
+                let last = attachments.get_mut(from..);
+                match last.and_then(<[Attachment]>::last_mut) {
+                    Some(last) if last.goes_on(parent, first) => last.length += 1,
                     _ => attachments.push(Attachment {
                         parent,
                         child,
@@ -193,24 +218,13 @@ impl Strips {
                 }
                 has_child[parent] = true;
             }
-            let place = Position {
-                own: start,
-                slot: slots[start],
-                whole: start,
-            };
-            list.push(Strip {
-                generation: 0,
-                length: end - start,
-                first: place,
-                child: place,
-                copies: usize::from(has_child[start]),
-                apart: 0,
-                whole_apart: 0,
-                step: 1,
-                leaves: false,
-                lanes: usize::MAX,
-                attachments: (from, attachments.len()),
-            });
+            let own = (from, attachments.len());
+            list.push(Strip::of_height(
+                start..end,
+                slots[start],
+                has_child[start],
+                own,
+            ));
         }
         list.reverse();
         Self {

@@ -169,14 +169,6 @@ impl TreeDescription {
             passive().any(|own| of(own).map(is_in).contains(&true))
         };
         let [ties, dampers, springs] = straight_uses(&scene.translational, is_in);
-        // Of a drive's signals only constants can be asked for.
-        let of_drive = || {
-            let found = std::cell::Cell::new(false);
-            if let Some(drive) = &scene.drive {
-                drive.map(&|quantity| found.set(found.get() || is_in(quantity)));
-            }
-            found.get()
-        };
         let uses = [
             (Gravity, is_in(&scene.gravity)),
             (Mass, of_links(&|link| is_in(&link.mass))),
@@ -207,7 +199,7 @@ impl TreeDescription {
                     || of_laws(|own| own.laws.each_ref().map(|law| &law.width))
                     || springs,
             ),
-            (Drive, of_drive()),
+            (Drive, is_in_drive(scene, is_in)),
         ];
         let uses = uses.into_iter().filter(|(_, is_one)| *is_one);
         uses.map(|(of, _)| of).collect()
@@ -283,4 +275,13 @@ fn straight_uses(
         all.iter().any(|own| is_one(&own.friction)),
         stored.any(|(_, quantity, _)| is_one(quantity)),
     ]
+}
+
+/// Returns whether a constant in the drive's signals is one; nothing else of them can be asked for.
+fn is_in_drive(scene: &Scene, is_one: impl Fn(&Quantity) -> bool) -> bool {
+    let found = std::cell::Cell::new(false);
+    if let Some(drive) = &scene.drive {
+        drive.map(&|quantity| found.set(found.get() || is_one(quantity)));
+    }
+    found.get()
 }

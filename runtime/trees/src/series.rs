@@ -45,7 +45,29 @@ pub(crate) fn series_of<T: Scalar>(
             }
         })
         .collect();
-    let form = SeriesForm {
+    let laws = laws_of(links, unit);
+    let units = |own: SpringDamper<Double>| SpringDamper {
+        links: own.links,
+        spring: own.spring * unit,
+        rest: own.rest,
+        friction: own.friction * unit,
+        law: own
+            .law
+            .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
+    };
+    let spring_dampers = between.torsional.iter();
+    let spring_dampers = spring_dampers.map(|own| units(own).map(constant));
+    let lines = between.translational.iter();
+    let lines = lines.map(|own| own.times(unit).map(constant));
+    SeriesTree::new(&constants, laws, constant(unit), form_of(links))
+        .with_spring_dampers(spring_dampers.collect())
+        .with_lines(lines.collect())
+}
+
+/// What the tree has beside links that hang and swing.
+fn form_of(links: &[LinkNumbers]) -> SeriesForm {
+    let zero = Double::from_f64(0.0);
+    SeriesForm {
         lateral: links
             .iter()
             .any(|own| [own.com[1], own.pivot[1]] != [zero; 2]),
@@ -53,7 +75,12 @@ pub(crate) fn series_of<T: Scalar>(
             let passive = &own.passive;
             [passive.friction, passive.drag, passive.spring] != [zero; 3]
         }),
-    };
+    }
+}
+
+/// The laws of friction that are not linear, with torques in this unit.
+fn laws_of<T: Scalar>(links: &[LinkNumbers], unit: Double) -> Vec<RoughFriction<T>> {
+    let zero = Double::from_f64(0.0);
     let laws = links.iter().enumerate().filter(|_| are_rough(links));
     let laws = laws.flat_map(|(link, own)| {
         let [joint, ground] = own.passive.laws;
@@ -71,22 +98,7 @@ pub(crate) fn series_of<T: Scalar>(
         let on_link = on_link.then(|| law(None, [zero, ground.quadratic, ground.width]));
         in_joint.into_iter().chain(on_link)
     });
-    let units = |own: SpringDamper<Double>| SpringDamper {
-        links: own.links,
-        spring: own.spring * unit,
-        rest: own.rest,
-        friction: own.friction * unit,
-        law: own
-            .law
-            .map(|[coulomb, quadratic, width]| [coulomb * unit, quadratic * unit, width]),
-    };
-    let spring_dampers = between.torsional.iter();
-    let spring_dampers = spring_dampers.map(|own| units(own).map(constant));
-    let lines = between.translational.iter();
-    let lines = lines.map(|own| own.times(unit).map(constant));
-    SeriesTree::new(&constants, laws.collect(), constant(unit), form)
-        .with_spring_dampers(spring_dampers.collect())
-        .with_lines(lines.collect())
+    laws.collect()
 }
 
 impl<T: Scalar> TaylorPendulum<T> for PendulumTree<T> {

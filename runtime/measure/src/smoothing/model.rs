@@ -156,31 +156,7 @@ impl ModelSmoother {
             Some(ratio) => problem.solve(&[ratio.ln()], start, CONVERGED)?,
             None => self.likeliest(&problem, start)?,
         };
-        let SmoothingSolution { logs, filtered, .. } = solution;
-        let Filtered {
-            innovations,
-            steps,
-            data,
-            constants,
-            rows,
-            effects,
-        } = filtered;
-        let noise = problem.noise_of(&logs, &innovations);
-        let scale = Scale {
-            noise,
-            densities: logs
-                .iter()
-                .map(|log| log.exp() * noise * noise / (cube * size))
-                .collect(),
-            factors: DVector::repeat(2 * links, 1.0),
-        };
-        let gains = gains(&steps);
-        let row = |state: DVector<f64>| state.data.into();
-        let motion = SmoothedMotion::new(times, &steps, &gains, innovations, scale, row);
-        let frictions = constants.values.iter().copied().collect();
-        let motion = motion.with_frictions(frictions, constants.errors(&gains, &effects));
-        let explained = constants.explained(&rows);
-        Ok(motion.with_disturbances(Disturbances::new(steps, data, explained)))
+        Ok(smoothed(&problem, solution, size))
     }
 
     fn check(
@@ -336,4 +312,43 @@ fn size_of_accelerations(
     }
     let mean = sum / count as f64;
     Ok(if mean > 0.0 { mean } else { 1.0 })
+}
+
+/// The motion of a solution with its errors, `size` being that of [`size_of_accelerations`].
+fn smoothed<L, M, A>(
+    problem: &ModelFilter<'_, L, M, A>,
+    solution: SmoothingSolution,
+    size: f64,
+) -> SmoothedMotion<Vec<f64>>
+where
+    L: Linearised<f64>,
+    M: for<'a> Integrator<f64, Variational<'a, L>>,
+    A: Fn(&[f64]) -> Vec<Vec<f64>>,
+{
+    let cube = problem.unit.powi(3);
+    let SmoothingSolution { logs, filtered, .. } = solution;
+    let Filtered {
+        innovations,
+        steps,
+        data,
+        constants,
+        rows,
+        effects,
+    } = filtered;
+    let noise = problem.noise_of(&logs, &innovations);
+    let scale = Scale {
+        noise,
+        densities: logs
+            .iter()
+            .map(|log| log.exp() * noise * noise / (cube * size))
+            .collect(),
+        factors: DVector::repeat(2 * problem.links, 1.0),
+    };
+    let gains = gains(&steps);
+    let row = |state: DVector<f64>| state.data.into();
+    let motion = SmoothedMotion::new(problem.times, &steps, &gains, innovations, scale, row);
+    let frictions = constants.values.iter().copied().collect();
+    let motion = motion.with_frictions(frictions, constants.errors(&gains, &effects));
+    let explained = constants.explained(&rows);
+    motion.with_disturbances(Disturbances::new(steps, data, explained))
 }

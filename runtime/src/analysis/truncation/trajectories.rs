@@ -61,10 +61,7 @@ impl AlongTrajectories {
         let per_bin = (high / low).ln() / self.bins as f64;
         let forms = Powers::new(model)?.forms();
         let empty = SquareSums::new(receivers.len(), forms.len());
-        let samples = (self.duration * self.sampling).floor() as u64;
-        let times: Vec<f64> = (0..=samples)
-            .map(|sample| sample as f64 / self.sampling)
-            .collect();
+        let times = self.times();
         let options = Options {
             // Differences keep their relative accuracy while they are small.
             absolute: Tolerance::Uniform(1e-15),
@@ -108,5 +105,13 @@ impl AlongTrajectories {
             .map(|(bin, sums)| (centre(bin), sums))
             .collect();
         Ok(curves(&receivers, &forms, &sums))
+    }
+
+    /// Times of the samples.
+    fn times(&self) -> Vec<f64> {
+        let samples = (self.duration * self.sampling).floor() as u64;
+        (0..=samples)
+            .map(|sample| sample as f64 / self.sampling)
+            .collect()
     }
 }

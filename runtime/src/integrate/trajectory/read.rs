@@ -67,15 +67,7 @@ impl<T: Real> TryFrom<Unchecked<T>> for Trajectory<T> {
             let (times, steps) = (times.len(), steps.len());
             return Err(Error::Times { times, steps });
         }
-        let forwards = times.first() <= times.last();
-        let goes_on = |pair: &[T]| (pair[0] <= pair[1]) == forwards || pair[0] == pair[1];
-        let turns = times.windows(2).position(|pair| !goes_on(pair));
-        if let Some(index) = times.iter().position(|time| !time.is_finite()) {
-            return Err(Error::Time { index });
-        }
-        if let Some(index) = turns {
-            return Err(Error::Time { index: index + 1 });
-        }
+        check_times(&times)?;
         let found = numbers.len();
         let Some(mut left) = found.checked_sub(dimension) else {
             let numbers = found;
@@ -121,5 +113,19 @@ impl<T: Real> TryFrom<Unchecked<T>> for Trajectory<T> {
             steps,
             numbers,
         })
+    }
+}
+
+/// Checks that times are finite and run one way.
+fn check_times<T: Real>(times: &[T]) -> Result<(), TrajectoryDataError> {
+    let forwards = times.first() <= times.last();
+    let goes_on = |pair: &[T]| (pair[0] <= pair[1]) == forwards || pair[0] == pair[1];
+    let turns = times.windows(2).position(|pair| !goes_on(pair));
+    if let Some(index) = times.iter().position(|time| !time.is_finite()) {
+        return Err(TrajectoryDataError::Time { index });
+    }
+    match turns {
+        Some(index) => Err(TrajectoryDataError::Time { index: index + 1 }),
+        None => Ok(()),
     }
 }

@@ -109,6 +109,46 @@ pub fn report(
     source: &Source,
     estimate: &Estimate,
 ) -> String {
+    let mut text = measured(arguments, source);
+    let mut line = |words: String| {
+        let _ = writeln!(text, "{words}");
+    };
+    line(
+        match (arguments.model, arguments.polynomials) {
+            (true, _) => {
+                "Estimated with the equations of motion, and what they lack by likelihood."
+            }
+            (_, true) => "Estimated by polynomials near each time.",
+            _ => "Estimated from smoothness alone.",
+        }
+        .to_owned(),
+    );
+    for words in [accuracy(arguments, names, estimate), left_over(estimate)] {
+        line(words);
+    }
+    let frictions = names.pivots.iter().zip(&estimate.frictions);
+    let frictions = frictions.filter(|(_, friction)| **friction != 0.0);
+    let frictions: Vec<String> = frictions
+        .map(|(pivot, friction)| format!("{friction:.3e} N m s in {pivot}"))
+        .collect();
+    if !frictions.is_empty() {
+        line(format!(
+            "  the equations lack friction of {}",
+            frictions.join(", ")
+        ));
+    }
+    if let Some(error) = power_error(source, estimate) {
+        let power = names.power;
+        line(format!(
+            "  true error of {power} {} (rms, of that of {power})",
+            percent(error)
+        ));
+    }
+    text
+}
+
+/// What was measured.
+fn measured(arguments: &Arguments, source: &Source) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
         let _ = writeln!(text, "{words}");
@@ -125,40 +165,42 @@ pub fn report(
     for finding in &source.findings {
         line(format!("  {finding}"));
     }
+    text
+}
+
+/// How far angles, the power and its integral are good.
+fn accuracy(arguments: &Arguments, names: &Names, estimate: &Estimate) -> String {
     let trust = Trust::of(estimate);
     let (energy, power) = (&names.energy, names.power);
-    line(
-        match (arguments.model, arguments.polynomials) {
-            (true, _) => {
-                "Estimated with the equations of motion, and what they lack by likelihood."
-            }
-            (_, true) => "Estimated by polynomials near each time.",
-            _ => "Estimated from smoothness alone.",
-        }
-        .to_owned(),
-    );
-    line(format!(
-        "  angles are good to {:.2e} rad (found from the data)",
-        estimate.noise
-    ));
-    line(format!("  largest {energy} {:.4e} J", trust.energy));
-    line(format!(
-        "  {power} to {} (rms of its deviation, of that of {power})",
-        percent(trust.power)
-    ));
     // By the equations the integral is not taken from picture to picture.
     let cause = match arguments.model {
         true => " of noise alone",
         false => "",
     };
-    line(format!(
-        "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, \
-         {} expected{cause}",
-        percent(trust.closure),
-        percent(trust.closure_deviation)
-    ));
+    [
+        format!(
+            "  angles are good to {:.2e} rad (found from the data)",
+            estimate.noise
+        ),
+        format!("  largest {energy} {:.4e} J", trust.energy),
+        format!(
+            "  {power} to {} (rms of its deviation, of that of {power})",
+            percent(trust.power)
+        ),
+        format!(
+            "  ∫ d{energy}/dt dt differs from the change of {energy} by {} of the largest {energy}, \
+             {} expected{cause}",
+            percent(trust.closure),
+            percent(trust.closure_deviation)
+        ),
+    ]
+    .join("\n")
+}
+
+/// Whether the data go on where the estimate has taken its part.
+fn left_over(estimate: &Estimate) -> String {
     let white = estimate.whiteness;
-    line(match white.abs() {
+    match white.abs() {
         ..3.0 => format!("  what is left over is white ({white:.1} deviations)"),
         3.0.. => format!(
             "  what is left over is not white ({white:.1} deviations): the errors are larger \
@@ -166,25 +208,7 @@ pub fn report(
         ),
         _ => "  errors are those of the noise: what polynomials do not follow is not in them"
             .to_owned(),
-    });
-    let frictions = names.pivots.iter().zip(&estimate.frictions);
-    let frictions = frictions.filter(|(_, friction)| **friction != 0.0);
-    let frictions: Vec<String> = frictions
-        .map(|(pivot, friction)| format!("{friction:.3e} N m s in {pivot}"))
-        .collect();
-    if !frictions.is_empty() {
-        line(format!(
-            "  the equations lack friction of {}",
-            frictions.join(", ")
-        ));
     }
-    if let Some(error) = power_error(source, estimate) {
-        line(format!(
-            "  true error of {power} {} (rms, of that of {power})",
-            percent(error)
-        ));
-    }
-    text
 }
 
 /// The error of the power against the truth of a simulated camera, rms over rms.

@@ -72,6 +72,27 @@ struct Told {
     sector: usize,
 }
 
+/// The sector that is asked for; none for the whole tree.
+fn sector_of(described: &Subject, asked: Option<&str>) -> Result<Option<usize>, Failure> {
+    let sectors = described.tree.sectors();
+    let names: Vec<&str> = sectors.iter().map(|own| own.name()).collect();
+    let sector = match asked {
+        Some(WHOLE) => return Ok(None),
+        None => 1,
+        Some(asked) => {
+            let found = names.iter().position(|own| *own == asked);
+            found.ok_or_else(|| Failure::Lacking {
+                what: format!(
+                    "`{}` has no sector `{asked}`: `--sector` is {} or {WHOLE}",
+                    described.name,
+                    names.join(", ")
+                ),
+            })?
+        }
+    };
+    Ok((sectors.len() > 1).then_some(sector))
+}
+
 impl MeasuredTree {
     /// The tree, with the sector that is asked for: the first difference, or the whole of a tree
     /// without copies, if none is.
@@ -81,22 +102,7 @@ impl MeasuredTree {
     /// no pendulum with copies can have.
     pub fn new(described: &Subject, asked: Option<&str>) -> Result<Self, Failure> {
         let tree = described.tree.clone();
-        let sectors = tree.sectors();
-        let names: Vec<&str> = sectors.iter().map(|own| own.name()).collect();
-        let sector = match asked {
-            Some(WHOLE) => None,
-            None => (sectors.len() > 1).then_some(1),
-            Some(asked) => Some(names.iter().position(|own| *own == asked).ok_or_else(|| {
-                Failure::Lacking {
-                    what: format!(
-                        "`{}` has no sector `{asked}`: `--sector` is {} or {WHOLE}",
-                        described.name,
-                        names.join(", ")
-                    ),
-                }
-            })?)
-            .filter(|_| sectors.len() > 1),
-        };
+        let sector = sector_of(described, asked)?;
         let told = sector.map(|sector| {
             let symmetric = tree
                 .symmetric()

@@ -126,43 +126,18 @@ impl Findings {
         };
         let energy = of(Quantity::Energy, all.clone(), 1.0);
         let per_mean = series.mean(0) / driven.degrees_of_freedom(0) as f64;
-        let scales = all.clone().map(|scale| {
-            let mean = series.mean(scale);
-            if mean <= ASLEEP * per_mean * driven.degrees_of_freedom(scale) as f64 {
-                return ScaleState::Asleep(mean);
-            }
-            match Average::of(&of(Quantity::Energy, scale..scale + 1, 1.0)) {
-                Ok(average) => ScaleState::Awake(average),
-                Err(error) => ScaleState::Unsettled(error),
-            }
+        let states = all.clone().map(|scale| {
+            let least = ASLEEP * per_mean * driven.degrees_of_freedom(scale) as f64;
+            series.state(scale, least)
         });
-        let scales: Vec<ScaleState> = scales.collect();
+        let scales: Vec<ScaleState> = states.collect();
         let mut densities = vec![Density::default(); series.scales - 1];
         for start in starts {
             for (all, own) in densities.iter_mut().zip(&start.densities) {
                 all.add(own);
             }
         }
-        let fluxes = (1..series.scales).map(|scale| {
-            let below = scale..series.scales;
-            let lost = |row: &[f64]| {
-                let power = |s| at(row, s, Quantity::Friction) + at(row, s, Quantity::Drive);
-                -below.clone().map(power).sum::<f64>()
-            };
-            let given = |row: &[f64]| {
-                below
-                    .clone()
-                    .map(|s| at(row, s, Quantity::Received))
-                    .sum::<f64>()
-            };
-            Ok(Flux {
-                transferred: Average::of(&series.sums(given))?,
-                dissipated: Average::of(&series.sums(lost))?,
-                gap: Average::of(&series.sums(|row| given(row) - lost(row)))?,
-                skewness: shape(starts, scale - 1, |moments| moments.skewness),
-                flatness: shape(starts, scale - 1, |moments| moments.flatness),
-            })
-        });
+        let fluxes = (1..series.scales).map(|scale| series.flux(scale));
         Self {
             drift: Drift::of(&energy),
             input: Average::of(&of(Quantity::Drive, all.clone(), 1.0)),
@@ -253,6 +228,40 @@ impl LaterWindows<'_> {
     fn mean(&self, scale: usize) -> f64 {
         let course = self.course(scale);
         course.iter().sum::<f64>() / course.len() as f64
+    }
+
+    /// The state of a scale, which sleeps where its mean energy is at most `least`.
+    fn state(&self, scale: usize, least: f64) -> ScaleState {
+        let mean = self.mean(scale);
+        if mean <= least {
+            return ScaleState::Asleep(mean);
+        }
+        match Average::of(&self.sums(|row| at(row, scale, Quantity::Energy))) {
+            Ok(average) => ScaleState::Awake(average),
+            Err(error) => ScaleState::Unsettled(error),
+        }
+    }
+
+    /// Power that passes into a scale and all younger ones.
+    fn flux(&self, scale: usize) -> Result<Flux, StatisticsError> {
+        let below = scale..self.scales;
+        let lost = |row: &[f64]| {
+            let power = |s| at(row, s, Quantity::Friction) + at(row, s, Quantity::Drive);
+            -below.clone().map(power).sum::<f64>()
+        };
+        let given = |row: &[f64]| {
+            below
+                .clone()
+                .map(|s| at(row, s, Quantity::Received))
+                .sum::<f64>()
+        };
+        Ok(Flux {
+            transferred: Average::of(&self.sums(given))?,
+            dissipated: Average::of(&self.sums(lost))?,
+            gap: Average::of(&self.sums(|row| given(row) - lost(row)))?,
+            skewness: shape(self.starts, scale - 1, |moments| moments.skewness),
+            flatness: shape(self.starts, scale - 1, |moments| moments.flatness),
+        })
     }
 }
 

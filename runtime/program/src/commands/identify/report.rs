@@ -23,6 +23,20 @@ pub fn report(
     reported: &Outcome,
     energies: Option<&Energies>,
 ) -> String {
+    let mut text = measured(arguments, measurement);
+    text += &errors_by_law(measurement, outcomes);
+    text.push('\n');
+    text += &convergences(outcomes);
+    text.push('\n');
+    text += &parameters(unknowns, measurement, reported);
+    if let Some(energies) = energies {
+        let _ = write!(text, "{}", energy(energies));
+    }
+    text
+}
+
+/// What was measured, and which part of it is fitted.
+fn measured(arguments: &Arguments, measurement: &Measurement) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
         let _ = writeln!(text, "{words}");
@@ -43,6 +57,15 @@ pub fn report(
         "Fitted before {:.4} s, predicted from there on.\n",
         measurement.until
     ));
+    text
+}
+
+/// The errors of the angles, a line for each law of friction.
+fn errors_by_law(measurement: &Measurement, outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    let mut line = |words: String| {
+        let _ = writeln!(text, "{words}");
+    };
     line("Angles less data, rms in mrad        in windows            one motion".to_owned());
     line(format!(
         "{:<22} {:>8} {:>8} {:>8} {:>9} {:>8}",
@@ -61,7 +84,12 @@ pub fn report(
             outcome.window(),
         ));
     }
-    line(String::new());
+    text
+}
+
+/// How each fit ended.
+fn convergences(outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
     for outcome in outcomes {
         for (kind, found) in [
             ("windows", &outcome.in_windows),
@@ -71,13 +99,8 @@ pub fn report(
                 Ok(fit) => fit.convergence.to_string(),
                 Err(unfound) => unfound.to_string(),
             };
-            line(format!("{}, {kind}: {words}.", outcome.law.name()));
+            let _ = writeln!(text, "{}, {kind}: {words}.", outcome.law.name());
         }
-    }
-    line(String::new());
-    text += &parameters(unknowns, measurement, reported);
-    if let Some(energies) = energies {
-        let _ = write!(text, "{}", energy(energies));
     }
     text
 }
