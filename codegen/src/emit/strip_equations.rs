@@ -42,7 +42,7 @@ impl Emission<'_> {
                 const HELD: bool = true;
             )
         });
-        let coupled = (!strips.spring_dampers.is_empty()).then(|| {
+        let coupled = strips.is_coupled().then(|| {
             quote!(
                 const COUPLED: bool = true;
             )

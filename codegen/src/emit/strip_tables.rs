@@ -37,6 +37,7 @@ impl Emission<'_> {
             ),
         };
         let between = self.spring_dampers(strips, &known);
+        let lines_between = self.translational_spring_dampers(strips, &known);
         let all = strips.strips.iter();
         let bodies = self.scene.requests.energies.then(|| {
             let rows = all.clone().map(|strip| strip.body.as_slice());
@@ -85,7 +86,7 @@ impl Emission<'_> {
             #(#tables)*
             #(#lines)*
             Self {
-                tree: #runtime::tree::Tree::#tree #between,
+                tree: #runtime::tree::Tree::#tree #between #lines_between,
                 #(#fields),*
             }
         }

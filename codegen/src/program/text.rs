@@ -60,6 +60,15 @@ impl fmt::Display for Program {
                 writeln!(f, "  {count} from {a}, {b}")?;
             }
         }
+        for own in self.strips.iter().flat_map(|strips| &strips.lines) {
+            let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
+            let constants: Vec<String> = constants.collect();
+            writeln!(f, "line of {}: {}", own.what, constants.join(", "))?;
+            for (links, count) in &own.runs {
+                let links: Vec<String> = links.iter().map(ToString::to_string).collect();
+                writeln!(f, "  {count} from {}", links.join(", "))?;
+            }
+        }
         for entry in &self.entries {
             let arguments: Vec<&str> = entry.arguments.iter().map(|a| a.name()).collect();
             let operations = self.operations(&entry.outputs);
