@@ -1,10 +1,12 @@
-//! Springs and friction between links of trees in loops.
+//! Springs and friction between links of trees in loops, and along lines between their points.
 
 use super::Emission;
-use crate::program::{ConstantId, LoopTree, SpringDamperConstants};
+use crate::program::{
+    ConstantId, LineConstants, LinePotentialConstants, LoopTree, SpringDamperConstants,
+};
 use crate::scene::{Layout, PairRun, PassiveTorques};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 use std::collections::BTreeMap;
 
 impl Emission<'_> {
@@ -15,11 +17,7 @@ impl Emission<'_> {
         strips: &LoopTree,
         known: &BTreeMap<ConstantId, Ident>,
     ) -> Option<TokenStream> {
-        let runtime = self.runtime();
-        let links = match self.scene.layout {
-            Layout::Generations { links, .. } => Literal::usize_unsuffixed(links),
-            _ => self.links(),
-        };
+        let (runtime, links) = (self.runtime(), self.links_in_loops());
         let runs = strips.spring_dampers.iter();
         let runs = runs.map(|own| self.runs_of(own, known));
         let all = runs.reduce(|all, own| quote!(::core::iter::Iterator::chain(#all, #own)))?;
@@ -28,6 +26,98 @@ impl Emission<'_> {
                 #runtime::spring_dampers::SpringDampers::of_runs(#links, #all).unwrap_or_default()
             )
         })
+    }
+
+    /// `.with_translational_spring_dampers(…)`, where something acts along lines.
+    pub(super) fn translational_spring_dampers(
+        &self,
+        strips: &LoopTree,
+        known: &BTreeMap<ConstantId, Ident>,
+    ) -> Option<TokenStream> {
+        let (runtime, links) = (self.runtime(), self.links_in_loops());
+        let runs = strips.lines.iter().map(|own| self.lines_of(own, known));
+        let all = runs.reduce(|all, own| quote!(::core::iter::Iterator::chain(#all, #own)))?;
+        let of_runs = quote!(#runtime::translational::TranslationalSpringDampers::of_runs);
+        Some(quote! {
+            .with_translational_spring_dampers(#of_runs(#links, #all).unwrap_or_default())
+        })
+    }
+
+    fn links_in_loops(&self) -> Literal {
+        match self.scene.layout {
+            Layout::Generations { links, .. } => Literal::usize_unsuffixed(links),
+            _ => self.links(),
+        }
+    }
+
+    /// The runs of lines of the same constants, as an iterator.
+    fn lines_of(&self, own: &LineConstants, known: &BTreeMap<ConstantId, Ident>) -> TokenStream {
+        let lines = {
+            let runtime = self.runtime();
+            quote!(#runtime::translational)
+        };
+        let value = |id: ConstantId| self.known_value(id, known);
+        let option = |id: Option<ConstantId>| match id.map(value) {
+            Some(value) => quote!(::core::option::Option::Some(#value)),
+            None => quote!(::core::option::Option::None),
+        };
+        let list = |members: Vec<TokenStream>| {
+            quote! {
+                ::core::iter::Iterator::collect(::core::iter::IntoIterator::into_iter([#(#members),*]))
+            }
+        };
+        let links: Vec<Ident> = (1..=own.arms.len())
+            .map(|number| format_ident!("link_{number}"))
+            .collect();
+        let arms = links.iter().zip(&own.arms);
+        let arms = arms.map(|(link, &[along, across])| {
+            let [along, across] = [along, across].map(value);
+            quote!(#lines::LineArm { link: #link, along: #along, lateral: #across })
+        });
+        let potentials = own.potentials.iter().map(|potential| match *potential {
+            LinePotentialConstants::Spring { stiffness, rest } => {
+                let (stiffness, rest) = (value(stiffness), option(rest));
+                quote!(#lines::LinePotential::Spring { stiffness: #stiffness, rest: #rest })
+            }
+            LinePotentialConstants::InversePower { strength, exponent } => {
+                let strength = value(strength);
+                let exponent = Literal::u32_unsuffixed(exponent);
+                quote! {
+                    #lines::LinePotential::InversePower { strength: #strength, exponent: #exponent }
+                }
+            }
+        });
+        let (arms, potentials) = (list(arms.collect()), list(potentials.collect()));
+        let [x, y] = own.offset.map(value);
+        let friction = option(own.friction);
+        let runs = own.runs.iter().map(|(links, count)| {
+            let numbers = links.iter().chain([count]);
+            let numbers = numbers.map(|&number| Literal::usize_unsuffixed(number));
+            quote!([#(#numbers),*])
+        });
+        quote! {
+            ::core::iter::IntoIterator::into_iter([#(#runs),*].map(|[#(#links,)* count]| {
+                let first = #lines::TranslationalSpringDamper {
+                    arms: #arms,
+                    offset: [#x, #y],
+                    potentials: #potentials,
+                    friction: #friction,
+                };
+                (first, count)
+            }))
+        }
+    }
+
+    /// Returns true if lines store energy.
+    pub(super) fn stores_along_lines(&self) -> bool {
+        let mut lines = self.scene.translational.iter();
+        lines.any(|own| !own.potentials.is_empty())
+    }
+
+    /// Returns true if viscous dampers act along lines.
+    pub(super) fn is_damped_along_lines(&self) -> bool {
+        let mut lines = self.scene.translational.iter();
+        lines.any(|own| !own.friction.is_zero())
     }
 
     /// Returns true if torques of that kind act between links that are not parent and child.

@@ -45,6 +45,17 @@ impl Emission<'_> {
                 between.join(", ")
             ));
         }
+        let along = self.scene.translational.iter();
+        let along: Vec<String> = along.map(|own| format!("`{}`", own.what)).collect();
+        if !along.is_empty() {
+            lines.push(String::new());
+            lines.push(format!(
+                "Along the line between two points {} has on link i the torque \
+                 −(dU/dℓ + c ℓ̇) ∂ℓ/∂θ_i with the length ℓ, the energy U(ℓ), ½ k (ℓ − L)² of a spring \
+                 and A/ℓⁿ of a repulsion, and the friction c. These torques are among the Q.",
+                along.join(", ")
+            ));
+        }
         if self.mechanics.drive.is_some() {
             lines.extend(self.drive_docs());
             self.show(&self.drive_formulas(), &mut lines);

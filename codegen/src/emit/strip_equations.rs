@@ -149,7 +149,7 @@ fn link_parts(strips: &LoopTree) -> TokenStream {
             const HELD: bool = true;
         )
     });
-    let coupled = (!strips.spring_dampers.is_empty()).then(|| {
+    let coupled = strips.is_coupled().then(|| {
         quote!(
             const COUPLED: bool = true;
         )

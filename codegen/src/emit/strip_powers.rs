@@ -27,8 +27,12 @@ impl Emission<'_> {
             true => ", and the energy of springs between links that are not parent and child",
             false => "",
         };
+        let along = match self.stores_along_lines() {
+            true => ", and what lines between points store",
+            false => "",
+        };
         let potential = doc_lines(&[format!(
-            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs{between}. NaN for a slice of another length than there are links. O(links)."
+            "Potential energy U (in J) at angles `theta` (in rad), {zero}: Σ m g h + ½ κ (θ − θ_parent{rest})² over the links, h being the height of their centres of mass, κ the stiffness of torsion springs{between}{along}. NaN for a slice of another length than there are links. O(links)."
         )]);
         quote! {
             /// Kinetic energy K (in J) at angles `theta` (in rad) and angular velocities
@@ -109,6 +113,8 @@ impl Emission<'_> {
         }
         let mut torques = self.scene.passive_torques();
         let braked = torques.any(|torques| torques.has_friction() || torques.has_drag());
+        let along = self.is_damped_along_lines();
+        let braked = braked || along;
         let friction = braked.then(|| {
             let (between, with_between) = match self.is_coupled_by(PassiveTorques::has_friction) {
                 true => (
@@ -118,6 +124,14 @@ impl Emission<'_> {
                 false => (None, ""),
             };
             let others = self.other_powers();
+            let (angles, lines, with_lines) = match along {
+                true => (
+                    Some(quote!(theta: &[T],)),
+                    Some(quote!(+ self.tree.translational_spring_dampers().power(theta, omega))),
+                    " and of dampers along lines at angles `theta` (in rad)",
+                ),
+                false => (None, None, ""),
+            };
             let (laws, meaning) = match self.has_nonlinear_friction() {
                 true => (
                     " + D w",
@@ -126,13 +140,13 @@ impl Emission<'_> {
                 false => ("", ""),
             };
             let docs = doc_lines(&[format!(
-                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree{with_between}, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
+                "Power −Σ (c (ω − ω_parent)² + k ω²{laws}) (in W) of friction c and drag k{meaning} on the whole tree{with_between}{with_lines}, never positive: dE/dt of E = K + U is this and {others}. NaN for a slice of another length than there are links. O(links)."
             )]);
             quote! {
                 #docs
                 #[must_use]
-                pub fn friction_power(&self, omega: &[T]) -> T {
-                    self.bodies.friction_power(omega) #between
+                pub fn friction_power(&self, #angles omega: &[T]) -> T {
+                    self.bodies.friction_power(omega) #between #lines
                 }
             }
         });
@@ -161,6 +175,8 @@ impl Emission<'_> {
         );
         let springs = self.is_coupled_by(|torques| !torques.spring.is_zero());
         let springs = springs.then(|| quote!(+ self.tree.spring_dampers().energy(theta)));
+        let lines = self.stores_along_lines();
+        let lines = lines.then(|| quote!(+ self.tree.translational_spring_dampers().energy(theta)));
         quote! {
             impl<T: #runtime::Scalar> #energy<T> for #name<T> {
                 fn kinetic_energy_of(&self, theta: &[T], omega: &[T]) -> T {
@@ -185,7 +201,7 @@ impl Emission<'_> {
                     workspace: &mut #workspace<T>,
                     theta: &[T],
                 ) -> T {
-                    self.bodies.potential_energy(workspace, theta) #springs
+                    self.bodies.potential_energy(workspace, theta) #springs #lines
                 }
             }
         }

@@ -28,6 +28,7 @@ impl Emission<'_> {
             ),
         };
         let between = self.spring_dampers(strips, &known);
+        let lines_between = self.translational_spring_dampers(strips, &known);
         let with_fields = [self.bodies(strips, &known), self.properties(strips, &known)];
         let (tables, fields): (Vec<_>, Vec<_>) = with_fields.into_iter().flatten().unzip();
         let fields = fields.into_iter().chain(self.stored_values(&known));
@@ -37,7 +38,7 @@ impl Emission<'_> {
             #(#tables)*
             #(#lines)*
             Self {
-                tree: #runtime::tree::Tree::#tree #between,
+                tree: #runtime::tree::Tree::#tree #between #lines_between,
                 #(#fields),*
             }
         }

@@ -13,19 +13,41 @@ use super::symmetric::Rotation;
 use crate::scene::{Coordinate, CoordinateKind, DescribedChordSpring, LinkId};
 
 impl Derivation<'_> {
-    /// Γ of the sector of a coordinate, zero where no springs are between its links.
-    pub(super) fn chord(&mut self, coordinate: &Coordinate) -> Formula {
+    /// What gravity and the springs have in the sector of a coordinate: one symbol Λ for G + Γ, with
+    /// which the energy transfer is as long as without springs, and the sum. G where no springs are.
+    pub(super) fn restoring(&mut self, coordinate: &Coordinate, gravity: Formula) -> [Formula; 2] {
+        let Some(own) = self.chord(coordinate) else {
+            return [gravity.clone(), gravity];
+        };
+        let sum = &gravity + &self.chord_of(&own);
+        if gravity.is_zero() {
+            return [sum.clone(), sum];
+        }
+        let group = &self.scene.groups[own.group];
+        let meaning = format!(
+            "gravity's G and Γ of the straight springs of `{}`, together",
+            group.name
+        );
+        let known = self.constants.iter();
+        let known: Vec<_> = known.map(|(&id, own)| (id, own.value.clone())).collect();
+        let value = sum.substitute(&known);
+        [
+            self.lettered(letters::RESTORING, &[&group.name], &meaning, value),
+            sum,
+        ]
+    }
+
+    /// The springs in the sector of a coordinate, if any are between its links.
+    fn chord(&self, coordinate: &Coordinate) -> Option<DescribedChordSpring> {
         let CoordinateKind::Difference { group, .. } = coordinate.kind else {
-            return Formula::zero();
+            return None;
         };
         // Links below the copies have coordinates in the same sector.
         let copies = &self.scene.groups[group].copies;
         let mut links = coordinate.weights.iter();
-        if links.any(|(link, _)| !copies.contains(link)) {
-            return Formula::zero();
-        }
-        let own = self.chords.iter().find(|own| own.group == group).cloned();
-        own.map_or_else(Formula::zero, |own| self.chord_of(&own))
+        let are_copies = links.all(|(link, _)| copies.contains(link));
+        let own = self.chords.iter().find(|own| own.group == group);
+        own.filter(|_| are_copies).cloned()
     }
 
     fn chord_of(&mut self, own: &DescribedChordSpring) -> Formula {

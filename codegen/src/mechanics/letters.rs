@@ -44,6 +44,7 @@ pub(super) const PEG_X: Letter = letter("peg_x", "X", "X", "m");
 pub(super) const PEG_Y: Letter = letter("peg_y", "Y", "Y", "m");
 pub(super) const STRAIGHT_SPRING: Letter = letter("straight_spring", "K", "K", "N/m");
 pub(super) const CHORD: Letter = letter("chord", "Γ", "\\Gamma", "J");
+pub(super) const RESTORING: Letter = letter("restoring", "Λ", "\\Lambda", "J");
 pub(super) const REST_LENGTH: Letter = letter("rest_length", "L", "L", "m");
 pub(super) const STRAIGHT_FRICTION: Letter = letter("straight_friction", "γ", "\\gamma", "N s/m");
 

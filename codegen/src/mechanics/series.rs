@@ -144,6 +144,7 @@ impl Derivation<'_> {
             let mine = energy.kinetic.derivative(frame.momenta[s]);
             let excess = &Formula::symbol(frame.velocities[s]) - &mine;
             exchange.push(&slope * &excess);
+            let slope = self.partial(&energy.potential_apart, frame.coordinates[s]);
             potential.push(&mine * &(&slope - &potential_gradient[s]));
         }
         let drive = &velocity * &kinetic_gradient[own];

@@ -15,7 +15,10 @@ pub(super) struct SubHamiltonian {
     /// Index of the difference among the coordinates.
     pub(super) coordinate: usize,
     pub(super) kinetic: Formula,
+    /// V in Λ = G + Γ.
     pub(super) potential: Formula,
+    /// V in G and Γ, which have parts of their own in U.
+    pub(super) potential_apart: Formula,
 }
 
 impl Derivation<'_> {
@@ -24,7 +27,7 @@ impl Derivation<'_> {
     /// V = G/(2n) |Σ_j w_j e^{iθ_j}|² with the weights w of the difference
     /// and n = Σ w². For a pair, T = p_d²/(4M) and V = G sin²θ_d. A torsion
     /// spring in the pivots adds its own ½ κ n θ_d². Straight springs between the copies add
-    /// their Γ to G.
+    /// their Γ to G, together Λ.
     pub(super) fn sub_hamiltonian(
         &mut self,
         frame: &DerivedFrame,
@@ -53,19 +56,22 @@ impl Derivation<'_> {
         let modulus = &square(cosines) + &square(sines);
         let reduced = self.reduce(&modulus, frame, &expansion.differences);
         let modulus = if reduced.is_term() { reduced } else { modulus };
-        let weight = &self.gravity_of(orbit) + &self.chord(&coordinates[coordinate]);
-        let weight = &weight / &Formula::integer(2 * norm);
-        let gravity = &weight * &modulus;
+        let gravity = self.gravity_of(orbit);
+        let weights = self.restoring(&coordinates[coordinate], gravity);
         // Differences are orthogonal: no spring couples two of them.
         let angle = frame.coordinates[coordinate];
         let stiffness = self.partial(&self.partial(&frame.springs, angle), angle);
         let half = Formula::integer(2).pow(-1);
         let spring = &(&half * &stiffness) * &Formula::symbol(angle).pow(2);
-        let potential = &gravity + &spring;
+        let [potential, potential_apart] = weights.map(|weight| {
+            let weight = &weight / &Formula::integer(2 * norm);
+            &(&weight * &modulus) + &spring
+        });
         SubHamiltonian {
             coordinate,
             kinetic,
             potential,
+            potential_apart,
         }
     }
 
@@ -177,7 +183,7 @@ impl Derivation<'_> {
         let from_kinetic = self.poisson_bracket(&pairs, &whole, kinetic);
         let others = self.other_kinetic(frame, expansion, energy.coordinate);
         let from_others = self.poisson_bracket(&pairs, &whole, &others);
-        let rest = (&frame.potential - &energy.potential).expand();
+        let rest = (&frame.potential - &energy.potential_apart).expand();
         let from_potential = self.poisson_bracket(&pairs, &energy.kinetic, &rest);
         let mut cut = |formula: Formula| -> Formula {
             let parts = self.orders(&formula, &pairs, counting, order);
@@ -228,6 +234,7 @@ impl Derivation<'_> {
             let excess = &Formula::symbol(frame.velocities[s]) - &velocity;
             kinetic.push(&slope * &excess);
             kinetic.push(&velocity * &kinetic_gradient[s]);
+            let slope = self.partial(&energy.potential_apart, q);
             potential.push(&velocity * &(&slope - &potential_gradient[s]));
         }
         let short = |terms: Vec<Formula>| {

@@ -54,7 +54,10 @@ pub use count::Operations;
 pub use entry::Entry;
 pub use fuse::FusedSum;
 pub use interpret::Interpreter;
-pub use link::{Column, LINK_MOTION, LoopTree, SpringDamperConstants, StripConstants};
+pub use link::{
+    Column, LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree, SpringDamperConstants,
+    StripConstants,
+};
 pub use operation::{Definition, Op, ValueId};
 pub use pass::Pass;
 use passes::PASSES;

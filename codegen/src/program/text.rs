@@ -55,6 +55,15 @@ fn write_spring_dampers(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::R
             writeln!(f, "  {count} from {a}, {b}")?;
         }
     }
+    for own in &strips.lines {
+        let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
+        let constants: Vec<String> = constants.collect();
+        writeln!(f, "line of {}: {}", own.what, constants.join(", "))?;
+        for (links, count) in &own.runs {
+            let links: Vec<String> = links.iter().map(ToString::to_string).collect();
+            writeln!(f, "  {count} from {}", links.join(", "))?;
+        }
+    }
     Ok(())
 }
 

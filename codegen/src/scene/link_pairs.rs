@@ -70,10 +70,11 @@ impl Scene {
         pairs.collect()
     }
 
-    /// Returns true if something acts between links that are not parent and child.
+    /// Returns true if something acts between links that are not parent and child, or along a line.
     pub fn is_coupled(&self) -> bool {
         let mut spring_dampers = self.spring_dampers.iter();
-        spring_dampers.any(|own| !self.pair_runs(&own.ends).is_empty())
+        let between = spring_dampers.any(|own| !self.pair_runs(&own.ends).is_empty());
+        between || !self.translational.is_empty()
     }
 
     /// The pairs of links that one acts between; none of copies that one link stands for.

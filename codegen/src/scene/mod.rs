@@ -73,7 +73,7 @@ pub use resolve::resolve;
 pub use run_time::resolve_at_run_time;
 pub use sectors::{SectorVariables, sectors};
 pub use spring_dampers::DescribedSpringDamper;
-pub use translational::{DescribedTranslationalSpringDamper, LineEnds, SpringLine};
+pub use translational::{DescribedTranslationalSpringDamper, LineEnds, SpringLine, SpringLineRun};
 pub use transverse::TransverseCopies;
 pub use unequal::UnequalNode;
 

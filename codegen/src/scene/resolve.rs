@@ -28,7 +28,7 @@ use std::collections::BTreeMap;
 pub fn resolve(description: &Description, report: &mut Faults) -> Option<Scene> {
     let scene = resolve_scene(description, report)?;
     check_coupling(description, &scene, report);
-    check_straight_in_loops(description, &scene, report);
+    check_straight_by_scale(description, &scene, report);
     report.is_empty().then_some(scene)
 }
 
@@ -210,13 +210,13 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
         return;
     }
     let refused = refused.iter().find(|(is_wanted, _)| *is_wanted);
-    // In loops there are no groups, and lines are refused.
+    // Loops have budgets by scale alone, and no groups.
     let other = match (refused, scene.in_loops()) {
         (Some(_), false) => scene.chord_springs(&scene.groups).err(),
         _ => None,
     };
     let other = other.unwrap_or_default();
-    let lines = scene.lines();
+    let runs = scene.line_runs();
     for (index, (clause, own)) in clauses.into_iter().zip(&scene.translational).enumerate() {
         let span = clause.name.span();
         if let (Some((_, request)), Some(&cause)) = (refused, other.get(&index)) {
@@ -228,7 +228,8 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
             };
             report.error(span, message);
         }
-        let mut lines = lines.iter().filter(|line| line.spring_damper == index);
+        let lines = runs.iter().map(|run| &run.first);
+        let mut lines = lines.filter(|line| line.spring_damper == index);
         if lines.any(SpringLine::is_rigid) {
             let what = own.what.clone();
             report.error(span, TreeMessage::RigidLine { what });
@@ -236,13 +237,14 @@ fn check_straight(description: &Description, scene: &Scene, report: &mut Faults)
     }
 }
 
-/// Reports straight springs in loops.
-fn check_straight_in_loops(description: &Description, scene: &Scene, report: &mut Faults) {
+/// Reports straight springs beside a budget by scale.
+fn check_straight_by_scale(description: &Description, scene: &Scene, report: &mut Faults) {
     let mut clauses = description.spring_dampers.iter();
     let clause = clauses.find(|own| own.is_straight());
-    if let (Some(clause), Some(own), true) = (clause, scene.translational.first(), scene.in_loops())
+    if let (Some(clause), Some(own), true) =
+        (clause, scene.translational.first(), scene.requests.scales())
     {
-        let message = OutputMessage::StraightSpringInLoops {
+        let message = OutputMessage::StraightSpringByScale {
             line: own.in_words(),
             noun: own.noun(),
         };

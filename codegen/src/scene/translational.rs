@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::link_pairs::SpringDamperEnds;
+use super::link_pairs::{PairRun, SpringDamperEnds};
 use super::{DescribedLinePotential, Layout, Link, LinkId, Offset, Quantity, Scene};
 
 /// What stores energy by the length of the line between two points, and a viscous damper along it.
@@ -68,6 +68,30 @@ pub struct SpringLine {
     pub offset: [Quantity; 2],
 }
 
+/// Lines of the same constants side by side, as [`PairRun`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpringLineRun {
+    /// The first line.
+    pub first: SpringLine,
+    /// Number of lines, each with the links behind those of the one before.
+    pub count: usize,
+}
+
+impl SpringLineRun {
+    /// All lines.
+    fn lines(self) -> impl Iterator<Item = SpringLine> {
+        let Self { first, count } = self;
+        (0..count).map(move |place| {
+            let mut own = first.clone();
+            let arms = own.arms.iter_mut().map(|(link, _)| link);
+            for LinkId(link) in own.links.iter_mut().chain(arms) {
+                *link += place;
+            }
+            own
+        })
+    }
+}
+
 impl SpringLine {
     /// Returns true if no angle changes the length: of less than two parts that turn by
     /// themselves.
@@ -89,34 +113,51 @@ struct Step<'s> {
 impl Scene {
     /// The lines of all straight springs, whose links are those of the whole tree.
     pub fn lines(&self) -> Vec<SpringLine> {
-        let mut lines = Vec::new();
+        let runs = self.line_runs().into_iter();
+        runs.flat_map(SpringLineRun::lines).collect()
+    }
+
+    /// The same in runs. Copies of a rule share their pivot: a line between them has no arms of
+    /// other links.
+    pub fn line_runs(&self) -> Vec<SpringLineRun> {
+        let mut runs = Vec::new();
         for (spring_damper, own) in self.translational.iter().enumerate() {
             match &own.ends {
                 LineEnds::Links(ends, [first, second]) => {
                     let pairs = self.pair_runs(ends).into_iter();
-                    let pairs = pairs.flat_map(|run| run.pairs());
-                    lines.extend(pairs.map(|[a, b]| SpringLine {
-                        spring_damper,
-                        links: vec![LinkId(a), LinkId(b)],
-                        arms: self.arms((a, first), Some((b, second))),
-                        offset: [Quantity::zero(), Quantity::zero()],
-                    }));
-                }
-                LineEnds::Guy(LinkId(link), at, [x, y]) => lines.push(SpringLine {
-                    spring_damper,
-                    links: vec![LinkId(*link)],
-                    arms: self.arms((*link, at), None),
-                    offset: [
-                        x.clone(),
-                        match self.stands() {
-                            true => y.clone().negative(),
-                            false => y.clone(),
+                    runs.extend(pairs.map(
+                        |PairRun {
+                             first: [a, b],
+                             count,
+                         }| SpringLineRun {
+                            first: SpringLine {
+                                spring_damper,
+                                links: vec![LinkId(a), LinkId(b)],
+                                arms: self.arms((a, first), Some((b, second))),
+                                offset: [Quantity::zero(), Quantity::zero()],
+                            },
+                            count,
                         },
-                    ],
+                    ));
+                }
+                LineEnds::Guy(LinkId(link), at, [x, y]) => runs.push(SpringLineRun {
+                    first: SpringLine {
+                        spring_damper,
+                        links: vec![LinkId(*link)],
+                        arms: self.arms((*link, at), None),
+                        offset: [
+                            x.clone(),
+                            match self.stands() {
+                                true => y.clone().negative(),
+                                false => y.clone(),
+                            },
+                        ],
+                    },
+                    count: 1,
                 }),
             }
         }
-        lines
+        runs
     }
 
     /// A link of the whole tree, and the index of its parent there. Copy c under link i of a

@@ -1,4 +1,5 @@
-//! Accelerations with springs and friction between links that are not parent and child.
+//! Accelerations with springs and friction between links that are not parent and child, and to the
+//! ground.
 //!
 //! Angles and rates give their torques before the recursion, which takes them and those from
 //! outside alike.
@@ -8,11 +9,13 @@ use super::memory::take;
 use super::small::LinkStates;
 use super::states::{self, ActingOnStates};
 use super::{LinkEquations, RootDrive, Tree, sweep};
-use crate::scalar::Scalar;
 use crate::scalar::kind::compiled;
-use crate::simd::Simd;
+use crate::scalar::{Scalar, at};
+use crate::simd::dispatch::in_fused_numbers;
+use crate::simd::{Kernel, Simd, one_slice, one_slice_mut};
 use crate::spring_dampers::SpringDampers;
 use crate::system::Workspace;
+use crate::translational::TranslationalSpringDampers;
 
 impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// Returns the tree with springs and friction between its links, whose equations say that
@@ -29,6 +32,52 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     #[must_use]
     pub fn spring_dampers(&self) -> &SpringDampers<T> {
         &self.spring_dampers
+    }
+
+    /// Returns the tree with springs and dampers along lines between points, likewise. Budgets by
+    /// scale know none of them.
+    #[must_use]
+    pub fn with_translational_spring_dampers(
+        mut self,
+        translational: TranslationalSpringDampers<T>,
+    ) -> Self {
+        const { assert!(E::COUPLED && E::FORCED) };
+        self.translational = translational;
+        self
+    }
+
+    /// Returns what acts along lines between points of links, and to the ground.
+    #[must_use]
+    pub fn translational_spring_dampers(&self) -> &TranslationalSpringDampers<T> {
+        &self.translational
+    }
+
+    /// Writes all torques on the links: those from `outside`, where there are any, and those
+    /// between links, with lines in the arithmetic of `T`.
+    #[inline(always)]
+    pub(super) fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
+        self.spring_dampers.write_torques(outside, given, torques);
+        if !self.translational.is_empty() {
+            self.translational.add_torques(given, torques);
+        }
+    }
+
+    /// Writes them with lines in fused arithmetic where the machine has it, as registers of states
+    /// have them.
+    pub(super) fn write_torques_fused(
+        &self,
+        outside: Option<&[T]>,
+        given: [&[T]; 2],
+        torques: &mut [T],
+    ) {
+        self.spring_dampers.write_torques(outside, given, torques);
+        if !self.translational.is_empty() {
+            in_fused_numbers(LineTorques {
+                lines: &self.translational,
+                given,
+                torques,
+            });
+        }
     }
 
     /// Writes the accelerations under all that acts.
@@ -48,8 +97,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             torques: outside,
         } = given;
         let (torques, workspace) = workspace.with_inner(self.skeleton.plan.links());
-        self.spring_dampers
-            .write_torques(outside, [theta, omega], torques);
+        self.write_torques_fused(outside, [theta, omega], torques);
         let torques = Some(&*torques);
         let given = LinkStates { torques, ..given };
         self.accelerate_as_given(workspace, drive, given, None, alpha);
@@ -100,10 +148,39 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             }
             self.spring_dampers
                 .add_torques_in_registers(&theta, &omega, all);
+            if !self.translational.is_empty() {
+                self.translational
+                    .add_torques_in_registers(&theta, &omega, all);
+            }
             torques = all;
         }
         let acting = ActingOnStates { drive, torques };
         let tree = &self.skeleton;
         states::accelerations::<E, T, V>(tree, acting, room, theta, omega, outside, alpha);
+    }
+}
+
+/// The torques by what acts along lines, added in numbers of one lane.
+struct LineTorques<'a, T> {
+    lines: &'a TranslationalSpringDampers<T>,
+    given: [&'a [T]; 2],
+    torques: &'a mut [T],
+}
+
+impl<T: Scalar> Kernel<T> for LineTorques<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Simd<T>>(self) {
+        let [theta, omega] = self.given.map(one_slice::<T, V>);
+        let torques = one_slice_mut::<T, V>(self.torques);
+        let (Some(theta), Some(omega), Some(torques)) = (theta, omega, torques) else {
+            return;
+        };
+        self.lines.add_torques_in_registers(
+            |link| at(theta, link),
+            |link| at(omega, link),
+            torques,
+        );
     }
 }

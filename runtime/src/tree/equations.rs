@@ -90,8 +90,9 @@ pub trait LinkEquations: Copy + Send + Sync + 'static {
     const FORCED: bool = false;
 
     /// Springs and friction act between links that are not parent and child
-    /// ([`Tree::with_spring_dampers`](super::Tree::with_spring_dampers)). The functions read
-    /// torques from outside then.
+    /// ([`Tree::with_spring_dampers`](super::Tree::with_spring_dampers)), or along lines
+    /// ([`Tree::with_translational_spring_dampers`](super::Tree::with_translational_spring_dampers)).
+    /// The functions read torques from outside then.
     const COUPLED: bool = false;
 
     /// The functions read [`held`](LinkMotion::held): links may have given accelerations,

@@ -34,7 +34,10 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         let (outside, workspace) = workspace.with_inner(Self::OUTSIDE * links);
         let (all, outside) = outside.split_at_mut((Self::OUTSIDE - 2) * links);
         let (given, held) = outside.split_at_mut(links);
-        let motion = self.with_torques_between(motion, all);
+        if E::COUPLED {
+            self.write_torques_fused(Some(motion.torques), [motion.theta, motion.omega], all);
+        }
+        let motion = Self::under_all(motion, all);
         hold(held_links, &motion, given, held);
         let states = LinkStates {
             theta: motion.theta,
@@ -64,7 +67,10 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         let mut outside = alloc::vec![zero; Self::OUTSIDE * links];
         let (all, outside) = outside.split_at_mut((Self::OUTSIDE - 2) * links);
         let (given, held) = outside.split_at_mut(links);
-        let motion = self.with_torques_between(motion, all);
+        if E::COUPLED {
+            self.write_torques(Some(motion.torques), [motion.theta, motion.omega], all);
+        }
+        let motion = Self::under_all(motion, all);
         hold(held_links, &motion, given, held);
         let mut room = alloc::vec![zero; self.room()];
         let torques = &[];
@@ -83,26 +89,9 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     /// Returns the motion under all that acts, where torques act between links: then these and
     /// those from outside are in `all`.
     #[inline(always)]
-    fn with_torques_between<'a>(
-        &self,
-        motion: PrescribedMotion<'a, T>,
-        all: &'a mut [T],
-    ) -> PrescribedMotion<'a, T> {
-        if !E::COUPLED {
-            return motion;
-        }
-        let PrescribedMotion {
-            theta,
-            omega,
-            torques,
-            ..
-        } = motion;
-        self.spring_dampers
-            .write_torques(Some(torques), [theta, omega], all);
-        PrescribedMotion {
-            torques: all,
-            ..motion
-        }
+    fn under_all<'a>(motion: PrescribedMotion<'a, T>, all: &'a [T]) -> PrescribedMotion<'a, T> {
+        let torques = if E::COUPLED { all } else { motion.torques };
+        PrescribedMotion { torques, ..motion }
     }
 
     /// Returns the links of a set, of which there are some, if all lengths fit.

@@ -78,6 +78,7 @@ use crate::simd::{Part, Simd, outlined, wide_slice};
 use crate::spring_dampers::SpringDampers;
 use crate::system::pendulum::put;
 use crate::system::{InRegisters, Workspace};
+use crate::translational::TranslationalSpringDampers;
 use copies::links;
 use memory::Sizes;
 use partition::Policy;
@@ -92,8 +93,10 @@ pub const THREADED: usize = 1 << 17;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree<E, T> {
     skeleton: Skeleton<T>,
-    /// What acts between links that are not parent and child.
+    /// What acts on the difference of two links' angles, of links that are not parent and child.
     spring_dampers: SpringDampers<T>,
+    /// What acts along lines between points of links, and to the ground.
+    translational: TranslationalSpringDampers<T>,
     equations: PhantomData<E>,
 }
 
@@ -115,11 +118,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             true => threads::default(links(Self::COPIES)),
             false => 1,
         };
-        Self {
-            skeleton: skeleton(Self::COPIES, Self::SIZES, rows, root, threads),
-            spring_dampers: SpringDampers::default(),
-            equations: PhantomData,
-        }
+        Self::of_skeleton(skeleton(Self::COPIES, Self::SIZES, rows, root, threads))
     }
 
     /// A tree of any shape, with the parent of each link, which stands before it (the
@@ -130,9 +129,17 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     #[must_use]
     pub fn with_parents(parents: &[u32], rows: &[T], root: [T; 2]) -> Self {
         let skeleton = compiled::<ByLink, T>();
+        let sizes = Self::SIZES.of_links(parents.len());
+        Self::of_skeleton(skeleton(parents, sizes, rows, root))
+    }
+
+    /// A tree between whose links nothing acts.
+    fn of_skeleton(skeleton: Skeleton<T>) -> Self {
+        let links = skeleton.plan.links();
         Self {
-            skeleton: skeleton(parents, Self::SIZES.of_links(parents.len()), rows, root),
-            spring_dampers: SpringDampers::default(),
+            skeleton,
+            spring_dampers: SpringDampers::of_runs(links, None).unwrap_or_default(),
+            translational: TranslationalSpringDampers::default(),
             equations: PhantomData,
         }
     }
@@ -198,7 +205,8 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
     pub fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Tree<E, S> {
         Tree {
             skeleton: self.skeleton.cast(&convert),
-            spring_dampers: self.spring_dampers.cast(convert),
+            spring_dampers: self.spring_dampers.cast(&convert),
+            translational: self.translational.cast(convert),
             equations: PhantomData,
         }
     }

@@ -74,6 +74,78 @@ impl SpringDamperConstants {
     }
 }
 
+/// Lines between points that have the same constants.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LineConstants {
+    /// The clause in words, as in `siblings(arm)`.
+    pub what: String,
+    /// Runs of lines: the links of the arms of the first line, and the number of lines, each with
+    /// the links behind those of the one before.
+    pub runs: Vec<(Vec<usize>, usize)>,
+    /// Components of the arms along and across their links.
+    pub arms: Vec<[ConstantId; 2]>,
+    /// The part that no angle turns.
+    pub offset: [ConstantId; 2],
+    /// Terms of the energy.
+    pub potentials: Vec<LinePotentialConstants>,
+    /// Viscous friction, if there is some.
+    pub friction: Option<ConstantId>,
+}
+
+/// A term of the energy that a line stores.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinePotentialConstants {
+    /// A spring.
+    Spring {
+        /// Stiffness.
+        stiffness: ConstantId,
+        /// Length at rest, unless that is zero.
+        rest: Option<ConstantId>,
+    },
+    /// A force by a power of the distance.
+    InversePower {
+        /// Strength.
+        strength: ConstantId,
+        /// Exponent.
+        exponent: u32,
+    },
+}
+
+impl LineConstants {
+    /// Returns true if other lines of the same clause have the same constants.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let Self {
+            what,
+            runs: _,
+            arms,
+            offset,
+            potentials,
+            friction,
+        } = self;
+        (what, arms) == (&other.what, &other.arms)
+            && (offset, potentials) == (&other.offset, &other.potentials)
+            && *friction == other.friction
+    }
+
+    /// All constants that it holds, with words for them.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, ConstantId)> {
+        let arms = self.arms.iter();
+        let arms = arms.flat_map(|&[along, across]| [("along", along), ("across", across)]);
+        let [x, y] = self.offset;
+        let potentials = self.potentials.iter().flat_map(|own| match *own {
+            LinePotentialConstants::Spring { stiffness, rest } => {
+                [Some(("spring", stiffness)), rest.map(|rest| ("rest", rest))]
+            }
+            LinePotentialConstants::InversePower { strength, .. } => {
+                [Some(("repulsion", strength)), None]
+            }
+        });
+        let friction = self.friction.map(|friction| ("friction", friction));
+        let own = potentials.flatten().chain(friction);
+        arms.chain([("x", x), ("y", y)]).chain(own)
+    }
+}
+
 /// A tree in loops.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LoopTree {
@@ -85,12 +157,14 @@ pub struct LoopTree {
     pub strips: Vec<StripConstants>,
     /// Springs and friction between links that are not parent and child.
     pub spring_dampers: Vec<SpringDamperConstants>,
+    /// What acts along lines between points.
+    pub lines: Vec<LineConstants>,
     /// True if children of one link hang at several places.
     pub has_several_places: bool,
     /// True if joints have torques.
     pub has_joint_torques: bool,
-    /// True if torques act on the links that are not of their joints: from outside, or between
-    /// links that are not parent and child.
+    /// True if torques act on the links that are not of their joints: from outside, between links
+    /// that are not parent and child, or along lines.
     pub has_outside_torques: bool,
     /// True if links may be held, with accelerations that are given.
     pub has_held_links: bool,
@@ -103,7 +177,14 @@ impl LoopTree {
     pub fn all_constants(&self) -> impl Iterator<Item = ConstantId> {
         let rows = self.strips.iter().flat_map(StripConstants::all_constants);
         let between = self.spring_dampers.iter();
-        rows.chain(between.flat_map(|own| own.named().map(|(_, id)| id)))
+        let between = between.flat_map(SpringDamperConstants::named);
+        let between = between.chain(self.lines.iter().flat_map(LineConstants::named));
+        rows.chain(between.map(|(_, id)| id))
+    }
+
+    /// Returns true if something acts between links that are not parent and child, or along a line.
+    pub fn is_coupled(&self) -> bool {
+        !(self.spring_dampers.is_empty() && self.lines.is_empty())
     }
 
     /// Number of elements of an argument of the link functions.

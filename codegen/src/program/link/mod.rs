@@ -15,6 +15,7 @@ mod equations;
 mod functions;
 mod held;
 mod known;
+mod lines;
 mod loop_tree;
 mod quantities;
 mod reduced_units;
@@ -26,7 +27,10 @@ mod torques;
 mod tree;
 
 pub use columns::Column;
-pub use loop_tree::{LINK_MOTION, LoopTree, SpringDamperConstants, StripConstants};
+pub use loop_tree::{
+    LINK_MOTION, LineConstants, LinePotentialConstants, LoopTree, SpringDamperConstants,
+    StripConstants,
+};
 
 use crate::scene::{Layout, LinkId, Scene};
 

@@ -270,12 +270,14 @@ impl Lowering<'_> {
             });
         }
         let spring_dampers = self.spring_damper_constants(scene);
+        let lines = self.line_constants(scene);
         let drive = scene.drive.as_ref();
         LoopTree {
             columns,
             body_columns,
             strips,
             spring_dampers,
+            lines,
             has_several_places: table.has_several_places,
             has_joint_torques: any(|link| link.passive.has_joint_torque()),
             has_outside_torques: super::has_outside_torques(scene),

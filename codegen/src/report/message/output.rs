@@ -57,12 +57,13 @@ messages! {
              spring without `at`, or hand over the {noun}'s forces by `emit(positions, forces)`"
         ),
     ),
-    /// A straight spring in loops.
-    StraightSpringInLoops { line: String, noun: &'static str } => (
-        format!("the {line} in a tree that is taken through loops"),
-        "loops know no points of other links",
+    /// A budget by scale beside a straight spring.
+    StraightSpringByScale { line: String, noun: &'static str } => (
+        format!("`budget(scales)` beside the {line}"),
+        "a length depends on several scales",
         format!(
-            "write `code = unrolled`, or hand over the {noun}'s forces by `emit(positions, forces)`"
+            "leave `scales` out, write a torsion spring between siblings, without `at`, or hand \
+             over the {noun}'s forces by `emit(positions, forces)`"
         ),
     ),
     /// A form of the budget beside `scales` that loops do not have.

@@ -3,14 +3,11 @@
 
 use alloc::vec::Vec;
 
-use core::marker::PhantomData;
-
 use super::super::memory::Sizes;
 use super::super::skeleton::Skeleton;
 use super::super::{LinkEquations, LinkMotion, Tree};
 use super::numbers;
 use crate::scalar::Scalar;
-use crate::spring_dampers::SpringDampers;
 
 /// Copies of each generation, of trees that one set of compiled equations serves: those that
 /// it is compiled for come last. Numbers of siblings below, at and above the lanes of every
@@ -308,11 +305,13 @@ pub(super) fn by_generation<T: Scalar, const PLACE: usize>(
     });
     let root = GRAVITY.map(T::from_f64);
     let sizes = Sizes::of::<CommonPivot<PLACE>, T>();
-    Tree {
-        skeleton: Skeleton::by_generation(copies, sizes, rows.collect(), root, 1),
-        spring_dampers: SpringDampers::default(),
-        equations: PhantomData,
-    }
+    Tree::of_skeleton(Skeleton::by_generation(
+        copies,
+        sizes,
+        rows.collect(),
+        root,
+        1,
+    ))
 }
 
 /// The links of a rule one by one: their parents and bodies.

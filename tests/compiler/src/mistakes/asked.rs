@@ -309,8 +309,8 @@ pub(super) const MISTAKES: &[Mistake] = &[
     siblings(b, at = 1, repulsion = 1, exponent = 3), in_phase(b))] struct Pendulum;",
     ),
     (
-        "repulsions_in_loops",
-        "#[branched_pendulum(gravity = 1, code = loops,
+        "repulsions_by_scale",
+        "#[branched_pendulum(gravity = 1, emit(budget(parseval, scales)),
     a: generations(count = 3, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
     siblings(a_3, at = 1, repulsion = 1, exponent = 3))] struct Pendulum;",
     ),
@@ -345,8 +345,8 @@ pub(super) const MISTAKES: &[Mistake] = &[
     siblings(b, at = 1, spring = 1), in_phase(b))] struct Pendulum;",
     ),
     (
-        "straight_springs_in_loops",
-        "#[branched_pendulum(gravity = 1, code = loops,
+        "straight_springs_by_scale",
+        "#[branched_pendulum(gravity = 1, emit(budget(parseval, scales)),
     a: generations(count = 3, branching = 2, mass = 1, com = 1, inertia = 1, joint = 2),
     siblings(a_3, at = 1, spring = 1))] struct Pendulum;",
     ),

@@ -67,6 +67,30 @@ fn driven() {
     );
 }
 
+/// Lines between points: their constants, and the energy and the power of all.
+#[test]
+fn strung() {
+    let stages = stages_of(
+        "#[branched_pendulum(
+            gravity = 9.80665,
+            tree: generations(count = 3, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+                code = loops),
+            siblings(tree_3, at = (0.2, 0.01), spring = k, repulsion = 1e-4, exponent = 3),
+            between(tree_1, tree_3_1_2, at = each(0.2, 0.1), friction = c),
+            guy(tree_2_1, at = 0.1, to = (0.2, 0.1), spring = 2, rest = 0.1),
+            emit(energies, forces)
+        )] pub struct Sample;",
+    );
+    for name in [
+        "from_parameters_unchecked",
+        "potential_energy_with",
+        "friction_power",
+    ] {
+        let snapshot = format!("strung_loops_code_{name}");
+        insta::assert_snapshot!(snapshot, function(&stages.tokens, name));
+    }
+}
+
 /// Links that may be held: one equation for those that are and those that are not.
 #[test]
 fn held() {

@@ -104,6 +104,36 @@ struct Siblings;
 )]
 struct Guyed;
 
+/// Lines between points of siblings in the same generations, of cousins, and to the ground.
+#[branched_pendulum(
+    gravity = 9.80665,
+    tree: generations(count = 9, branching = 2, shape = rod, mass = 0.12, length = 0.3,
+        mass_ratio = 0.5, length_ratio = 0.8),
+    siblings(tree_9, at = 0.02, spring = 1e-2, rest = 0.01, friction = 1e-5),
+    siblings(tree_2, at = (0.2, 0.01), spring = 2, repulsion = 1e-3, exponent = 3),
+    between(tree_3_1_1, tree_4_2_1_2, at = each(0.1, 0.2), spring = 1, rest = 0.2, friction = 1e-3),
+    guy(tree_2_2, at = 0.2, to = (0.3, 0.2), spring = 3, rest = 0.1),
+)]
+struct Strung;
+
+/// The same in a table.
+#[branched_pendulum(
+    gravity = 9.80665,
+    code = loops,
+    trunk(mass = 0.2, com = -0.03, inertia = 1e-3, joint = -0.2, friction = 1e-4) [
+        arm: rod(mass = 0.1, length = 0.25, spring = 0.01) [
+            hand(mass = 0.04, com = 0.1, inertia = 1e-4, drag = 2e-4),
+            fork: generations(count = 3, branching = 2, shape = rod, mass = 0.02, length = 0.1,
+                length_ratio = 0.8),
+        ] * 3,
+        tail: point(mass = 0.03, length = 0.3),
+    ],
+    siblings(arm, at = 0.2, spring = 3, rest = 0.1, friction = 1e-2),
+    between(tail, hand_2, at = each(0.3, 0.1), repulsion = 1e-3, exponent = 2),
+    guy(tail, at = 0.1, to = (0.3, -0.2), spring = 3),
+)]
+struct Moored;
+
 /// Time at which driven trees are evaluated.
 const TIME: f64 = 0.7;
 
@@ -196,12 +226,13 @@ macro_rules! batches_agree {
 
 #[test]
 fn batches_of_generations_have_the_bits_of_single_states() {
-    batches_agree!(Binary, Deep, Ternary, Star, Chain, Siblings; f32 Deep, Ternary, Siblings);
+    batches_agree!(Binary, Deep, Ternary, Star, Chain, Siblings, Strung;
+        f32 Deep, Ternary, Siblings, Strung);
 }
 
 #[test]
 fn batches_of_tables_have_the_bits_of_single_states() {
-    batches_agree!(Bush, Sprung, Guyed; f32 Bush, Sprung, Guyed);
+    batches_agree!(Bush, Sprung, Guyed, Moored; f32 Bush, Sprung, Guyed, Moored);
 }
 
 /// Trajectories in lanes end where the plain method does, but for rounding, and where

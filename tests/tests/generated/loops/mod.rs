@@ -7,6 +7,7 @@ mod driven;
 mod friction;
 mod offsets;
 mod places;
+mod straight;
 
 use branched_pendulum::prelude::*;
 use branched_pendulum_codegen::scene::Scene;
