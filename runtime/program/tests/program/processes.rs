@@ -29,7 +29,7 @@ const fn subcommand(name: &'static str, arguments: &'static [&'static str]) -> S
 const SUBCOMMANDS: [Subcommand; 8] = [
     subcommand("simulate", &["--start", "40", "--duration", "4"]),
     subcommand("cascade", &["--onset", "1"]),
-    subcommand("transfer", &["--start", "40", "--duration", "4"]),
+    subcommand("transfer", &["--start", "40,30,10", "--duration", "4"]),
     subcommand("describe", &["--tree", "y"]),
     subcommand("modes", &["--tree", "triple"]),
     subcommand("methods", &["--start", "40", "--duration", "1"]),
