@@ -138,6 +138,13 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
         self.runs.is_empty()
     }
 
+    /// Returns true if there is none in a tree of so many links, whose torques stay as they are.
+    /// Those of another number of links make them NaN.
+    #[inline(always)]
+    pub(crate) fn is_empty_on(&self, links: usize) -> bool {
+        self.runs.is_empty() && self.links == links
+    }
+
     /// Returns them one by one.
     pub fn iter(&self) -> impl Iterator<Item = TranslationalSpringDamper<T>> {
         let runs = self.runs.iter();

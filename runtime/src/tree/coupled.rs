@@ -52,12 +52,19 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         &self.translational
     }
 
+    /// Returns true if something acts along lines; also if that is of another number of links, which
+    /// makes the accelerations NaN.
+    #[inline(always)]
+    fn has_lines(&self) -> bool {
+        !self.translational.is_empty_on(self.skeleton.plan.links())
+    }
+
     /// Writes all torques on the links: those from `outside`, where there are any, and those
     /// between links, with lines in the arithmetic of `T`.
     #[inline(always)]
     pub(super) fn write_torques(&self, outside: Option<&[T]>, given: [&[T]; 2], torques: &mut [T]) {
         self.spring_dampers.write_torques(outside, given, torques);
-        if !self.translational.is_empty() {
+        if self.has_lines() {
             self.translational.add_torques(given, torques);
         }
     }
@@ -71,7 +78,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         torques: &mut [T],
     ) {
         self.spring_dampers.write_torques(outside, given, torques);
-        if !self.translational.is_empty() {
+        if self.has_lines() {
             in_fused_numbers(LineTorques {
                 lines: &self.translational,
                 given,
@@ -148,7 +155,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
             }
             self.spring_dampers
                 .add_torques_in_registers(&theta, &omega, all);
-            if !self.translational.is_empty() {
+            if self.has_lines() {
                 self.translational
                     .add_torques_in_registers(&theta, &omega, all);
             }
@@ -174,13 +181,14 @@ impl<T: Scalar> Kernel<T> for LineTorques<'_, T> {
     fn run<V: Simd<T>>(self) {
         let [theta, omega] = self.given.map(one_slice::<T, V>);
         let torques = one_slice_mut::<T, V>(self.torques);
-        let (Some(theta), Some(omega), Some(torques)) = (theta, omega, torques) else {
-            return;
-        };
-        self.lines.add_torques_in_registers(
-            |link| at(theta, link),
-            |link| at(omega, link),
-            torques,
-        );
+        match (theta, omega, torques) {
+            (Some(theta), Some(omega), Some(torques)) => self.lines.add_torques_in_registers(
+                |link| at(theta, link),
+                |link| at(omega, link),
+                torques,
+            ),
+            // Numbers of more than one lane, which none here is.
+            _ => self.lines.add_torques(self.given, self.torques),
+        }
     }
 }

@@ -139,7 +139,7 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
         Self {
             skeleton,
             spring_dampers: SpringDampers::of_runs(links, None).unwrap_or_default(),
-            translational: TranslationalSpringDampers::default(),
+            translational: TranslationalSpringDampers::of_runs(links, None).unwrap_or_default(),
             equations: PhantomData,
         }
     }
@@ -316,13 +316,13 @@ impl<E: LinkEquations, T: Scalar> Tree<E, T> {
 }
 
 /// Arguments of [`Tree::evaluate_apart`].
-type Apart<'a, T> = (Option<RootDrive<T>>, LinkStates<'a, T>, &'a mut [T]);
+type ApartArguments<'a, T> = (Option<RootDrive<T>>, LinkStates<'a, T>, &'a mut [T]);
 
-impl<E: LinkEquations, T: Scalar> Part<0, Apart<'_, T>> for Tree<E, T> {
+impl<E: LinkEquations, T: Scalar> Part<0, ApartArguments<'_, T>> for Tree<E, T> {
     type Output = ();
 
     #[inline(always)]
-    fn part(&self, (drive, given, alpha): Apart<'_, T>) {
+    fn part(&self, (drive, given, alpha): ApartArguments<'_, T>) {
         self.evaluate_given(drive, given, alpha);
     }
 }

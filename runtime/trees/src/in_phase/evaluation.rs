@@ -42,7 +42,7 @@ impl<T: Scalar> InPhaseTree<T> {
     #[inline(always)]
     fn accelerate<E: LinkEquations>(
         &self,
-        (room, time, [angles, velocities], alpha): Evaluation<'_, T>,
+        (room, time, [angles, velocities], alpha): FormArguments<'_, T>,
     ) {
         let merged = &self.structure.merged.links;
         let torques = match self.between.is_empty() {
@@ -110,18 +110,18 @@ impl<T: Scalar> InPhaseTree<T> {
 }
 
 /// Room, time, angles and velocities, and the accelerations of an evaluation.
-type Evaluation<'a, T> = (&'a mut [T], T, [&'a [T]; 2], &'a mut [T]);
+type FormArguments<'a, T> = (&'a mut [T], T, [&'a [T]; 2], &'a mut [T]);
 
 /// The forms as parts of an evaluation: each is long, and a tree has one of them.
 macro_rules! part {
     ($($number:ident = $value:literal: $equations:ident),*) => {$(
         const $number: usize = $value;
 
-        impl<T: Scalar> Part<$number, Evaluation<'_, T>> for InPhaseTree<T> {
+        impl<T: Scalar> Part<$number, FormArguments<'_, T>> for InPhaseTree<T> {
             type Output = ();
 
             #[inline(always)]
-            fn part(&self, evaluation: Evaluation<'_, T>) {
+            fn part(&self, evaluation: FormArguments<'_, T>) {
                 self.accelerate::<$equations>(evaluation);
             }
         }
