@@ -51,7 +51,7 @@ impl<T: Scalar> Courses<T> {
         })
     }
 
-    pub(crate) fn cast<S>(&self, convert: &impl Fn(T) -> S) -> Courses<S> {
+    pub(crate) fn cast<S>(&self, convert: &dyn Fn(T) -> S) -> Courses<S> {
         Courses {
             drive: self.drive.map(&|value| convert(*value)),
             stands: self.stands,

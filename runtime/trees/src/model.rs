@@ -25,7 +25,7 @@ impl<T: Scalar> Model<T> for PendulumTree<T> {
     }
 
     fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
-        self.on_scalar(convert)
+        self.on_scalar(&convert)
     }
 
     fn shape(&self) -> usize {
@@ -76,7 +76,7 @@ impl<T: Scalar> Computes<AccelerationsUnderTorques, T> for PendulumTree<T> {
     type On<S: Scalar> = PendulumTree<S>;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
-        self.on_scalar(convert)
+        self.on_scalar(&convert)
     }
 
     #[inline(always)]

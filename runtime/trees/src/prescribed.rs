@@ -35,7 +35,7 @@ impl<T: Scalar> HeldLinks<T> {
         })
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> HeldLinks<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> HeldLinks<S> {
         HeldLinks {
             sets: Arc::clone(&self.sets),
             tree: self.tree.cast(convert),
@@ -54,7 +54,7 @@ impl<T: Scalar> Computes<AccelerationsOfHeldLinks, T> for PendulumTree<T> {
     type On<S: Scalar> = PendulumTree<S>;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
-        self.on_scalar(convert)
+        self.on_scalar(&convert)
     }
 
     #[inline(always)]

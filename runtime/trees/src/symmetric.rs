@@ -267,7 +267,7 @@ impl<T: Scalar> Computes<SymmetricAccelerations, T> for PendulumTree<T> {
     type On<S: Scalar> = PendulumTree<S>;
 
     fn on<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
-        self.on_scalar(convert)
+        self.on_scalar(&convert)
     }
 
     #[inline(always)]

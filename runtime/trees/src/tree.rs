@@ -160,7 +160,7 @@ impl<T: Scalar> PendulumTree<T> {
             in_numbers(&rows::held(links, &carries))
         });
         let pairs = between.shape();
-        let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
+        let equations = Equations::new(form, &parents, rows, above, between.cast(&constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
         let held_sets: Vec<Vec<usize>> = scene
@@ -229,18 +229,19 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     /// Returns the tree on other scalars: `convert` should change the type of its
-    /// constants and not their value.
-    pub(crate) fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> PendulumTree<S> {
+    /// constants and not their value. It is no parameter of the type's, so that this is compiled
+    /// once for each scalar.
+    pub(crate) fn on_scalar<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> PendulumTree<S> {
         PendulumTree {
             described: Arc::clone(&self.described),
-            equations: self.equations.cast(&convert),
-            bodies: self.bodies.cast(&convert),
-            properties: self.properties.cast(&convert),
-            drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
-            rule: self.rule.as_ref().map(|rule| rule.cast(&convert)),
-            series: self.series.cast(&convert),
+            equations: self.equations.cast(convert),
+            bodies: self.bodies.cast(convert),
+            properties: self.properties.cast(convert),
+            drive: self.drive.as_ref().map(|drive| drive.cast(convert)),
+            rule: self.rule.as_ref().map(|rule| rule.cast(convert)),
+            series: self.series.cast(convert),
             #[cfg(feature = "strips")]
-            held: self.held.as_ref().map(|held| held.cast(&convert)),
+            held: self.held.as_ref().map(|held| held.cast(convert)),
         }
     }
 

@@ -3,13 +3,12 @@
 // The interface of a sealed trait names the type.
 #![allow(unreachable_pub)]
 
-use alloc::vec;
 use alloc::vec::Vec;
-use core::cell::Cell;
+use core::cell::{Cell, RefCell};
 
 use crate::integrate::error::InputError;
 use crate::integrate::registers::set_lane;
-use crate::scalar::{Lane, Scalar};
+use crate::scalar::Lane;
 use crate::simd::Simd;
 use crate::system::LaneOde;
 
@@ -30,11 +29,15 @@ pub struct Models<O: LaneOde<T>, T: Lane, R: Simd<T>> {
 impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
     /// Puts one system into every lane.
     pub(crate) fn splat(system: &O) -> Self {
-        let mut constants = vec![R::from_f64(0.0); count(system)];
-        let registers = convert(system, &mut constants, |_, constant| R::splat(constant));
+        let constants = RefCell::new(Vec::new());
+        let registers = convert(system, &|constant| {
+            let register = R::splat(constant);
+            constants.borrow_mut().push(register);
+            register
+        });
         Self {
             registers,
-            constants,
+            constants: constants.into_inner(),
             dimension: system.dimension(),
             shape: system.shape(),
         }
@@ -61,45 +64,32 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
         if self.shape != system.shape() {
             return Err(InputError::Shape);
         }
-        let (expected, found) = (self.constants.len(), count(system));
+        let found = Cell::new(0);
+        convert(system, &|constant| {
+            found.set(found.get() + 1);
+            R::splat(constant)
+        });
+        let (expected, found) = (self.constants.len(), found.get());
         if expected != found {
             return Err(InputError::Constants { expected, found });
         }
-        self.registers = convert(system, &mut self.constants, |mut register, constant| {
+        let constants = Cell::from_mut(&mut *self.constants).as_slice_of_cells();
+        let next = Cell::new(0);
+        self.registers = convert(system, &|constant| {
+            // They have been counted.
+            let Some(place) = constants.get(next.replace(next.get() + 1)) else {
+                return R::splat(constant);
+            };
+            let mut register = place.get();
             set_lane(&mut register, lane, constant);
+            place.set(register);
             register
         });
         Ok(())
     }
 }
 
-/// Number of constants of a system.
-fn count<T: Scalar, O: LaneOde<T>>(system: &O) -> usize {
-    let count = Cell::new(0);
-    system.on_scalar(|constant| {
-        count.set(count.get() + 1);
-        constant
-    });
-    count.get()
-}
-
-/// Changes every register by the constant that belongs there, and makes a
-/// system of them.
-fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(
-    system: &O,
-    constants: &mut [R],
-    change: impl Fn(R, T) -> R,
-) -> O::Of<R> {
-    let constants = Cell::from_mut(constants).as_slice_of_cells();
-    let next = Cell::new(0);
-    system.on_scalar(
-        |constant| match constants.get(next.replace(next.get() + 1)) {
-            Some(place) => {
-                place.set(change(place.get(), constant));
-                place.get()
-            }
-            // They have been counted.
-            None => R::splat(constant),
-        },
-    )
+/// Returns a system of registers. Whatever becomes of its constants, it is one function.
+fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(system: &O, convert: &dyn Fn(T) -> R) -> O::Of<R> {
+    system.on_scalar(convert)
 }

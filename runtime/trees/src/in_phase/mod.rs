@@ -140,7 +140,7 @@ impl PendulumTree<f64> {
             rows: in_numbers(&form.rows(&one_of_each, &carries)),
             above: constant(-gravity),
             drive: self.drive.clone(),
-            between: self.between().cast(Dual::constant),
+            between: self.between().cast(&Dual::constant),
             structure: Arc::new(Structure {
                 merged,
                 links,
@@ -188,14 +188,14 @@ impl<T: Scalar> InPhaseTree<T> {
         values.collect()
     }
 
-    fn cast_to<S: Scalar>(&self, convert: impl Fn(T) -> S) -> InPhaseTree<S> {
+    fn cast_to<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> InPhaseTree<S> {
         InPhaseTree {
             structure: Arc::clone(&self.structure),
             form: self.form,
             rows: self.rows.iter().map(|&number| convert(number)).collect(),
             above: convert(self.above),
-            drive: self.drive.as_ref().map(|drive| drive.cast(&convert)),
-            between: (self.between).cast(|own| Dual::constant(convert(own.value))),
+            drive: self.drive.as_ref().map(|drive| drive.cast(convert)),
+            between: (self.between).cast(&|own| Dual::constant(convert(own.value))),
         }
     }
 }
@@ -258,7 +258,7 @@ impl<T: Scalar> LaneOde<T> for InPhaseTree<T> {
     type Of<S: Scalar> = InPhaseLanes<S>;
 
     fn on_scalar<S: Scalar>(&self, convert: impl Fn(T) -> S) -> InPhaseLanes<S> {
-        let tree = self.cast_to(convert);
+        let tree = self.cast_to(&convert);
         let room = RefCell::new(vec![S::from_f64(0.0); tree.room()]);
         InPhaseLanes { tree, room }
     }
@@ -285,7 +285,7 @@ impl<T: Scalar, S: Scalar> CastOde<T, S> for InPhaseTree<T> {
     type Of = InPhaseTree<S>;
 
     fn cast(&self, convert: impl Fn(T) -> S) -> InPhaseTree<S> {
-        self.cast_to(convert)
+        self.cast_to(&convert)
     }
 }
 
