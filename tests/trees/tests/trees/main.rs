@@ -1,5 +1,8 @@
 //! Trees that are described at run time: what can be told without the compiler.
 
+// Methods for trees at run time that it has compiled are taken from there.
+use branched_pendulum_advice as _;
+
 mod between;
 mod costs;
 mod forms;
