@@ -2,7 +2,7 @@
 
 use crate::functions::Argument;
 
-use super::{ConstantId, ConstantOp, LoopTree, Op, Program, ValueId};
+use super::{ConstantId, ConstantOp, LinePotentialConstants, LoopTree, Op, Program, ValueId};
 use crate::scene::PairRun;
 use std::fmt::{self, Write};
 
@@ -57,7 +57,14 @@ fn write_spring_dampers(f: &mut fmt::Formatter<'_>, strips: &LoopTree) -> fmt::R
     }
     for own in &strips.lines {
         let constants = own.named().map(|(name, id)| format!("{name} k{}", id.0));
-        let constants: Vec<String> = constants.collect();
+        let potentials = own.potentials.iter();
+        let exponents = potentials.filter_map(|potential| match potential {
+            LinePotentialConstants::Spring { .. } => None,
+            LinePotentialConstants::InversePower { exponent, .. } => {
+                Some(format!("exponent {exponent}"))
+            }
+        });
+        let constants: Vec<String> = constants.chain(exponents).collect();
         writeln!(f, "line of {}: {}", own.what, constants.join(", "))?;
         for (links, count) in &own.runs {
             let links: Vec<String> = links.iter().map(ToString::to_string).collect();

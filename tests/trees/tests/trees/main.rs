@@ -13,8 +13,6 @@ mod mechanics;
 mod plain;
 mod prescribed;
 mod scales;
-mod series;
 mod straight;
 mod text;
 mod transfer;
-mod truncation;

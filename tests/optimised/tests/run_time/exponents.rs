@@ -149,7 +149,7 @@ fn one_exponent_is_the_largest_of_all() {
     largest_of(4, 300);
 }
 
-/// Half an hour: `cargo test -p branched-pendulum-optimised-tests --test exponents -- --ignored
+/// Half an hour: `cargo test -p branched-pendulum-optimised-tests --test run_time -- --ignored
 /// --nocapture`.
 #[test]
 #[ignore = "half an hour"]
