@@ -229,8 +229,7 @@ impl<T: Scalar> PendulumTree<T> {
     }
 
     /// Returns the tree on other scalars: `convert` should change the type of its
-    /// constants and not their value. It is no parameter of the type's, so that this is compiled
-    /// once for each scalar.
+    /// constants and not their value. This is compiled once for each scalar, whatever it does.
     pub(crate) fn on_scalar<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> PendulumTree<S> {
         PendulumTree {
             described: Arc::clone(&self.described),

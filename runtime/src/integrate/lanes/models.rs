@@ -89,7 +89,7 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
     }
 }
 
-/// Returns a system of registers. Whatever becomes of its constants, it is one function.
+/// Returns a system of registers: in one function, whatever `convert` does with the constants.
 fn convert<O: LaneOde<T>, T: Lane, R: Simd<T>>(system: &O, convert: &dyn Fn(T) -> R) -> O::Of<R> {
     system.on_scalar(convert)
 }

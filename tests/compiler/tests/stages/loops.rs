@@ -89,6 +89,11 @@ fn strung() {
         let snapshot = format!("strung_loops_code_{name}");
         insta::assert_snapshot!(snapshot, function(&stages.tokens, name));
     }
+    let program = stages.program.to_string();
+    let lines: Vec<&str> = (program.lines())
+        .filter(|line| line.starts_with("line of"))
+        .collect();
+    insta::assert_snapshot!("strung_loops_program_lines", lines.join("\n"));
 }
 
 /// Links that may be held: one equation for those that are and those that are not.
