@@ -32,9 +32,9 @@ impl<T: Scalar> Between<T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> Between<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Between<S> {
         Between {
-            torsional: self.torsional.cast(convert),
+            torsional: self.torsional.cast(&convert),
             translational: self.translational.cast(convert),
         }
     }

@@ -34,7 +34,7 @@ impl<T: Scalar> FormBodies<T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> FormBodies<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> FormBodies<S> {
         match self {
             Self::Straight(bodies) => FormBodies::Straight(bodies.cast(convert)),
             Self::General(bodies) => FormBodies::General(bodies.cast(convert)),

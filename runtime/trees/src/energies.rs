@@ -64,7 +64,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// Returns the generalized momenta ∂K/∂ω (kg m²/s). O(links²).
     #[must_use]
     pub fn momenta(&self, theta: &[T], omega: &[T]) -> Vec<T> {
-        let bodies = self.bodies.cast(&Slopes::<T>::constant);
+        let bodies = self.bodies.cast(Slopes::<T>::constant);
         self.momenta_of(&bodies, theta, omega)
     }
 
@@ -83,7 +83,7 @@ impl<T: Scalar> PendulumTree<T> {
     /// of unit velocities. O(links³).
     #[must_use]
     pub fn mass_matrix(&self, theta: &[T]) -> Vec<Vec<T>> {
-        let bodies = self.bodies.cast(&Slopes::<T>::constant);
+        let bodies = self.bodies.cast(Slopes::<T>::constant);
         let row = |link: usize| {
             let mut omega = vec![T::from_f64(0.0); self.links()];
             if let Some(own) = omega.get_mut(link) {
@@ -103,7 +103,7 @@ impl<T: Scalar> PendulumTree<T> {
             return vec![vec![T::from_f64(f64::NAN); self.links()]; self.links()];
         }
         let lift = |value: T| Twice::<T>::constant(Dual::constant(value));
-        let (bodies, between) = (self.bodies.cast(&lift), self.between().cast(&lift));
+        let (bodies, between) = (self.bodies.cast(lift), self.between().cast(lift));
         let row = |link: usize| {
             let mut point: Vec<Dual<T, 1>> = theta.iter().copied().map(Dual::constant).collect();
             if let Some(own) = point.get_mut(link) {
@@ -175,8 +175,8 @@ impl PendulumTree<f64> {
 
     /// The torques −∂U/∂θ on the links.
     fn torques_at_rest(&self, theta: &[f64]) -> Vec<f64> {
-        let bodies = self.bodies.cast(&Slopes::<f64>::constant);
-        let between = self.between().cast(&Slopes::<f64>::constant);
+        let bodies = self.bodies.cast(Slopes::<f64>::constant);
+        let between = self.between().cast(Slopes::<f64>::constant);
         let slopes = gradient_of(self.links(), theta, |theta, workspace| {
             potential_energy(&bodies, &between, workspace, theta)
         });

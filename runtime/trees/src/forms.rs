@@ -49,7 +49,7 @@ impl<T: Scalar> FormEquations<T> {
         }
     }
 
-    fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> FormEquations<S> {
+    fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> FormEquations<S> {
         match self {
             Self::Straight(tree) => FormEquations::Straight(tree.cast(convert)),
             Self::General(tree) => FormEquations::General(tree.cast(convert)),
@@ -132,10 +132,10 @@ impl<T: Scalar> Equations<T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> Equations<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Equations<S> {
         Equations {
             links: self.links,
-            form: self.form.cast(convert),
+            form: self.form.cast(&convert),
             between: self.between.cast(convert),
         }
     }
@@ -223,7 +223,7 @@ impl<T: Scalar> Equations<T> {
         match self.between.is_empty() {
             true => OneOf::First(self.form.in_registers(drive, room)),
             false => OneOf::Second(CoupledAtOneTime {
-                equations: self.cast(&R::splat),
+                equations: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
             }),
         }

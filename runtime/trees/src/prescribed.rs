@@ -35,7 +35,7 @@ impl<T: Scalar> HeldLinks<T> {
         })
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> HeldLinks<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> HeldLinks<S> {
         HeldLinks {
             sets: Arc::clone(&self.sets),
             tree: self.tree.cast(convert),

@@ -92,7 +92,7 @@ impl<T: Scalar> ByRule<T> {
         })
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> ByRule<S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> ByRule<S> {
         ByRule {
             tree: self.tree.cast(convert),
             order: Arc::clone(&self.order),

@@ -160,7 +160,7 @@ impl<T: Scalar> PendulumTree<T> {
             in_numbers(&rows::held(links, &carries))
         });
         let pairs = between.shape();
-        let equations = Equations::new(form, &parents, rows, above, between.cast(&constant));
+        let equations = Equations::new(form, &parents, rows, above, between.cast(constant));
         // All that is no constant: trees in the lanes of one share it.
         let functions = drive.map(|drive| format!("{:?}", drive.map(&|_| ())));
         let held_sets: Vec<Vec<usize>> = scene

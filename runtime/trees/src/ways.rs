@@ -36,11 +36,11 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> Ways<E, S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ways<E, S> {
         Ways {
             links: self.links,
-            strips: self.strips.cast(convert),
-            small: self.small.as_ref().map(|small| small.cast(convert)),
+            strips: self.strips.cast(&convert),
+            small: self.small.as_ref().map(|small| small.cast(&convert)),
         }
     }
 
@@ -112,7 +112,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
     ) -> impl InRegisters<R> {
         match self.has_one_driven_link(drive) {
             true => OneOf::First(AtOneTime {
-                ways: self.cast(&R::splat),
+                ways: self.cast(R::splat),
                 drive: drive.map(|drive| drive.map(R::splat)),
             }),
             false => OneOf::Second(self.strips.in_registers(drive, room)),

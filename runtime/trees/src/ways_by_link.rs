@@ -23,7 +23,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         }
     }
 
-    pub(crate) fn cast<S: Scalar>(&self, convert: &dyn Fn(T) -> S) -> Ways<E, S> {
+    pub(crate) fn cast<S: Scalar>(&self, convert: impl Fn(T) -> S) -> Ways<E, S> {
         Ways {
             links: self.links,
             tree: self.tree.cast(convert),
@@ -74,7 +74,7 @@ impl<E: LinkEquations, T: Scalar> Ways<E, T> {
         _: &mut [T],
     ) -> impl InRegisters<R> {
         AtOneTime {
-            ways: self.cast(&R::splat),
+            ways: self.cast(R::splat),
             drive: drive.map(|drive| drive.map(R::splat)),
         }
     }

@@ -64,20 +64,12 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
         if self.shape != system.shape() {
             return Err(InputError::Shape);
         }
-        let found = Cell::new(0);
-        convert(system, &|constant| {
-            found.set(found.get() + 1);
-            R::splat(constant)
-        });
-        let (expected, found) = (self.constants.len(), found.get());
-        if expected != found {
-            return Err(InputError::Constants { expected, found });
-        }
-        let constants = Cell::from_mut(&mut *self.constants).as_slice_of_cells();
+        let mut constants = self.constants.clone();
+        let places = Cell::from_mut(&mut *constants).as_slice_of_cells();
         let next = Cell::new(0);
-        self.registers = convert(system, &|constant| {
-            // They have been counted.
-            let Some(place) = constants.get(next.replace(next.get() + 1)) else {
+        let registers = convert(system, &|constant| {
+            // Too many are refused below.
+            let Some(place) = places.get(next.replace(next.get() + 1)) else {
                 return R::splat(constant);
             };
             let mut register = place.get();
@@ -85,6 +77,11 @@ impl<O: LaneOde<T>, T: Lane, R: Simd<T>> Models<O, T, R> {
             place.set(register);
             register
         });
+        let (expected, found) = (constants.len(), next.get());
+        if expected != found {
+            return Err(InputError::Constants { expected, found });
+        }
+        (self.constants, self.registers) = (constants, registers);
         Ok(())
     }
 }

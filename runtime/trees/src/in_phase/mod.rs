@@ -140,7 +140,7 @@ impl PendulumTree<f64> {
             rows: in_numbers(&form.rows(&one_of_each, &carries)),
             above: constant(-gravity),
             drive: self.drive.clone(),
-            between: self.between().cast(&Dual::constant),
+            between: self.between().cast(Dual::constant),
             structure: Arc::new(Structure {
                 merged,
                 links,
@@ -195,7 +195,7 @@ impl<T: Scalar> InPhaseTree<T> {
             rows: self.rows.iter().map(|&number| convert(number)).collect(),
             above: convert(self.above),
             drive: self.drive.as_ref().map(|drive| drive.cast(convert)),
-            between: (self.between).cast(&|own| Dual::constant(convert(own.value))),
+            between: (self.between).cast(|own| Dual::constant(convert(own.value))),
         }
     }
 }
