@@ -139,7 +139,7 @@ impl<T: Scalar> TranslationalSpringDampers<T> {
     }
 
     /// Returns true if there is none in a tree of so many links, whose torques stay as they are.
-    /// Those of another number of links make them NaN.
+    /// Lines of a tree of another number of links make them NaN.
     #[inline(always)]
     pub(crate) fn is_empty_on(&self, links: usize) -> bool {
         self.runs.is_empty() && self.links == links
